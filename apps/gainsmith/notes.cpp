@@ -40,6 +40,21 @@ std::string note_on_runs(const std::optional<std::uint64_t>& different) {
          " different runs";
 }
 
+/// Why a campaign is slow: runs that are not made many at once.
+std::string note_on_careful_runs(const verify::Report& report) {
+  std::uint64_t all = 0;
+  std::string reasons;
+  for (std::size_t k = 0; k < report.open.size(); ++k) {
+    if (report.open[k] == 0) continue;
+    all += report.open[k];
+    reasons += (reasons.empty() ? "" : ", ") + packs::to_string(static_cast<packs::Why>(k)) + " (" +
+               std::to_string(report.open[k]) + ")";
+  }
+  if (!report.careful || all == 0) return "";
+  return std::to_string(*report.careful) + " of " + std::to_string(report.runs) +
+         " runs were simulated one by one, which takes longer: " + reasons;
+}
+
 std::vector<std::string> notes_on(const verify::Report& report) {
   std::vector<std::string> notes = notes_on_observers(report.idle_observers);
   if (const std::string drawn = note_on_runs(report.different); !drawn.empty())
@@ -47,6 +62,8 @@ std::vector<std::string> notes_on(const verify::Report& report) {
   if (!report.silent_events.empty())
     notes.push_back(note_on_events(report.silent_events) +
                     (report.runs == 1 ? " in this run" : " in these runs"));
+  if (const std::string careful = note_on_careful_runs(report); !careful.empty())
+    notes.push_back(careful);
   return notes;
 }
 

@@ -35,6 +35,12 @@ constexpr double kFarBranch = 1000;  ///< errors | a branch is certain that lies
 constexpr double kInstantOfRun = 1e-6;  ///< of the time of a run | flows that add up to less lie
         ///< within an instant, and two runs that end so near each other end together |
         ///< TwinParts.EventsThatLieApartAreNotExchanged
+constexpr double kParted = 1e-3;  ///< of the range of a value so far | two runs that differ by more
+        ///< have parted, and nothing is known of the value from there on |
+        ///< ClaimsAlongRuns.TwoRunsThatHavePartedSayNothingMore
+constexpr double kPartedAccuracy = 1e3;  ///< of the accuracy, of the terms of a value | two runs
+        ///< have not parted whose difference is less |
+        ///< ClaimsAlongRuns.TwoRunsThatHavePartedSayNothingMore
 // clang-format on
 
 }  // namespace gainsmith::claims

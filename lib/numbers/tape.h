@@ -10,12 +10,11 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
-#include "numbers/dual.h"
-#include "numbers/flow_map_evaluator.h"
 #include "numbers/scalar_trace.h"
+#include "numbers/tape_block.h"
+#include "numbers/tape_code.h"
 
 namespace gainsmith::numbers {
 
@@ -42,29 +41,11 @@ class Tape {
   std::size_t operations() const { return steps_.size(); }
 
  private:
-  struct Step {
-    ScalarOp op;
-    std::uint32_t out, a, b, c;
-  };
-  struct Block {
-    expr::Instruction instruction;
-    std::vector<std::vector<std::uint32_t>> from;
-    std::vector<Matrix> operands;
-    std::vector<const Matrix*> pointers;
-    Matrix out;
-    bool is_known = false;  ///< `out` is the value for these operands
-    std::unique_ptr<JacobianEvaluator<double>> jacobian;
-    std::unique_ptr<FlowMapEvaluator> flow_map;
-  };
-
-  class Maker;
-  static bool find_small_values(Block& block);
-  bool run_block(Block& block, double* out);
   bool is_finite() const;
 
   std::vector<double> registers_;
-  std::vector<Step> steps_;
-  std::vector<std::unique_ptr<Block>> blocks_;
+  std::vector<TapeCode::Step> steps_;
+  std::vector<TapeBlock> blocks_;
   std::vector<std::vector<std::uint32_t>> results_;
   std::vector<std::uint32_t> reads_;
   std::size_t first_ = 0;  ///< register that is computed

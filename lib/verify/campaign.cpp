@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -13,7 +15,7 @@
 #include "base/progress.h"
 #include "base/stop.h"
 #include "hybrid/idle.h"
-#include "verify/judge.h"
+#include "verify/pack_judge.h"
 #include "verify/statistics.h"
 
 namespace gainsmith::verify {
@@ -38,6 +40,8 @@ struct Tally {
   std::uint64_t undecided = 0;
   std::uint64_t unfinished = 0;
   std::uint64_t repeated = 0;
+  std::uint64_t careful = 0;
+  std::array<std::uint64_t, packs::kWhys> open{};
   std::vector<std::uint64_t> confirmed;
   std::optional<std::uint64_t> run;  ///< the worst
   claims::Judgement judgement = claims::Judgement::held;
@@ -94,6 +98,8 @@ void add(const Tally& later, Tally& sum) {
   sum.violations = before.violations + later.violations;
   sum.undecided = before.undecided + later.undecided;
   sum.unfinished = before.unfinished + later.unfinished;
+  sum.careful = before.careful + later.careful;
+  for (std::size_t k = 0; k < sum.open.size(); ++k) sum.open[k] = before.open[k] + later.open[k];
   sum.first_undecided = before.first_undecided ? before.first_undecided : later.first_undecided;
   const Tally& first = before.unfinished > 0 ? before : later;
   sum.unfinished_run = first.unfinished_run;
@@ -144,15 +150,20 @@ Tally tally_of(std::uint64_t run, const RunVerdict& verdict) {
 }
 
 /// Runs first, first + 1, ..., last - 1, or those until the campaign is stopped.
-Tally judge_runs(const Setup& setup, std::uint64_t seed, std::uint64_t first, std::uint64_t last) {
-  Judge judge(setup);
+Tally judge_runs(const Setup& setup, const packs::PackSystem* packs, std::uint64_t seed,
+                 std::uint64_t first, std::uint64_t last) {
+  PackJudge judge(setup, packs);
   Tally sum;
   try {
+    judge.begin(seed, first, last);
     for (std::uint64_t run = first; run < last; ++run) {
       check_stop();
-      const RunVerdict verdict = judge(seed, run);
-      if (!setup.sampled) check_stop();  // perhaps amid the run
-      add(tally_of(run, verdict), sum);
+      const CampaignVerdictOnRun made = judge(run);
+      if (made.careful && !setup.sampled) check_stop();  // perhaps amid the run
+      Tally tally = tally_of(run, made.verdict);
+      tally.careful = made.careful ? 1 : 0;
+      if (made.why) tally.open[static_cast<std::size_t>(*made.why)] = 1;
+      add(tally, sum);
       Doing::step();
     }
   } catch (const Stopped&) {
@@ -162,25 +173,57 @@ Tally judge_runs(const Setup& setup, std::uint64_t seed, std::uint64_t first, st
 }
 
 /// All runs, in blocks that are handed to the threads and added up in order; those runs that
-/// are done when the campaign is stopped.
-Tally judge_all(const Setup& setup, std::uint64_t seed, std::uint64_t runs,
-                const CampaignOptions& options) {
-  const std::uint64_t block_size = 64;
-  std::vector<Tally> blocks((runs + block_size - 1) / block_size);
+/// are done when the campaign is stopped. Packs go on where they decide most of the first block.
+Tally judge_all(const Setup& setup, const packs::PackSystem* packs, std::uint64_t seed,
+                std::uint64_t runs, const CampaignOptions& options) {
+  constexpr std::uint64_t first_size = 64;
   const Doing doing("runs", runs);
+  const std::uint64_t begun = packs != nullptr ? std::min(runs, first_size) : 0;
+  Tally sum;
+  if (begun > 0) sum = judge_runs(setup, packs, seed, 0, begun);
+  if (2 * sum.careful > begun) packs = nullptr;
+  const std::uint64_t block_size = packs != nullptr ? 256 : 64;
+  std::vector<Tally> blocks((runs - begun + block_size - 1) / block_size);
   const auto judge_block = [&](std::size_t block) {
-    const std::uint64_t first = block * block_size;
+    const std::uint64_t first = begun + block * block_size;
     const std::uint64_t last = std::min(runs, first + block_size);
-    blocks[block] = judge_runs(setup, seed, first, last);
+    blocks[block] = judge_runs(setup, packs, seed, first, last);
   };
   try {
     parallel_for(blocks.size(), options.threads, judge_block);
   } catch (const Stopped&) {
     // Blocks that were not begun are empty.
   }
-  Tally sum;
   for (const Tally& block : blocks) add(block, sum);
   return sum;
+}
+
+/// The worst run of each claim as the careful run finds it: packs say only a verdict and a score.
+/// What is not certain to the careful run is undecided.
+void repeat_worst(const Setup& setup, std::uint64_t seed, Tally& tally) {
+  std::map<std::uint64_t, RunVerdict> again;
+  std::set<std::uint64_t> opened;
+  PackJudge judge(setup, nullptr);
+  for (std::size_t c = 0; c < tally.claims.size(); ++c) {
+    ClaimTally& claim = tally.claims[c];
+    const auto [known, fresh] = again.try_emplace(*claim.run);
+    if (fresh) known->second = judge.careful(seed, *claim.run);
+    const claims::Finding& found = known->second.findings[c];
+    require_agreement(*claim.run, claim.worst.judgement, found.judgement);
+    if (found.undecided() && !claim.worst.undecided()) {
+      const bool violated = claim.worst.violated();
+      if (violated) --claim.violations;
+      ++claim.undecided;
+      if (opened.insert(*claim.run).second) {
+        if (violated) --tally.violations;
+        ++tally.undecided;
+        const auto& before = tally.first_undecided;
+        if (!before || *claim.run < before->run)
+          tally.first_undecided = undecided_run(*claim.run, known->second);
+      }
+    }
+    claim.worst = found;
+  }
 }
 
 std::vector<CheckReport> report_checks(const Setup& setup, const Tally& tally) {
@@ -270,16 +313,27 @@ Report run_campaign(const Setup& setup, const CampaignOptions& options) {
     throw InputError(texts.campaign.place, "a campaign needs at least one run");
 
   report.idle_observers = hybrid::idle_observers(setup.events->system.dynamics);
-  const Tally tally = judge_all(setup, report.seed, report.asked, options);
+  const auto packs = report.asked >= kFewestInPacks ? make_packs(setup) : nullptr;
+  Tally tally = judge_all(setup, packs.get(), report.seed, report.asked, options);
   report.runs = tally.runs;
   report.horizon = setup.horizon();
   report.integrated = setup.integrated();
   report.verdict = model::CampaignVerdict::undecided;
   if (!tally.run) return report;
+  if (packs != nullptr && tally.runs == report.asked) {
+    try {
+      repeat_worst(setup, report.seed, tally);
+    } catch (const Stopped&) {
+      report.runs = 0;
+      return report;
+    }
+  }
   report.violations = tally.violations;
   report.undecided = tally.undecided;
   report.unfinished = tally.unfinished;
   report.repeated = tally.repeated;
+  if (packs != nullptr) report.careful = tally.careful;
+  report.open = tally.open;
   report.confirmed = tally.confirmed;
   report.worst_run = *tally.run;
   report.unfinished_run = tally.unfinished_run;

@@ -3,6 +3,7 @@
 // Verify shares no code with the synthesis: it knows the gains, the method's text and the plant.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -12,6 +13,7 @@
 #include "bounded/track.h"
 #include "claims/claim_check.h"
 #include "model/words.h"
+#include "packs/pack_runner.h"
 #include "verify/setup.h"
 
 namespace gainsmith::verify {
@@ -56,6 +58,10 @@ struct Report {
   std::uint64_t unfinished_run = 0;
   bounded::Termination unfinished_termination = bounded::Termination::horizon;
   std::string unfinished_message;  ///< why it ended
+  /// Of runs that were made many at once: how many the careful run has decided, and by
+  /// packs::Why those that were left open. None where all runs are made one by one.
+  std::optional<std::uint64_t> careful;
+  std::array<std::uint64_t, packs::kWhys> open{};
   /// The first of the undecided runs; where they are violations that do not happen again when
   /// repeated, the worst of these.
   std::optional<UndecidedRun> first_undecided;

@@ -18,7 +18,7 @@ struct RunVerdict {
   claims::Judgement judgement = claims::Judgement::held;
   std::vector<claims::Finding> findings;  ///< of the claims that are stated, in order
   bounded::Termination termination = bounded::Termination::horizon;
-  std::string message;  ///< why it ended, when a jump map had no value
+  std::string message;         ///< why it ended, when a jump map had no value
   std::vector<char> happened;  ///< by event: whether it did in this run
   bool repeated = false;
   bool confirmed = false;  ///< violated when repeated

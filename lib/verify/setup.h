@@ -29,7 +29,7 @@ struct SampledSetup {
 struct Setup {
   std::unique_ptr<const EventSetup> events;     ///< the careful run
   std::unique_ptr<const EventSetup> errors;     ///< with errors as states; none: there are none
-  std::unique_ptr<const SampledSetup> sampled;  ///< none: all runs are careful
+  std::unique_ptr<const SampledSetup> sampled;  ///< none: runs are made in packs, or careful
 
   const std::vector<claims::Claim>& claims() const { return events->claims; }
   /// By which the careful run judges.

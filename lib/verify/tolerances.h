@@ -1,6 +1,8 @@
 // The tolerances of this room: unit | meaning | test.
 #pragma once
 
+#include <cstdint>
+
 namespace gainsmith::verify {
 
 // clang-format off
@@ -9,12 +11,6 @@ constexpr double kAccuracyOfMany = 1e-8;  ///< relative, and absolute | the runs
         ///< Campaign.IntegratedFlowsAreNoCauseOfWrongVerdicts
 constexpr double kAccuracyOfOne = 1e-10;  ///< relative, and absolute | a run that is shown, or
         ///< repeated because a claim is undecided | Campaign.FlowsThatAreNotAffineAreIntegrated
-constexpr double kParted = 1e-3;  ///< of the range of a value so far | two runs that differ by more
-        ///< have parted, and nothing is known of the value from there on |
-        ///< ClaimsAlongRuns.TwoRunsThatHavePartedSayNothingMore
-constexpr double kPartedAccuracy = 1e3;  ///< of the accuracy, of the terms of a value | two runs
-        ///< have not parted whose difference is less |
-        ///< ClaimsAlongRuns.TwoRunsThatHavePartedSayNothingMore
 constexpr double kLeastRise = 1e-3;  ///< of the accuracy, of the value | a smaller rise of a value
         ///< that must not increase is sought only at the samples |
         ///< FasterThanTheSteps/NarrowClaims.AreJudgedAsTheyAre
@@ -24,6 +20,10 @@ constexpr double kBeforeEnd = 1.0/64;  ///< of the last step | the rate of a gua
 constexpr double kShownPlaces = 64;  ///< units in the last place | a value that changes by its own
         ///< size when all variables move by as much is rounding, and not drawn |
         ///< Replay.KnowsWhatIsRounding
+constexpr std::uint64_t kSampled = 1024;  ///< runs | one of so many is repeated by the careful run,
+        ///< whatever packs say of it | PackJudge.RepeatsSomeRunsCarefully
+constexpr std::uint64_t kFewestInPacks = 8;  ///< runs | of fewer runs each is careful: some are made
+        ///< carefully anyway | PackJudge.AFewRunsAreMadeOneByOne
 // clang-format on
 
 }  // namespace gainsmith::verify

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "claims/tolerances.h"
 #include "ode/tolerances.h"
 
 namespace gainsmith::verify {
@@ -148,8 +149,8 @@ bool EventTracks::parts(std::size_t function, double value, double difference, d
   range.seen = true;
   sizes_[claim] = std::fmax(sizes_[claim], std::fmax(std::abs(value), size));
   // A value that is nothing but errors of its terms goes on to be known to them.
-  if (difference > kParted * (range.high - range.low) &&
-      difference > kPartedAccuracy * track_.accuracy * sizes_[claim])
+  if (difference > claims::kParted * (range.high - range.low) &&
+      difference > claims::kPartedAccuracy * track_.accuracy * sizes_[claim])
     parted_[claim] = 1;
   return parted_[claim] != 0;
 }

@@ -68,7 +68,7 @@ class EventTracks {
   std::vector<claims::RunValue> functions_;
   std::vector<claims::TextBall> balls_;  ///< of the functions
   EventDoubts doubts_;
-  std::vector<char> rests_;  ///< by function: of a claim over another event than the last
+  std::vector<char> rests_;   ///< by function: of a claim over another event than the last
   std::vector<bool> rounds_;  ///< by element: whether it is no whole number, which is exact
   bounded::Track<double> track_;
   std::vector<double> rounding_;  ///< of the evaluation, as the bounds of the track

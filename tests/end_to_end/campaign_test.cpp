@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <string>
 
 #include "base/file.h"
@@ -53,6 +54,36 @@ std::string reset_observer(const std::string& A, const std::string& more) {
   return "problem: reset\nmethod: reset-observer\ndata:\n  A: " + A +
          "\n  C: [1, 0]\n  T1: 0.5\n  T2: 1\nsynthesis: {forall: exchange}\ncampaign: {runs: 30, " +
          more + "}\n";
+}
+
+/// The campaign of pendulum-ekf on a machine that is said to be an older one.
+Outcome pendulum_on(const std::string& machine, const Folder& folder) {
+  setenv("GAINSMITH_ISA", machine.c_str(), 1);
+  const std::string gains = folder.path("gains.json");
+  gainsmith({"synth", problem("own-systems/pendulum-ekf.yaml"), "-o", gains});
+  Outcome outcome = gainsmith({"verify", gains, "--runs", "300", "--json"});
+  unsetenv("GAINSMITH_ISA");
+  return outcome;
+}
+
+TEST(CampaignTest, HasTheSameBytesOnMachinesWithFusedProducts) {
+  const Folder folder;
+  const Outcome v3 = pendulum_on("v3", folder);
+  const Outcome v4 = pendulum_on("v4", folder);
+  const Outcome v2 = pendulum_on("v2", folder);
+  ASSERT_EQ(v2.exit, 0) << v2.err;
+  EXPECT_EQ(v2.json()["verdict"], "held");
+  if (v3.exit != 0 || v4.exit != 0) GTEST_SKIP() << "this machine is not x86-64-v4: " << v4.err;
+  EXPECT_EQ(v3.out, v4.out);
+  EXPECT_EQ(v3.json()["worst_run"], v2.json()["worst_run"]);
+}
+
+TEST(CampaignTest, AnUnknownMachineIsNamed) {
+  const Folder folder;
+  const Outcome outcome = pendulum_on("v9", folder);
+  EXPECT_EQ(outcome.exit, 2);
+  EXPECT_NE(outcome.err.find("GAINSMITH_ISA=v9: expected v2, v3 or v4"), std::string::npos)
+      << outcome.err;
 }
 
 TEST(CampaignTest, AFastPoleThatExpmMagnifiesIsHeld) {

@@ -1,0 +1,307 @@
+#include "lanes/machine.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+#include <new>
+#include <optional>
+
+namespace gainsmith::lanes {
+
+using numbers::ScalarOp;
+using numbers::TapeCode;
+
+namespace {
+
+std::optional<LaneOp> lane_op(ScalarOp op) {
+  switch (op) {
+    case ScalarOp::add:
+      return LaneOp::add;
+    case ScalarOp::subtract:
+      return LaneOp::subtract;
+    case ScalarOp::multiply:
+      return LaneOp::multiply;
+    case ScalarOp::multiply_add:
+      return LaneOp::multiply_add;
+    case ScalarOp::divide:
+      return LaneOp::divide;
+    case ScalarOp::negate:
+      return LaneOp::negate;
+    case ScalarOp::minimum:
+      return LaneOp::minimum;
+    case ScalarOp::maximum:
+      return LaneOp::maximum;
+    case ScalarOp::where_positive:
+      return LaneOp::where_positive;
+    case ScalarOp::where_nonnegative:
+      return LaneOp::where_nonnegative;
+    case ScalarOp::abs:
+      return LaneOp::abs;
+    case ScalarOp::sign:
+      return LaneOp::sign;
+    case ScalarOp::floor:
+      return LaneOp::floor;
+    case ScalarOp::sqrt:
+      return LaneOp::sqrt;
+    case ScalarOp::exp:
+      return LaneOp::exp;
+    case ScalarOp::sin:
+      return LaneOp::sin;
+    case ScalarOp::cos:
+      return LaneOp::cos;
+    case ScalarOp::tanh:
+      return LaneOp::tanh;
+    default:
+      return std::nullopt;
+  }
+}
+
+int operands_of(ScalarOp op) {
+  switch (op) {
+    case ScalarOp::where_positive:
+    case ScalarOp::where_nonnegative:
+    case ScalarOp::multiply_add:
+      return 3;
+    case ScalarOp::negate:
+    case ScalarOp::abs:
+    case ScalarOp::sign:
+    case ScalarOp::floor:
+    case ScalarOp::exp:
+    case ScalarOp::log:
+    case ScalarOp::sqrt:
+    case ScalarOp::sin:
+    case ScalarOp::cos:
+    case ScalarOp::tanh:
+      return 1;
+    default:
+      return 2;
+  }
+}
+
+bool is_partial(ScalarOp op) {
+  return op == ScalarOp::divide || op == ScalarOp::sqrt || op == ScalarOp::exp;
+}
+
+}  // namespace
+
+/// Gives registers to what is computed for as long as it is needed, so that few serve.
+class LaneCode::Maker {
+ public:
+  Maker(TapeCode tape, LaneCode& code) : tape_(std::move(tape)), code_(code) {}
+
+  void make() {
+    first_ = tape_.inputs + static_cast<std::uint32_t>(tape_.constants.size());
+    code_.inputs_ = tape_.inputs;
+    code_.constants_ = tape_.constants;
+    code_.registers_ = tape_.inputs;
+    find_last_uses();
+    at_.assign(tape_.registers, kNone);
+    for (std::uint32_t k = 0; k < tape_.inputs; ++k) at_[k] = k;
+    for (std::size_t k = 0; k < tape_.steps.size(); ++k) add(k);
+    for (const auto& result : tape_.results) {
+      auto& list = code_.results_.emplace_back();
+      for (const std::uint32_t one : result) list.push_back(place(one));
+    }
+    code_.blocks_ = std::move(tape_.blocks);
+  }
+
+ private:
+  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  static constexpr std::size_t kNever = std::numeric_limits<std::size_t>::max();
+
+  template <class Visit>
+  void visit_operands(const TapeCode::Step& step, const Visit& visit) const {
+    if (step.op == ScalarOp::block) {
+      for (const auto& operand : tape_.blocks[step.a].operands)
+        for (const std::uint32_t one : operand) visit(one);
+      return;
+    }
+    const int count = operands_of(step.op);
+    visit(step.a);
+    if (count > 1) visit(step.b);
+    if (count > 2) visit(step.c);
+  }
+
+  void find_last_uses() {
+    last_.assign(tape_.registers, 0);
+    for (std::size_t k = 0; k < tape_.steps.size(); ++k)
+      visit_operands(tape_.steps[k], [&](std::uint32_t one) { last_[one] = k; });
+    for (const auto& result : tape_.results)
+      for (const std::uint32_t one : result) last_[one] = kNever;
+  }
+
+  bool is_constant(std::uint32_t one) const { return one >= tape_.inputs && one < first_; }
+
+  /// The register of a value; a constant gets one when it is asked for.
+  std::uint32_t place(std::uint32_t one) {
+    if (at_[one] == kNone) {
+      at_[one] = static_cast<std::uint32_t>(code_.registers_++);
+      code_.filled_.emplace_back(at_[one], tape_.constants[one - tape_.inputs]);
+      last_[one] = kNever;
+    }
+    return at_[one];
+  }
+
+  std::uint32_t fresh() {
+    if (free_.empty()) return static_cast<std::uint32_t>(code_.registers_++);
+    const std::uint32_t one = free_.back();
+    free_.pop_back();
+    return one;
+  }
+
+  void release(const TapeCode::Step& step, std::size_t k) {
+    visit_operands(step, [&](std::uint32_t one) {
+      if (one < first_ || last_[one] != k || at_[one] == kNone) return;
+      free_.push_back(at_[one]);
+      last_[one] = kNever;  // once
+    });
+  }
+
+  /// A result that nothing uses is there for its fault alone.
+  std::uint32_t give(std::uint32_t out, std::size_t k) {
+    at_[out] = fresh();
+    if (last_[out] == 0) last_[out] = k;
+    return at_[out];
+  }
+
+  void add(std::size_t k) {
+    const TapeCode::Step& step = tape_.steps[k];
+    if (step.op == ScalarOp::block) return add_block(step, k);
+    LaneStep made;
+    const auto op = lane_op(step.op);
+    if (!op) return add_function(step, k);
+    made.op = *op;
+    made.is_partial = is_partial(step.op);
+    std::uint32_t a = step.a, b = step.b;
+    const bool fused = step.op == ScalarOp::multiply_add;
+    if (fused || step.op == ScalarOp::add || step.op == ScalarOp::multiply) {
+      if (is_constant(b)) std::swap(a, b);
+      if (is_constant(a) && !is_constant(b))
+        made.op = fused                      ? LaneOp::multiply_constant_add
+                  : step.op == ScalarOp::add ? LaneOp::add_constant
+                                             : LaneOp::multiply_constant;
+    }
+    const bool by_constant = made.op != *op;
+    const int count = operands_of(step.op);
+    made.a = by_constant ? a - tape_.inputs : place(a);
+    if (count > 1) made.b = place(b);
+    if (count > 2) made.c = place(step.c);
+    release(step, k);
+    made.out = give(step.out, k);
+    code_.steps_.push_back(made);
+    drop(step.out, k);
+  }
+
+  void drop(std::uint32_t out, std::size_t k) {
+    if (last_[out] == k) free_.push_back(at_[out]);
+  }
+
+  void add_function(const TapeCode::Step& step, std::size_t k) {
+    OneByOne one;
+    one.op = step.op;
+    one.a = place(step.a);
+    one.b = operands_of(step.op) > 1 ? place(step.b) : one.a;
+    one.c = one.a;
+    release(step, k);
+    one.out = give(step.out, k);
+    push(std::move(one));
+    drop(step.out, k);
+  }
+
+  void add_block(const TapeCode::Step& step, std::size_t k) {
+    OneByOne one;
+    one.block = step.a;
+    TapeCode::Block& block = tape_.blocks[step.a];
+    // Its results are not among its operands: these are read once for each lane.
+    const auto operands = block.operands;
+    for (auto& operand : block.operands)
+      for (std::uint32_t& from : operand) from = place(from);
+    const auto size = static_cast<std::uint32_t>(block.instruction.shape.size());
+    for (std::uint32_t e = 0; e < size; ++e) one.results.push_back(give(step.out + e, k));
+    push(std::move(one));
+    for (const auto& operand : operands)
+      for (const std::uint32_t from : operand)
+        if (from >= first_ && last_[from] == k) {
+          free_.push_back(at_[from]);
+          last_[from] = kNever;
+        }
+    for (std::uint32_t e = 0; e < size; ++e) drop(step.out + e, k);
+  }
+
+  void push(OneByOne one) {
+    LaneStep step;
+    step.a = static_cast<std::uint32_t>(code_.one_by_one_.size());
+    code_.steps_.push_back(step);
+    code_.one_by_one_.push_back(std::move(one));
+  }
+
+  TapeCode tape_;
+  LaneCode& code_;
+  std::uint32_t first_ = 0;  ///< that is computed
+  std::vector<std::size_t> last_;
+  std::vector<std::uint32_t> at_;
+  std::vector<std::uint32_t> free_;
+};
+
+LaneCode::LaneCode(const numbers::ScalarGraph& graph, const std::vector<std::vector<int>>& results,
+                   std::size_t inputs) {
+  Maker(numbers::tape_code(graph, results, static_cast<int>(inputs)), *this).make();
+}
+
+void LaneMachine::Free::operator()(double* registers) const {
+  ::operator delete[](registers, std::align_val_t(64));
+}
+
+LaneMachine::LaneMachine(const LaneCode& code, const Variant& variant)
+    : code_(&code), run_(variant.run) {
+  const std::size_t count = std::max<std::size_t>(code.registers_, 1) * kLanes;
+  registers_.reset(
+      static_cast<double*>(::operator new[](count * sizeof(double), std::align_val_t(64))));
+  std::fill_n(registers_.get(), count, 0.0);
+  for (const auto& [at, value] : code.filled_) std::fill_n(input(at), kLanes, value);
+  for (const TapeCode::Block& block : code.blocks_) {
+    auto& lanes = blocks_.emplace_back();
+    for (std::size_t l = 0; l < kLanes; ++l) lanes.emplace_back(block);
+  }
+}
+
+LaneMachine::LaneMachine(LaneMachine&&) noexcept = default;
+LaneMachine& LaneMachine::operator=(LaneMachine&&) noexcept = default;
+LaneMachine::~LaneMachine() = default;
+
+void LaneMachine::run(std::uint32_t active) {
+  alignas(64) double faults[kLanes] = {};
+  faults_ = 0;
+  const LaneStep* step = code_->steps_.data();
+  const LaneStep* const end = step + code_->steps_.size();
+  while ((step = run_(step, end, code_->constants_.data(), registers_.get(), faults)) != end)
+    run_one_by_one(code_->one_by_one_[(step++)->a], active);
+  for (std::size_t l = 0; l < kLanes; ++l)
+    if (faults[l] != 0 || std::isnan(faults[l])) faults_ |= 1U << l;
+}
+
+void LaneMachine::run_one_by_one(const LaneCode::OneByOne& one, std::uint32_t active) {
+  for (std::uint32_t left = active; left != 0; left &= left - 1) {
+    const auto l = static_cast<std::size_t>(std::countr_zero(left));
+    double* const lane = registers_.get() + l;
+    if (one.op != ScalarOp::block) {
+      const double value =
+          numbers::apply(one.op, lane[one.a * kLanes], lane[one.b * kLanes], lane[one.c * kLanes]);
+      lane[one.out * kLanes] = value;
+      if (!std::isfinite(value)) faults_ |= 1U << l;
+      continue;
+    }
+    const numbers::Matrix* value = blocks_[one.block][l](lane, kLanes);
+    if (value == nullptr || !value->allFinite()) {
+      faults_ |= 1U << l;
+      continue;
+    }
+    for (std::size_t e = 0; e < one.results.size(); ++e)
+      lane[one.results[e] * kLanes] = value->data()[e];
+  }
+}
+
+}  // namespace gainsmith::lanes

@@ -1,0 +1,65 @@
+// Operations on numbers over lanes: each register holds one number of each of kLanes runs, and
+// nothing crosses lanes.
+//
+// Three variants of the same source are compiled, for x86-64-v2, v3 and v4; the best that the
+// machine has is chosen once. v3 and v4 have the same bits: a multiply_add is rounded once, nothing
+// else is contracted, and elementary functions are computed here. v2 rounds a multiply_add twice.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace gainsmith::lanes {
+
+constexpr std::size_t kLanes = 32;
+
+enum class LaneOp : std::uint8_t {
+  add,
+  add_constant,  ///< constant a + b
+  subtract,
+  multiply,
+  multiply_constant,  ///< constant a * b
+  multiply_add,       ///< a b + c
+  multiply_constant_add,
+  divide,
+  negate,
+  minimum,  ///< b < a ? b : a
+  maximum,  ///< a < b ? b : a
+  where_positive,
+  where_nonnegative,
+  abs,
+  sign,
+  floor,
+  sqrt,
+  exp,
+  sin,
+  cos,
+  tanh,
+  one_by_one  ///< the variants stop here: the caller computes it lane by lane
+};
+
+struct LaneStep {
+  LaneOp op = LaneOp::one_by_one;
+  bool is_partial = false;  ///< a result that is not finite is a fault of the lane
+  std::uint32_t out = 0, a = 0, b = 0, c = 0;  ///< registers; of one_by_one `a` is its number
+};
+
+/// From `step` on, up to `end` or the next one_by_one, which is returned. Register k of lane l is
+/// registers[k*kLanes + l], aligned to 64 bytes. faults[l] is not 0 after a result that is not
+/// finite.
+using RunSteps = const LaneStep* (*)(const LaneStep* step, const LaneStep* end,
+                                     const double* constants, double* registers, double* faults);
+
+struct Variant {
+  const char* name;
+  RunSteps run;
+};
+
+/// The best that this machine has, or that GAINSMITH_ISA names: v2, v3 or v4. InputError for
+/// another name, and for one that the machine has not.
+const Variant& variant();
+/// The variant of this name; nullptr: the machine has none.
+const Variant* find_variant(const std::string& name);
+
+}  // namespace gainsmith::lanes

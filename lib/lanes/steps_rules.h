@@ -1,0 +1,285 @@
+// The operations of steps.h, included by one source a variant, which names it in GAINSMITH_VARIANT.
+// Nothing here may be shared with other sources: it is compiled for other machines than they are.
+#include <immintrin.h>
+
+#include "lanes/steps.h"
+
+namespace gainsmith::lanes {
+
+namespace {
+
+using V = double __attribute__((vector_size(64)));
+using I = long long __attribute__((vector_size(64)));
+constexpr std::size_t kWidth = 8;
+constexpr std::size_t kVectors = kLanes / kWidth;
+
+inline V all(double x) { return V{x, x, x, x, x, x, x, x}; }
+inline I all(long long x) { return I{x, x, x, x, x, x, x, x}; }
+inline V bits_to_number(I x) { return __builtin_bit_cast(V, x); }
+inline I number_to_bits(V x) { return __builtin_bit_cast(I, x); }
+inline V abs_of(V x) { return bits_to_number(number_to_bits(x) & all(0x7fffffffffffffffLL)); }
+inline V with_sign(V x, V sign) {
+  return bits_to_number(number_to_bits(x) |
+                        (number_to_bits(sign) & all(-0x7fffffffffffffffLL - 1)));
+}
+
+inline V multiply_add(V a, V b, V c) {
+#if defined(__AVX512F__)
+  return _mm512_fmadd_pd(a, b, c);
+#elif defined(__FMA__)
+  using H = double __attribute__((vector_size(32)));
+  union Halves {
+    V whole;
+    H half[2];
+  };
+  const Halves x{a}, y{b}, z{c};
+  Halves out;
+  out.half[0] = _mm256_fmadd_pd(x.half[0], y.half[0], z.half[0]);
+  out.half[1] = _mm256_fmadd_pd(x.half[1], y.half[1], z.half[1]);
+  return out.whole;
+#else
+  return a * b + c;
+#endif
+}
+
+inline V sqrt_of(V x) {
+#if defined(__AVX512F__)
+  return _mm512_sqrt_pd(x);
+#else
+  V out;
+  for (std::size_t k = 0; k < kWidth; ++k) out[k] = __builtin_sqrt(x[k]);
+  return out;
+#endif
+}
+
+inline V floor_of(V x) {
+#if defined(__AVX512F__)
+  return _mm512_floor_pd(x);
+#else
+  V out;
+  for (std::size_t k = 0; k < kWidth; ++k) out[k] = __builtin_floor(x[k]);
+  return out;
+#endif
+}
+
+/// Adding it rounds to a whole number, which is then in the last bits.
+constexpr double kRound = 0x1.8p52;
+
+struct Rounded {
+  V value;
+  I bits;  ///< the whole number, in the low half
+};
+inline Rounded rounded(V x) {
+  const V shifted = x + all(kRound);
+  return {shifted - all(kRound), number_to_bits(shifted) - number_to_bits(all(kRound))};
+}
+
+/// (e^r - 1 - r) / r^2 for |r| <= log(2)/2: Taylor's series up to r^13.
+inline V exp_rest(V r) {
+  constexpr double terms[] = {1.0 / 6227020800, 1.0 / 479001600, 1.0 / 39916800, 1.0 / 3628800,
+                              1.0 / 362880,     1.0 / 40320,     1.0 / 5040,     1.0 / 720,
+                              1.0 / 120,        1.0 / 24,        1.0 / 6,        1.0 / 2};
+  V sum = all(terms[0]);
+  for (std::size_t k = 1; k < sizeof terms / sizeof *terms; ++k)
+    sum = multiply_add(sum, r, all(terms[k]));
+  return sum;
+}
+
+/// x = k log(2) + r, log(2) in two parts of which the first has 32 bits (fdlibm).
+inline V exp_reduced(V x, Rounded& k) {
+  k = rounded(x * all(1.44269504088896338700e+00));
+  return (x - k.value * all(6.93147180369123816490e-01)) -
+         k.value * all(1.90821492927058770002e-10);
+}
+
+inline V power_of_two(I k) { return bits_to_number((k + all(1023LL)) << 52); }
+
+inline V exp_of(V x) {
+  constexpr double largest = 709.782712893384;
+  constexpr double least = -745.2;
+  const V inside = x > all(largest) ? all(largest) : x < all(least) ? all(least) : x;
+  Rounded k;
+  const V r = exp_reduced(inside, k);
+  const V value = all(1.0) + (r + r * r * exp_rest(r));
+  // In two factors, since 2^k may be less than any number while e^x is not.
+  const Rounded half = rounded(k.value * all(0.5) - all(0.25));
+  V out = value * power_of_two(half.bits) * power_of_two(k.bits - half.bits);
+  out = x > all(largest) ? all(__builtin_inf()) : out;
+  return x == x ? out : x;
+}
+
+/// (e^y - 1) / (e^y + 1) of y = 2|x|.
+inline V tanh_of(V x) {
+  const V size = abs_of(x);
+  const V y = all(2.0) * (size > all(22.0) ? all(22.0) : size);
+  Rounded k;
+  const V r = exp_reduced(y, k);
+  const V scale = power_of_two(k.bits);
+  const V minus_one = multiply_add(scale, r + r * r * exp_rest(r), scale - all(1.0));
+  const V out = minus_one / (minus_one + all(2.0));
+  return x == x ? with_sign(out, x) : x;
+}
+
+/// x = k pi/2 + high + low, pi/2 in three parts of 33 bits and a rest (fdlibm).
+struct Angle {
+  V high, low;
+  I quarter;
+};
+inline Angle reduced_angle(V x) {
+  const Rounded k = rounded(x * all(6.36619772367581382433e-01));
+  const V first = x - k.value * all(1.57079632673412561417e+00);
+  const V step = k.value * all(6.07710050630396597660e-11);
+  const V second = first - step;
+  const V lost = (first - second) - step;
+  const V rest = k.value * all(2.02226624879595063154e-21) - lost;
+  const V high = second - rest;
+  return {high, (second - high) - rest, k.bits};
+}
+
+/// Of |x| <= pi/4, as __kernel_sin and __kernel_cos of fdlibm.
+inline V sin_kernel(V x, V low) {
+  const V z = x * x;
+  V r = all(1.58969099521155010221e-10);
+  r = multiply_add(r, z, all(-2.50507602534068634195e-08));
+  r = multiply_add(r, z, all(2.75573137070700676789e-06));
+  r = multiply_add(r, z, all(-1.98412698298579493134e-04));
+  r = multiply_add(r, z, all(8.33333333332248946124e-03));
+  const V v = z * x;
+  return x - ((z * (all(0.5) * low - v * r) - low) - v * all(-1.66666666666666324348e-01));
+}
+inline V cos_kernel(V x, V low) {
+  const V z = x * x;
+  V r = all(-1.13596475577881948265e-11);
+  r = multiply_add(r, z, all(2.08757232129817482790e-09));
+  r = multiply_add(r, z, all(-2.75573143513906633035e-07));
+  r = multiply_add(r, z, all(2.48015872894767294178e-05));
+  r = multiply_add(r, z, all(-1.38888888888741095749e-03));
+  r = multiply_add(r, z, all(4.16666666666666019037e-02));
+  const V half = all(0.5) * z;
+  const V w = all(1.0) - half;
+  return w + (((all(1.0) - w) - half) + (z * z * r - x * low));
+}
+
+/// Beyond these angles the quarters are not exact.
+constexpr double kLargestAngle = 1e6;
+
+template <bool cosine>
+inline V sine(V x) {
+  const Angle angle = reduced_angle(x);
+  const V s = sin_kernel(angle.high, angle.low);
+  const V c = cos_kernel(angle.high, angle.low);
+  const I quarter = angle.quarter + all(cosine ? 1LL : 0LL);
+  V out = (quarter & all(1LL)) != all(0LL) ? c : s;
+  out = (quarter & all(2LL)) != all(0LL) ? -out : out;
+  const I far = ~(abs_of(x) <= all(kLargestAngle));
+  for (std::size_t k = 0; k < kWidth; ++k)
+    if (far[k] != 0) out[k] = cosine ? __builtin_cos(x[k]) : __builtin_sin(x[k]);
+  return out;
+}
+
+template <class Operation>
+inline void each(const LaneStep& step, double* registers, const Operation& operation) {
+  V* const out = reinterpret_cast<V*>(registers + step.out * kLanes);
+  const V* const a = reinterpret_cast<const V*>(registers + step.a * kLanes);
+  const V* const b = reinterpret_cast<const V*>(registers + step.b * kLanes);
+  const V* const c = reinterpret_cast<const V*>(registers + step.c * kLanes);
+  for (std::size_t k = 0; k < kVectors; ++k) out[k] = operation(a[k], b[k], c[k]);
+}
+
+const LaneStep* run(const LaneStep* step, const LaneStep* end, const double* constants,
+                    double* registers, double* faults) {
+  for (; step != end; ++step) {
+    const auto over = [&](const auto& operation) { each(*step, registers, operation); };
+    switch (step->op) {
+      case LaneOp::add:
+        over([](V a, V b, V) { return a + b; });
+        break;
+      case LaneOp::add_constant: {
+        const V k = all(constants[step->a]);
+        each({step->op, false, step->out, 0, step->b, 0}, registers,
+             [k](V, V b, V) { return k + b; });
+        break;
+      }
+      case LaneOp::subtract:
+        over([](V a, V b, V) { return a - b; });
+        break;
+      case LaneOp::multiply:
+        over([](V a, V b, V) { return a * b; });
+        break;
+      case LaneOp::multiply_constant: {
+        const V k = all(constants[step->a]);
+        each({step->op, false, step->out, 0, step->b, 0}, registers,
+             [k](V, V b, V) { return k * b; });
+        break;
+      }
+      case LaneOp::multiply_add:
+        over([](V a, V b, V c) { return multiply_add(a, b, c); });
+        break;
+      case LaneOp::multiply_constant_add: {
+        const V k = all(constants[step->a]);
+        each({step->op, false, step->out, 0, step->b, step->c}, registers,
+             [k](V, V b, V c) { return multiply_add(k, b, c); });
+        break;
+      }
+      case LaneOp::divide:
+        over([](V a, V b, V) { return a / b; });
+        break;
+      case LaneOp::negate:
+        over([](V a, V, V) { return -a; });
+        break;
+      case LaneOp::minimum:
+        over([](V a, V b, V) { return b < a ? b : a; });
+        break;
+      case LaneOp::maximum:
+        over([](V a, V b, V) { return a < b ? b : a; });
+        break;
+      case LaneOp::where_positive:
+        over([](V a, V b, V c) { return a > all(0.0) ? b : c; });
+        break;
+      case LaneOp::where_nonnegative:
+        over([](V a, V b, V c) { return a >= all(0.0) ? b : c; });
+        break;
+      case LaneOp::abs:
+        over([](V a, V, V) { return abs_of(a); });
+        break;
+      case LaneOp::sign:
+        over([](V a, V, V) {
+          return a > all(0.0) ? all(1.0) : a < all(0.0) ? all(-1.0) : all(0.0);
+        });
+        break;
+      case LaneOp::floor:
+        over([](V a, V, V) { return floor_of(a); });
+        break;
+      case LaneOp::sqrt:
+        over([](V a, V, V) { return sqrt_of(a); });
+        break;
+      case LaneOp::exp:
+        over([](V a, V, V) { return exp_of(a); });
+        break;
+      case LaneOp::sin:
+        over([](V a, V, V) { return sine<false>(a); });
+        break;
+      case LaneOp::cos:
+        over([](V a, V, V) { return sine<true>(a); });
+        break;
+      case LaneOp::tanh:
+        over([](V a, V, V) { return tanh_of(a); });
+        break;
+      case LaneOp::one_by_one:
+        return step;
+    }
+    if (!step->is_partial) continue;
+    const V* const value = reinterpret_cast<const V*>(registers + step->out * kLanes);
+    V* const fault = reinterpret_cast<V*>(faults);
+    // 0 times what is not finite is not a number.
+    for (std::size_t k = 0; k < kVectors; ++k) fault[k] += value[k] * all(0.0);
+  }
+  return step;
+}
+
+}  // namespace
+
+extern const Variant GAINSMITH_VARIANT;
+const Variant GAINSMITH_VARIANT{GAINSMITH_VARIANT_NAME, run};
+
+}  // namespace gainsmith::lanes

@@ -1,0 +1,3 @@
+#define GAINSMITH_VARIANT variant_v2
+#define GAINSMITH_VARIANT_NAME "v2"
+#include "lanes/steps_rules.h"

@@ -1,0 +1,65 @@
+#include "numbers/tape_block.h"
+
+#include <algorithm>
+
+#include "numbers/real.h"
+#include "numbers/small_inverse.h"
+#include "numbers/small_svd.h"
+
+namespace gainsmith::numbers {
+
+TapeBlock::TapeBlock(const TapeCode::Block& block)
+    : instruction_(std::make_unique<const expr::Instruction>(block.instruction)),
+      from_(block.operands),
+      out_(Matrix::Zero(block.instruction.shape.rows, block.instruction.shape.cols)) {
+  for (const expr::Shape& shape : block.shapes)
+    operands_.push_back(Matrix::Zero(shape.rows, shape.cols));
+  for (const Matrix& operand : operands_) pointers_.push_back(&operand);
+  if (instruction_->op == expr::Op::jacobian)
+    jacobian_ = std::make_unique<JacobianEvaluator<double>>(*instruction_);
+  if (instruction_->op == expr::Op::flow_map)
+    flow_map_ = std::make_unique<FlowMapEvaluator>(*instruction_);
+}
+
+/// Singular values, and the norm of a matrix, without the rules' allocations. False: for these.
+bool TapeBlock::find_small_values() {
+  const bool norm = instruction_->op == expr::Op::norm;
+  if (!norm && instruction_->op != expr::Op::singular_values) return false;
+  const Matrix& operand = operands_[0];
+  out_.resize(norm ? std::min(operand.rows(), operand.cols()) : instruction_->shape.rows, 1);
+  if (!small_singular_values(operand, out_.data())) return false;
+  if (norm) out_.conservativeResize(1, 1);
+  return true;
+}
+
+bool TapeBlock::find_value() {
+  if (instruction_->op == expr::Op::inverse && small_inverse(operands_[0], out_.data())) return true;
+  if (find_small_values()) return true;
+  try {
+    if (jacobian_ != nullptr) {
+      out_ = (*jacobian_)(pointers_);
+    } else if (flow_map_ != nullptr) {
+      out_ = (*flow_map_)(pointers_);
+    } else {
+      RealAlgebra{}.apply(*instruction_, pointers_, out_);
+    }
+  } catch (const expr::EvaluationError&) {
+    return false;
+  }
+  return true;
+}
+
+const Matrix* TapeBlock::operator()(const double* registers, std::size_t stride) {
+  for (std::size_t k = 0; k < from_.size(); ++k) {
+    double* to = operands_[k].data();
+    for (const std::uint32_t from : from_[k]) {
+      const double value = registers[from * stride];
+      is_known_ = is_known_ && *to == value;
+      *to++ = value;
+    }
+  }
+  if (!is_known_) is_known_ = find_value();
+  return is_known_ ? &out_ : nullptr;
+}
+
+}  // namespace gainsmith::numbers

@@ -1,0 +1,147 @@
+#include "numbers/tape_code.h"
+
+#include <utility>
+
+namespace gainsmith::numbers {
+
+namespace {
+
+/// Lays out registers: inputs, constants, then what is computed, in the order of the graph.
+class Maker {
+ public:
+  Maker(const ScalarGraph& graph, TapeCode& code)
+      : graph_(graph), nodes_(graph.nodes()), code_(code) {}
+
+  void make(const std::vector<std::vector<int>>& results, int inputs) {
+    count_uses(results);
+    registers_.assign(nodes_.size(), 0);
+    code_.inputs = code_.registers = static_cast<std::uint32_t>(inputs);
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+      if (nodes_[k].op == ScalarOp::input) {
+        registers_[k] = static_cast<std::uint32_t>(nodes_[k].a);
+        if (uses_[k] > 0) code_.reads.push_back(registers_[k]);
+      }
+      if (nodes_[k].op != ScalarOp::constant || uses_[k] == 0) continue;
+      registers_[k] = push();
+      code_.constants.push_back(graph_.value(static_cast<int>(k)));
+    }
+    for (std::size_t k = 0; k < nodes_.size(); ++k) add(k);
+    for (const std::vector<int>& result : results) {
+      auto& list = code_.results.emplace_back();
+      for (const int node : result) list.push_back(registers_[index(node)]);
+    }
+  }
+
+ private:
+  static std::size_t index(int at) { return static_cast<std::size_t>(at); }
+
+  void use(int node) {
+    if (node >= 0) ++uses_[index(node)];
+  }
+
+  /// From the last node to the first: what a node that is used needs.
+  void count_uses(const std::vector<std::vector<int>>& results) {
+    uses_.assign(nodes_.size(), 0);
+    is_fused_.assign(nodes_.size(), false);
+    for (const std::vector<int>& result : results)
+      for (const int node : result) uses_[index(node)] += 2;  // read after the run: never fused
+    for (std::size_t k = 0; k < nodes_.size(); ++k)
+      if (graph_.is_partial(static_cast<int>(k))) ++uses_[k];
+    auto block = graph_.blocks().rbegin();
+    for (std::size_t k = nodes_.size(); k-- > 0;) {
+      const ScalarGraph::Node& node = nodes_[k];
+      for (; block != graph_.blocks().rend() && index(block->first) >= k + 1; ++block)
+        for (const std::vector<int>& operand : block->operands)
+          for (const int one : operand) uses_[index(one)] += 2;
+      if (is_leaf(node.op) || uses_[k] == 0) continue;
+      use(node.a);
+      use(node.b);
+      use(node.c);
+    }
+    for (; block != graph_.blocks().rend(); ++block)
+      for (const std::vector<int>& operand : block->operands)
+        for (const int one : operand) uses_[index(one)] += 2;
+  }
+
+  static bool is_leaf(ScalarOp op) {
+    return op == ScalarOp::input || op == ScalarOp::constant || op == ScalarOp::element;
+  }
+
+  std::uint32_t push() { return code_.registers++; }
+
+  void add(std::size_t k) {
+    while (next_block_ < graph_.blocks().size() && index(graph_.blocks()[next_block_].first) <= k)
+      add_block();
+    const ScalarGraph::Node& node = nodes_[k];
+    if (is_leaf(node.op) || uses_[k] == 0) return;
+    // A product for one sum alone is computed with it.
+    if (node.op == ScalarOp::multiply && uses_[k] == 1 && is_summand(k)) return;
+    const auto at = [&](int one) { return one < 0 ? 0 : registers_[index(one)]; };
+    TapeCode::Step step{node.op, 0, at(node.a), at(node.b), at(node.c)};
+    if (node.op == ScalarOp::add)
+      for (const auto& [product, rest] : {std::pair(node.b, node.a), std::pair(node.a, node.b)}) {
+        if (!is_fused_[index(product)]) continue;
+        const ScalarGraph::Node& factors = nodes_[index(product)];
+        // Both may be products: the other one is computed now.
+        if (is_fused_[index(rest)]) {
+          const ScalarGraph::Node& other = nodes_[index(rest)];
+          registers_[index(rest)] = push();
+          code_.steps.push_back(
+              {ScalarOp::multiply, registers_[index(rest)], at(other.a), at(other.b), 0});
+        }
+        step = {ScalarOp::multiply_add, 0, at(factors.a), at(factors.b), at(rest)};
+        break;
+      }
+    step.out = registers_[k] = push();
+    code_.steps.push_back(step);
+  }
+
+  /// Whether the only use of a product is a sum.
+  bool is_summand(std::size_t product) {
+    if (summand_of_.empty()) {
+      summand_of_.assign(nodes_.size(), false);
+      for (std::size_t k = 0; k < nodes_.size(); ++k)
+        if (nodes_[k].op == ScalarOp::add && uses_[k] > 0 && nodes_[k].a != nodes_[k].b) {
+          summand_of_[index(nodes_[k].a)] = true;
+          summand_of_[index(nodes_[k].b)] = true;
+        }
+    }
+    is_fused_[product] = summand_of_[product];
+    return summand_of_[product];
+  }
+
+  void add_block() {
+    const ScalarGraph::Block& block = graph_.blocks()[next_block_++];
+    TapeCode::Block& made = code_.blocks.emplace_back();
+    made.instruction = block.instruction;
+    made.shapes = block.shapes;
+    for (const std::vector<int>& operand : block.operands) {
+      auto& from = made.operands.emplace_back();
+      for (const int node : operand) from.push_back(registers_[index(node)]);
+    }
+    code_.steps.push_back({ScalarOp::block, code_.registers,
+                           static_cast<std::uint32_t>(code_.blocks.size() - 1), 0, 0});
+    for (int k = 0; k < block.instruction.shape.size(); ++k)
+      registers_[index(block.first + k)] = push();
+  }
+
+  const ScalarGraph& graph_;
+  const std::vector<ScalarGraph::Node>& nodes_;
+  TapeCode& code_;
+  std::vector<int> uses_;
+  std::vector<bool> is_fused_;  ///< by node: a product without a register of its own
+  std::vector<bool> summand_of_;
+  std::vector<std::uint32_t> registers_;  ///< by node
+  std::size_t next_block_ = 0;
+};
+
+}  // namespace
+
+TapeCode tape_code(const ScalarGraph& graph, const std::vector<std::vector<int>>& results,
+                   int inputs) {
+  TapeCode code;
+  Maker(graph, code).make(results, inputs);
+  return code;
+}
+
+}  // namespace gainsmith::numbers

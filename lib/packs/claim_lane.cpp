@@ -1,0 +1,165 @@
+#include "packs/claim_lane.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "claims/tolerances.h"
+#include "hybrid/tolerances.h"
+#include "packs/tolerances.h"
+
+namespace gainsmith::packs {
+
+namespace {
+
+using model::ClaimKind;
+
+constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+void ClaimLane::begin(const PackClaim& claim, const PackSystem& pack, const PackAccuracy& accuracy,
+                      double limit) {
+  *this = ClaimLane();
+  claim_ = &claim;
+  accuracy_ = accuracy.relative * pack.accuracy;
+  noise_ = pack.accuracy;
+  sign_ = claim.kind == ClaimKind::above ? -1 : 1;
+  limit_ = sign_ * limit;
+  if (!std::isfinite(limit)) open_ = true;
+}
+
+/// Two runs that differ by a part of the range of a value have nothing to do with each other.
+void ClaimLane::check_parting(double value, double difference, double terms) {
+  least_ = seen_ ? std::fmin(least_, value) : value;
+  most_ = seen_ ? std::fmax(most_, value) : value;
+  size_ = std::fmax(size_, std::fmax(std::abs(value), terms));
+  seen_ = true;
+  if (difference > claims::kParted * (most_ - least_) &&
+      difference > claims::kPartedAccuracy * accuracy_ * size_)
+    open_ = true;
+}
+
+ClaimLane::Known ClaimLane::known(const Reading& reading, bool jumped) {
+  const double difference = std::abs(reading.fine - reading.coarse);
+  if (jumped) differences_.fill(0);
+  differences_ = {differences_[1], differences_[2], difference};
+  check_parting(reading.fine, difference, reading.terms);
+  const double largest = *std::max_element(differences_.begin(), differences_.end());
+  const double error = kErrorOfPair * largest + 8 * kUnit * std::abs(reading.fine) +
+                       hybrid::kTermRounding * reading.terms;
+  if (!(error < kNever)) open_ = true;
+  return {sign_ * reading.fine, error};
+}
+
+void ClaimLane::at(double t, const Reading& reading, std::optional<std::size_t> event) {
+  const bool is_jump = event.has_value();
+  const Known value = known(reading, is_jump);
+  if (!counts(t) || (claim_->over && event != claim_->over)) return;
+  const bool same = looked_ && is_jump && !claim_->over && value.value == last_.value;
+  compare(value, reading.terms, same, false);
+}
+
+void ClaimLane::along(double t, double length, Sample start, Sample middle, Sample last,
+                      const Reading& end, bool breaks, bool halved) {
+  const Known value = known(end, false);
+  if (claim_->over || !counts(t)) return;
+  const auto signed_of = [&](Sample one) { return Sample{sign_ * one.value, sign_ * one.rate}; };
+  const bool same = end.fine == end.coarse && looked_ && value.value == last_.value &&
+                    middle.value == start.value;
+  if (!looked_ || same) return compare(value, end.terms, same, halved);
+  const double rate = std::max({std::abs(start.rate), std::abs(middle.rate), std::abs(last.rate)});
+  const bool down = std::max({start.rate, middle.rate, last.rate}) <= 0;
+  const StepPolynomial along(signed_of(start), signed_of(middle), signed_of(last), length);
+  if (claim_->kind == ClaimKind::nonincreasing)
+    compare({sign_ * middle.value, value.error}, end.terms, false, true);
+  compare(value, end.terms, false, halved);
+  if (claim_->kind == ClaimKind::nonincreasing && breaks && down) return;
+  compare_within(along, value, end.terms, length, rate, breaks);
+}
+
+/// The value at a point where the claim is made.
+void ClaimLane::compare(Known value, double terms, bool same, bool crowded) {
+  last_ = value;
+  const auto forgiven = [&](double size) { return claim_->tolerance * size; };
+  if (!looked_) {
+    looked_ = true;
+    first_ = low_ = high_ = value;
+    if (claim_->kind == ClaimKind::nonincreasing || claim_->kind == ClaimKind::shrinks) return;
+  }
+  if (same) return;
+  if (claim_->kind == ClaimKind::nonincreasing) {
+    const double above_high = value.value - high_.value - forgiven(std::abs(high_.value));
+    const double above_low = value.value - low_.value - forgiven(std::abs(low_.value));
+    const double size = std::abs(value.value) + value.error;
+    const double scale = std::abs(first_.value);
+    const bool violates = above_high > value.error + high_.error;
+    const bool holds = above_low <= -(value.error + low_.error) ||
+                       (above_low <= 0 && value.error + low_.error == 0) ||
+                       (crowded && above_high <= claims::kGrown * (value.error + high_.error));
+    const double least = violates ? claims::kFloorOfAccuracy * noise_ : noise_;
+    if (!holds && scale != 0 && size <= least * scale) {
+      floor_ = std::max(floor_, size / scale);
+    } else if (violates) {
+      violated_ = true;
+      score_ = std::max(score_, scale == 0 ? kNever : (value.value - high_.value) / scale);
+    } else if (!holds && !violated_) {
+      open_ = true;
+    }
+    if (value.value - value.error < low_.value - low_.error) low_ = value;
+    if (value.value + value.error < high_.value + high_.error) high_ = value;
+    return;
+  }
+  if (claim_->kind == ClaimKind::shrinks) return;
+  const double scale = limit_ == 0 ? 1 : std::abs(limit_);
+  const double excess = value.value - limit_ - forgiven(limit_ == 0 ? terms : std::abs(limit_));
+  score_ = std::max(score_, (value.value - limit_) / scale);
+  if (excess > value.error) violated_ = true;
+  const bool is_close = std::abs(excess) <= value.error && !(excess <= 0 && value.error == 0);
+  if (is_close && !violated_) open_ = true;
+}
+
+/// The value between the points of a step.
+void ClaimLane::compare_within(const StepPolynomial& along, Known end, double terms, double length,
+                               double rate, bool breaks) {
+  // Where the value branches it goes up and down no faster than at the points.
+  const double error = end.error + (breaks ? length * rate / 2 : along.error());
+  if (claim_->kind == ClaimKind::shrinks) return;
+  if (claim_->kind == ClaimKind::nonincreasing) {
+    if (violated_) return;
+    if (!breaks && along.rise() <= claims::kGrown * end.error) return;
+    if (std::abs(along.largest()) + error <= noise_ * std::abs(first_.value)) return;
+    open_ = true;
+    return;
+  }
+  const double forgiven = claim_->tolerance * (limit_ == 0 ? terms : std::abs(limit_));
+  const double scale = limit_ == 0 ? 1 : std::abs(limit_);
+  const bool may_exceed = along.largest() + error > limit_ + forgiven;
+  if (!may_exceed && (along.largest() - limit_) / scale <= score_) return;
+  const double highest = along.highest();
+  score_ = std::max(score_, (highest - limit_) / scale);
+  if (highest - error > limit_ + forgiven) violated_ = true;
+  // A violation at a point is certain without what lies between.
+  const bool certain = violated_ || end.value - limit_ - forgiven > end.error;
+  if (highest + error > limit_ + forgiven && !certain) open_ = true;
+}
+
+void ClaimLane::finish() {
+  if (!looked_ || open_) return;
+  const double scale = std::abs(first_.value);
+  if (claim_->kind == ClaimKind::nonincreasing && !violated_)
+    score_ = scale == 0 ? -1 : (last_.value - first_.value) / scale;
+  if (claim_->kind != ClaimKind::shrinks) return;
+  const double goal = limit_ * first_.value;
+  if (first_.value == 0 && first_.error == 0) {
+    score_ = -1;
+    return;
+  }
+  const double error = last_.error + std::abs(limit_) * first_.error;
+  const double excess = last_.value - goal - claim_->tolerance * std::abs(goal);
+  score_ = goal == 0 ? kNever : (last_.value - goal) / std::abs(goal);
+  if (excess > error) violated_ = true;
+  if (std::abs(excess) <= error) open_ = true;
+}
+
+}  // namespace gainsmith::packs

@@ -1,0 +1,68 @@
+// One claim against one run of a pack, as it goes.
+//
+// The comparisons are those of claims/claim_check.h, over values at the ends and the middles of
+// steps and, between them, over the quintic through these. Twice the run is made: the error of a
+// value is kErrorOfPair times the largest difference of both over the last three ends of steps, and
+// what its terms round. What it leaves open is left to the careful run.
+#pragma once
+
+#include <array>
+#include <limits>
+
+#include "packs/pack_system.h"
+#include "packs/step_polynomial.h"
+
+namespace gainsmith::packs {
+
+/// A value in both runs, and the size of its terms.
+struct Reading {
+  double fine = 0;
+  double coarse = 0;
+  double terms = 0;
+};
+
+class ClaimLane {
+ public:
+  /// `limit`: the bound, or the factor.
+  void begin(const PackClaim& claim, const PackSystem& pack, const PackAccuracy& accuracy,
+             double limit);
+  /// The start of a run, or the state after a jump of `event`.
+  void at(double t, const Reading& reading, std::optional<std::size_t> event);
+  /// A step up to t. `end`: there. `breaks`: whether the value may branch on it. `halved`: it ends
+  /// nearer to its start than errors ask for, so that a value may hardly have changed.
+  void along(double t, double length, Sample start, Sample middle, Sample last, const Reading& end,
+             bool breaks, bool halved);
+  void finish();
+
+  bool open() const { return open_; }
+  bool violated() const { return violated_; }
+  bool looked() const { return looked_; }
+  double score() const { return score_; }
+  double floor() const { return floor_; }
+
+ private:
+  struct Known {
+    double value = 0;
+    double error = 0;
+  };
+  bool counts(double t) const { return t >= claim_->after; }
+  Known known(const Reading& reading, bool jumped);
+  void compare(Known value, double terms, bool same, bool crowded);
+  void compare_within(const StepPolynomial& along, Known end, double terms, double length,
+                      double rate, bool breaks);
+  void check_parting(double value, double difference, double terms);
+
+  const PackClaim* claim_ = nullptr;
+  double accuracy_ = 0, noise_ = 0;
+  double sign_ = 1;  ///< -1: of `above`, which is `below` of what is negated
+  double limit_ = 0;
+  std::array<double, 3> differences_{};
+  double least_ = 0, most_ = 0, size_ = 0;  ///< of the values so far
+  bool seen_ = false;
+  Known first_, last_, low_, high_;
+  bool looked_ = false, open_ = false, violated_ = false;
+  double score_ = -std::numeric_limits<double>::infinity();
+  double floor_ = 0;
+};
+
+}  // namespace gainsmith::packs

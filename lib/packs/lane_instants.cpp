@@ -1,0 +1,226 @@
+#include "packs/lane_set.h"
+
+#include <algorithm>
+
+#include "claims/tolerances.h"
+
+namespace gainsmith::packs {
+
+using model::Dynamics;
+
+bool LaneSet::settle(std::size_t l) {
+  PackLane& lane = *lanes_[l];
+  if (!find_sides(l)) return false;
+  const std::optional<bool> changed = set_branches(l);
+  if (!changed) return false;
+  if (*changed) return true;  // to be looked at again
+  for (std::size_t c = 0; c < lane.claims.size(); ++c) {
+    if (lane.fresh)
+      lane.claims[c].begin(pack_.claims[c], pack_, *accuracy_, start_.at(PackSystem::limits, c, l));
+    if (lane.fresh || lane.jumped)
+      lane.claims[c].at(lane.t, reading(c, l, start_, coarse_start_), lane.jumped);
+    if (lane.claims[c].open()) return open(Why::claim);
+  }
+  if (lane.jumped)
+    if (const auto& crossing = pack_.events[*lane.jumped].crossing)
+      lane.signs[*lane.jumped] = side_of(*crossing, lane);
+  lane.fresh = false;
+  lane.jumped.reset();
+  return go_on(l);
+}
+
+bool LaneSet::find_sides(std::size_t l) {
+  PackLane& lane = *lanes_[l];
+  for (std::size_t w = 0; w < pack_.watches.size(); ++w) {
+    const double value = start_.at(PackSystem::watch_values, w, l);
+    if (!pack_.watches[w].moves) {
+      lane.sides[w] = sign_of(value);
+      if (sign_of(coarse_start_.at(PackSystem::watch_values, w, l)) != lane.sides[w])
+        return open(Why::sign);
+      continue;
+    }
+    const double error = std::max(error_of(w, l, start_, coarse_start_), lane.zero[w]);
+    if (std::abs(value) > error) {
+      lane.sides[w] = sign_of(value);
+    } else if (lane.fresh || !is_crossing_[w] || std::abs(value - lane.before[w]) > error) {
+      // What has crossed 0 goes on; otherwise the next step tells where it goes.
+      lane.sides[w] = 0;
+    }
+  }
+  return true;
+}
+
+std::optional<bool> LaneSet::set_branches(std::size_t l) {
+  bool changed = false;
+  for (std::size_t w = 0; w < pack_.watches.size(); ++w) {
+    const Watch& watch = pack_.watches[w];
+    if (watch.branches.empty()) continue;
+    std::int8_t& side = lanes_[l]->sides[w];
+    if (side == 0 && watch.moves) side = sign_of(start_.at(PackSystem::watch_rates, w, l));
+    if (side == 0 && watch.moves) {
+      why_ = Why::sign;
+      return std::nullopt;
+    }
+    for (const Watch::Branch& one : watch.branches) {
+      const int own = one.factor * side;
+      const double value = one.sign ? own : own > 0 || (own == 0 && !one.strict) ? 1 : -1;
+      changed = changed || fine_.at(one.element, l) != value;
+      set(one.element, l, value);
+    }
+  }
+  return changed;
+}
+
+bool LaneSet::go_on(std::size_t l) {
+  PackLane& lane = *lanes_[l];
+  lane.undetermined = false;
+  if (!find_due(l)) return false;
+  if (lane.due) {
+    lane.phase = Phase::jump;
+    return ++lane.chain <= kMostChain || open(Why::jumps);
+  }
+  if (lane.t >= horizon_) {
+    finish(l);
+    return true;
+  }
+  // A branch that changes here is to be set before the flow goes on.
+  if (has_open_branch(lane)) {
+    lane.phase = Phase::look;
+    return true;
+  }
+  return begin_flow(l);
+}
+
+bool LaneSet::find_due(std::size_t l) {
+  PackLane& lane = *lanes_[l];
+  lane.due.reset();
+  const double now = lane.t >= horizon_ ? lane.t + hybrid::kAddedUp * horizon_ : lane.t;
+  for (std::size_t e = 0; e < pack_.events.size(); ++e) {
+    const PackEvent& event = pack_.events[e];
+    bool due = false;
+    if (event.crossing) {
+      const std::int8_t side = side_of(*event.crossing, lane);
+      if (side == 0) return open(Why::sign);
+      const Dynamics::EventKind kind = pack_.system->dynamics.events[e].kind;
+      if (lane.signs[e] != 0 && side != lane.signs[e])
+        lane.crossed[e] = kind == Dynamics::EventKind::crosses ||
+                          (kind == Dynamics::EventKind::rises) == (side > 0);
+      lane.signs[e] = side;
+      due = lane.crossed[e] != 0;
+    } else if (event.when) {
+      const Truth is = truth(*event.when, pack_.watches, lane.sides);
+      lane.undetermined = lane.undetermined || is == Truth::unknown;
+      if (is == Truth::no) lane.spent[e] = 0;
+      due = is == Truth::yes && lane.spent[e] == 0;
+    } else {
+      due = lane.clocks.is_due(e, now);
+    }
+    // An event before it may be due as well.
+    if (due && lane.undetermined) return open(Why::order);
+    if (due) {
+      lane.due = e;
+      return true;
+    }
+  }
+  return true;
+}
+
+bool LaneSet::begin_flow(std::size_t l) {
+  PackLane& lane = *lanes_[l];
+  std::fill(lane.relevant.begin(), lane.relevant.end(), 0);
+  std::fill(lane.zero.begin(), lane.zero.end(), 0);
+  for (const PackEvent& event : pack_.events) {
+    if (event.when && truth(*event.when, pack_.watches, lane.sides, true) == Truth::unknown)
+      mark(*event.when, lane.relevant);
+    if (event.crossing) lane.relevant[event.crossing->watch] = 1;
+  }
+  for (const WatchedCondition& set : pack_.flow_sets) {
+    const Truth is = truth(set, pack_.watches, lane.sides);
+    if (is == Truth::no) return open(Why::range);
+    lane.undetermined = lane.undetermined || is == Truth::unknown;
+    if (truth(set, pack_.watches, lane.sides, true) == Truth::unknown) mark(set, lane.relevant);
+  }
+  for (std::size_t w = 0; w < pack_.watches.size(); ++w)
+    if (!pack_.watches[w].branches.empty()) lane.relevant[w] = 1;
+  if (lane.moved) {
+    move(l, coarse_, coarse_start_, -lane.coarse_shift);
+    move(l, fine_, start_, -lane.fine_shift);
+    lane.moved = false;
+  }
+  lane.stop = std::min({horizon_, lane.clocks.next(), lane.noise.next()});
+  for (const PackClaim& claim : pack_.claims)
+    if (claim.after > lane.t) lane.stop = std::min(lane.stop, claim.after);
+  lane.flow_start = lane.t;
+  lane.chain = 0;
+  lane.phase = Phase::step;
+  forget_root(lane);
+  return lane.stop > lane.t || open(Why::jumps);
+}
+
+void LaneSet::move(std::size_t l, LaneValues& values, const LaneLook& seen, double time) {
+  for (std::size_t k = 0; k < pack_.rows.size(); ++k)
+    values.at(static_cast<std::size_t>(pack_.rows[k]), l) +=
+        time * seen.at(PackSystem::rates, k, l);
+}
+
+bool LaneSet::still_inside(std::size_t l) {
+  PackLane& lane = *lanes_[l];
+  for (const WatchedCondition& set : pack_.flow_sets)
+    if (truth(set, pack_.watches, lane.sides) != Truth::yes) return open(Why::range);
+  if (!lane.undetermined) return true;
+  lane.undetermined = false;
+  for (std::size_t e = 0; e < pack_.events.size(); ++e)
+    if (pack_.events[e].when && lane.spent[e] == 0 &&
+        truth(*pack_.events[e].when, pack_.watches, lane.sides) != Truth::no)
+      return open(Why::sign);
+  return true;
+}
+
+bool LaneSet::arrive_at_root(std::size_t l, std::size_t target) {
+  PackLane& lane = *lanes_[l];
+  if (!find_due(l)) return false;
+  const Watch& watch = pack_.watches[target];
+  if (!lane.due && watch.branches.empty()) return true;
+  const bool is_short = lane.t - lane.flow_start < claims::kInstantOfRun * horizon_;
+  lane.short_flows = is_short ? lane.short_flows + 1 : 0;
+  if (lane.short_flows > kMostShortFlows) return open(Why::jumps);
+  const auto shift = [&](const LaneLook& seen) {
+    return -seen.at(PackSystem::watch_values, target, l) /
+           seen.at(PackSystem::watch_rates, target, l);
+  };
+  lane.coarse_shift = shift(coarse_start_);
+  lane.fine_shift = shift(start_);
+  if (!std::isfinite(lane.coarse_shift) || !std::isfinite(lane.fine_shift)) return open(Why::sign);
+  move(l, coarse_, coarse_start_, lane.coarse_shift);
+  move(l, fine_, start_, lane.fine_shift);
+  lane.moved = true;
+  keep_before(l);
+  lane.phase = Phase::look;
+  if (lane.due) {
+    lane.phase = Phase::jump;
+    return ++lane.chain <= kMostChain || open(Why::jumps);
+  }
+  return true;
+}
+
+bool LaneSet::arrive_at_stop(std::size_t l) {
+  PackLane& lane = *lanes_[l];
+  keep_before(l);
+  for (std::size_t k = 0; k < pack_.whole; ++k)
+    scratch_(static_cast<Eigen::Index>(k)) = fine_.at(k, l);
+  if (lane.noise.draw_due(lane.t, scratch_)) {
+    for (std::size_t k = 0; k < pack_.system->noise.size(); ++k)
+      if (pack_.system->noise[k].every) take_noise(k, l);
+    lane.phase = Phase::look;
+    return true;
+  }
+  return go_on(l);
+}
+
+bool LaneSet::has_open_branch(const PackLane& lane) const {
+  for (std::size_t w = 0; w < pack_.watches.size(); ++w)
+    if (!pack_.watches[w].branches.empty() && lane.sides[w] == 0) return true;
+  return false;
+}
+
+}  // namespace gainsmith::packs

@@ -1,0 +1,176 @@
+#include "packs/lane_set.h"
+
+#include <algorithm>
+
+#include "base/stop.h"
+
+namespace gainsmith::packs {
+
+using lanes::kLanes;
+using lanes::LaneMachine;
+using model::Dynamics;
+using VariableKind = Dynamics::VariableKind;
+
+namespace {
+
+constexpr PackAccuracy kAccuracies[] = {{kFirstRelative, kFirstAbsolute},
+                                        {kAgainRelative, kAgainAbsolute}};
+
+}  // namespace
+
+LaneSet::LaneSet(const PackSystem& pack)
+    : pack_(pack),
+      horizon_(pack.scenario->horizon),
+      step_(*pack.step),
+      look_(*pack.look),
+      coarse_(pack.whole),
+      fine_(pack.whole),
+      coarse_end_(pack.whole),
+      fine_middle_(pack.whole),
+      fine_end_(pack.whole),
+      lengths_(1),
+      errors_(1),
+      scratch_(Eigen::VectorXd::Zero(pack.system->whole)) {
+  for (LaneLook* look : {&start_, &coarse_start_, &middle_, &end_, &coarse_look_})
+    for (std::size_t r = 0; r < look->of.size(); ++r) look->of[r] = LaneValues(rows_of(r));
+  for (const PackEvent& event : pack.events) {
+    jumps_.emplace_back(*event.jump);
+    lost_.emplace_back();
+    if (event.lost) lost_.back().emplace(*event.lost);
+  }
+  find_clock_elements();
+  is_crossing_.assign(pack.watches.size(), false);
+  for (const PackEvent& event : pack.events)
+    if (event.crossing) is_crossing_[event.crossing->watch] = true;
+}
+
+std::vector<PackVerdict> LaneSet::run(std::uint64_t seed, std::uint64_t first, std::uint64_t last) {
+  seed_ = seed;
+  first_ = first;
+  verdicts_.assign(static_cast<std::size_t>(last - first), {});
+  for (const PackAccuracy& accuracy : kAccuracies) {
+    waiting_.clear();
+    for (std::uint64_t run = last; run-- > first;)
+      if (verdicts_[static_cast<std::size_t>(run - first)].open) waiting_.push_back(run);
+    run_waiting(accuracy);
+  }
+  return std::move(verdicts_);
+}
+
+void LaneSet::run_waiting(const PackAccuracy& accuracy) {
+  accuracy_ = &accuracy;
+  std::fill_n(step_.input(pack_.whole + 1), kLanes, accuracy.relative);
+  std::fill_n(step_.input(pack_.whole + 2), kLanes, accuracy.absolute);
+  lanes_.clear();
+  lanes_.resize(kLanes);
+  while (true) {
+    check_stop();
+    if (const std::uint32_t stepping = in(Phase::step)) {
+      step_all(stepping);
+      continue;
+    }
+    refill();
+    if (const std::uint32_t jumping = in(Phase::jump)) {
+      jump_all(jumping);
+    } else if (const std::uint32_t looking = in(Phase::look)) {
+      look_all(looking);
+    } else {
+      break;
+    }
+  }
+}
+
+std::size_t LaneSet::rows_of(std::size_t result) const {
+  switch (result) {
+    case PackSystem::rates:
+      return pack_.rows.size();
+    case PackSystem::claim_values:
+    case PackSystem::claim_rates:
+    case PackSystem::claim_terms:
+    case PackSystem::limits:
+      return pack_.claims.size();
+    case PackSystem::extras: {
+      std::size_t count = 0;
+      for (const PackClaim& claim : pack_.claims) count += claim.branches.size();
+      return count;
+    }
+    default:
+      return pack_.watches.size();
+  }
+}
+
+void LaneSet::find_clock_elements() {
+  since_.resize(pack_.events.size());
+  left_.resize(pack_.events.size());
+  const auto& variables = pack_.system->dynamics.variables;
+  for (std::size_t i = 0; i < variables.size(); ++i) {
+    const auto at = static_cast<std::size_t>(pack_.system->layout.slots[i].offset);
+    if (variables[i].kind == VariableKind::time) times_.push_back(at);
+    if (variables[i].kind == VariableKind::since) since_[variables[i].of].push_back(at);
+    if (variables[i].kind == VariableKind::left) left_[variables[i].of].push_back(at);
+  }
+}
+
+void LaneSet::refill() {
+  for (std::size_t l = 0; l < kLanes; ++l) {
+    if (lanes_[l] || waiting_.empty()) continue;
+    const std::uint64_t run = waiting_.back();
+    waiting_.pop_back();
+    lanes_[l].emplace(pack_, seed_, run);
+    scratch_ = hybrid::draw_start(*pack_.system, *pack_.scenario, seed_, run);
+    for (std::size_t k = 0; k < pack_.system->noise.size(); ++k) lanes_[l]->noise.draw(k, scratch_);
+    for (std::size_t k = 0; k < pack_.whole; ++k)
+      coarse_.at(k, l) = fine_.at(k, l) = scratch_(static_cast<Eigen::Index>(k));
+    lanes_[l]->wanted = kFirstStep * horizon_;
+    fill_clocks(l);
+  }
+}
+
+void LaneSet::leave_open(std::size_t l) {
+  verdicts_[static_cast<std::size_t>(lanes_[l]->run_number - first_)].why = why_;
+  lanes_[l].reset();
+}
+
+void LaneSet::finish(std::size_t l) {
+  PackLane& lane = *lanes_[l];
+  PackVerdict& verdict = verdicts_[static_cast<std::size_t>(lane.run_number - first_)];
+  verdict.open = false;
+  for (ClaimLane& claim : lane.claims) {
+    claim.finish();
+    verdict.open = verdict.open || claim.open();
+    if (claim.open()) verdict.why = Why::claim;
+    verdict.claims.push_back({claim.violated(), claim.looked(), claim.score(), claim.floor()});
+  }
+  verdict.happened = lane.happened;
+  lanes_[l].reset();
+}
+
+void LaneSet::fill_clocks(std::size_t l) {
+  const PackLane& lane = *lanes_[l];
+  for (const std::size_t element : times_) set(element, l, lane.t);
+  for (std::size_t e = 0; e < left_.size(); ++e)
+    for (const std::size_t element : left_[e])
+      set(element, l, std::max(lane.clocks.due(e) - lane.t, 0.0));
+}
+
+void LaneSet::look(const LaneValues& values, LaneLook& seen, std::uint32_t active) {
+  std::copy_n(values.row(0), values.rows() * kLanes, look_.input(0));
+  look_.run(active);
+  seen.faults = look_.faults();
+  for (std::size_t r = 0; r < seen.of.size(); ++r)
+    for (std::size_t k = 0; k < seen.of[r].rows(); ++k)
+      std::copy_n(look_.result(r, k), kLanes, seen.of[r].row(k));
+}
+
+void LaneSet::look_all(std::uint32_t mask) {
+  look(fine_, middle_, mask);
+  look(coarse_, end_, mask);
+  const std::uint32_t faults = middle_.faults | end_.faults;
+  each(mask, [&](std::size_t l) {
+    start_.copy_lane(middle_, l);
+    coarse_start_.copy_lane(end_, l);
+    if (((faults >> l & 1U) != 0 && !open(Why::no_value)) || !settle(l)) leave_open(l);
+  });
+}
+
+}  // namespace gainsmith::packs

@@ -1,0 +1,169 @@
+// The lanes of a pack and what they do: the machinery of pack_runner.h.
+#pragma once
+
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "hybrid/tolerances.h"
+#include "packs/lane_values.h"
+#include "packs/pack_lane.h"
+#include "packs/pack_runner.h"
+#include "packs/tolerances.h"
+
+namespace gainsmith::packs {
+
+class LaneSet {
+ public:
+  explicit LaneSet(const PackSystem& pack);
+  std::vector<PackVerdict> run(std::uint64_t seed, std::uint64_t first, std::uint64_t last);
+
+ private:
+  void run_waiting(const PackAccuracy& accuracy);
+
+  // --- Lanes. ---
+
+  std::size_t rows_of(std::size_t result) const;
+  void find_clock_elements();
+  std::uint32_t in(Phase phase) const {
+    std::uint32_t mask = 0;
+    for (std::size_t l = 0; l < lanes::kLanes; ++l)
+      if (lanes_[l] && lanes_[l]->phase == phase) mask |= 1U << l;
+    return mask;
+  }
+  template <class Visit>
+  static void each(std::uint32_t mask, const Visit& visit) {
+    for (; mask != 0; mask &= mask - 1) visit(static_cast<std::size_t>(std::countr_zero(mask)));
+  }
+  void refill();
+  void leave_open(std::size_t l);
+  /// The lane is left open, for this reason.
+  bool open(Why why) {
+    why_ = why;
+    return false;
+  }
+  void finish(std::size_t l);
+  void set(std::size_t element, std::size_t l, double value) {
+    coarse_.at(element, l) = fine_.at(element, l) = value;
+  }
+  void fill_clocks(std::size_t l);
+
+  // --- Looking at values. ---
+
+  void look(const LaneValues& values, LaneLook& seen, std::uint32_t active);
+  /// How far a watched difference may be from the true one.
+  static double error_of(std::size_t w, std::size_t l, const LaneLook& fine,
+                         const LaneLook& coarse) {
+    return kErrorOfPair * std::abs(fine.at(PackSystem::watch_values, w, l) -
+                                   coarse.at(PackSystem::watch_values, w, l)) +
+           hybrid::kTermRounding * fine.at(PackSystem::watch_terms, w, l);
+  }
+  void look_all(std::uint32_t mask);
+  Reading reading(std::size_t claim, std::size_t l, const LaneLook& fine,
+                  const LaneLook& coarse) const {
+    return {fine.at(PackSystem::claim_values, claim, l),
+            coarse.at(PackSystem::claim_values, claim, l),
+            fine.at(PackSystem::claim_terms, claim, l)};
+  }
+
+  // --- Instants. Each gives false where the run is to be left open. ---
+
+  /// What follows from new values at an instant.
+  bool settle(std::size_t l);
+  static std::int8_t side_of(const Watched& watched, const PackLane& lane) {
+    return static_cast<std::int8_t>(watched.factor * lane.sides[watched.watch]);
+  }
+  bool find_sides(std::size_t l);
+  /// Whether a branch of the flow has changed; none where one is not certain. What is 0 takes the
+  /// branch to which it moves.
+  std::optional<bool> set_branches(std::size_t l);
+  /// To the jump that is due, or into a flow.
+  bool go_on(std::size_t l);
+  /// The first event that is due.
+  bool find_due(std::size_t l);
+  bool begin_flow(std::size_t l);
+  static void forget_root(PackLane& lane) {
+    lane.target = -1;
+    lane.retakes = lane.halvings = 0;
+    lane.forced = 0;
+  }
+  /// Along the flow, to first order.
+  void move(std::size_t l, LaneValues& values, const LaneLook& seen, double time);
+  /// Whether the conditions that hung on unknown sides are as they must be, and flow sets hold.
+  bool still_inside(std::size_t l);
+  bool arrive_at_root(std::size_t l, std::size_t target);
+  bool arrive_at_stop(std::size_t l);
+  bool has_open_branch(const PackLane& lane) const;
+
+  // --- Jumps. ---
+
+  void jump_all(std::uint32_t mask);
+  /// The noise of an event.
+  void draw(std::size_t event, std::size_t l);
+  void take_noise(std::size_t noise, std::size_t l);
+  /// The lanes in which an event may jump; in the others its occurrence is spent.
+  std::uint32_t allowed(std::size_t event, std::uint32_t mask);
+  void spend(std::size_t event, std::size_t l);
+  void keep_before(std::size_t l) {
+    for (std::size_t w = 0; w < pack_.watches.size(); ++w)
+      lanes_[l]->before[w] = start_.at(PackSystem::watch_values, w, l);
+  }
+  void jump(std::size_t event, std::uint32_t mask, lanes::LaneMachine& machine);
+
+  // --- Steps. ---
+
+  void step(const LaneValues& from, double share, LaneValues& to, std::uint32_t active,
+            std::uint32_t& faults);
+  void step_all(std::uint32_t mask);
+  static double choose_length(PackLane& lane);
+  bool shorten(PackLane& lane, double factor);
+  bool judge_step(std::size_t l, bool fault);
+  Sample watch_sample(const LaneLook& seen, std::size_t w, std::size_t l) const {
+    return {seen.at(PackSystem::watch_values, w, l), seen.at(PackSystem::watch_rates, w, l)};
+  }
+  StepPolynomial along_watch(std::size_t w, std::size_t l) const {
+    return {watch_sample(start_, w, l), watch_sample(middle_, w, l), watch_sample(end_, w, l),
+            lanes_[l]->h};
+  }
+  /// The first root on the step of what is relevant. False: a sign is not certain.
+  bool find_root(std::size_t l, int& target, double& share);
+  bool arrives(const PackLane& lane) const {
+    return (lane.forced == 0 && lane.h == lane.stop - lane.t) ||
+           lane.stop - (lane.t + lane.h) <= hybrid::kOneInstant * lane.stop;
+  }
+  /// Whether a difference comes to 0 just where a step ends anyway, and not before.
+  bool ends_at_root(const PackLane& lane, std::size_t w, const std::array<double, 6>& b,
+                    double error) const;
+  /// From its side to the other, which it may have left a moment ago.
+  static bool crosses_once(const std::array<double, 6>& b, int side);
+  bool accept(std::size_t l);
+  Sample claim_sample(const LaneLook& seen, std::size_t c, std::size_t l) const {
+    return {seen.at(PackSystem::claim_values, c, l), seen.at(PackSystem::claim_rates, c, l)};
+  }
+  /// Whether what a claim branches on may come to 0 on the step, by the parabola through it.
+  bool may_branch(std::size_t c, std::size_t l) const;
+  void find_new_sides(std::size_t l);
+
+  const PackSystem& pack_;
+  double horizon_;
+  lanes::LaneMachine step_, look_;
+  std::vector<lanes::LaneMachine> jumps_;
+  std::vector<std::optional<lanes::LaneMachine>> lost_;
+  LaneValues coarse_, fine_;  ///< now
+  LaneValues coarse_end_, fine_middle_, fine_end_;
+  LaneValues lengths_, errors_;
+  LaneLook start_, coarse_start_;  ///< at the values now
+  LaneLook middle_, end_, coarse_look_;
+  std::vector<bool> is_crossing_;  ///< by watch: of rises, falls, crosses
+  std::vector<std::size_t> times_;
+  std::vector<std::vector<std::size_t>> since_, left_;  ///< by event: elements
+  Eigen::VectorXd scratch_;
+  Why why_ = Why::claim;  ///< of the lane that is left open
+  std::vector<std::optional<PackLane>> lanes_;
+  std::uint64_t seed_ = 0, first_ = 0;
+  std::vector<std::uint64_t> waiting_;  ///< the runs that are to be made, from the last
+  const PackAccuracy* accuracy_ = nullptr;
+  std::vector<PackVerdict> verdicts_;
+};
+
+}  // namespace gainsmith::packs

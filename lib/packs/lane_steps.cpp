@@ -1,0 +1,227 @@
+#include "packs/lane_set.h"
+
+#include <algorithm>
+
+namespace gainsmith::packs {
+
+using lanes::kLanes;
+
+namespace {
+
+/// 0.9 e^(-1/8) for the power of 2 above e, within [0.2, 4]: the same on every machine.
+double step_factor(double error) {
+  if (!(error > 0)) return 4;
+  int exponent = 0;
+  std::frexp(error, &exponent);
+  constexpr double eighths[] = {1,
+                                0.917004043204671232,
+                                0.840896415253714543,
+                                0.771105412703970411,
+                                0.707106781186547524,
+                                0.648419777325504832,
+                                0.594603557501360533,
+                                0.545253866332628830};
+  const int part = ((exponent % 8) + 8) % 8;
+  const double factor = 0.9 * std::ldexp(eighths[part], -(exponent - part) / 8);
+  return std::clamp(factor, 0.2, 4.0);
+}
+
+}  // namespace
+
+void LaneSet::step(const LaneValues& from, double share, LaneValues& to, std::uint32_t active,
+                   std::uint32_t& faults) {
+  std::copy_n(from.row(0), pack_.whole * kLanes, step_.input(0));
+  for (std::size_t l = 0; l < kLanes; ++l) step_.input(pack_.whole)[l] = share * lengths_.at(0, l);
+  step_.run(active);
+  faults |= step_.faults();
+  std::copy_n(from.row(0), pack_.whole * kLanes, to.row(0));
+  for (std::size_t k = 0; k < pack_.rows.size(); ++k)
+    std::copy_n(step_.result(PackSystem::end, k), kLanes,
+                to.row(static_cast<std::size_t>(pack_.rows[k])));
+}
+
+void LaneSet::step_all(std::uint32_t mask) {
+  for (std::size_t l = 0; l < kLanes; ++l) lengths_.at(0, l) = 0;
+  each(mask, [&](std::size_t l) { lengths_.at(0, l) = choose_length(*lanes_[l]); });
+  std::uint32_t faults = 0;
+  step(coarse_, 1, coarse_end_, mask, faults);
+  std::copy_n(step_.result(PackSystem::error, 0), kLanes, errors_.row(0));
+  step(fine_, 0.5, fine_middle_, mask, faults);
+  step(fine_middle_, 0.5, fine_end_, mask, faults);
+  look(fine_middle_, middle_, mask);
+  faults |= middle_.faults;
+  look(fine_end_, end_, mask);
+  faults |= end_.faults;
+  look(coarse_end_, coarse_look_, mask);
+  faults |= coarse_look_.faults;
+  each(mask, [&](std::size_t l) {
+    const bool fault = (faults >> l & 1U) != 0;
+    const bool many = ++lanes_[l]->steps > kMostSteps && !open(Why::steps);
+    if (many || !judge_step(l, fault)) leave_open(l);
+  });
+}
+
+double LaneSet::choose_length(PackLane& lane) {
+  const double rest = lane.stop - lane.t;
+  lane.h = lane.forced > 0          ? lane.forced
+           : lane.wanted >= rest    ? rest
+           : 2 * lane.wanted > rest ? rest / 2
+                                    : lane.wanted;
+  return lane.h;
+}
+
+bool LaneSet::shorten(PackLane& lane, double factor) {
+  forget_root(lane);
+  lane.wanted = lane.h * factor;
+  return lane.wanted > kShortestStep * horizon_ || open(Why::steps);
+}
+
+bool LaneSet::judge_step(std::size_t l, bool fault) {
+  PackLane& lane = *lanes_[l];
+  const double error = errors_.at(0, l);
+  if (fault || !std::isfinite(error)) return shorten(lane, 0.25);
+  if (error > 1) return shorten(lane, std::min(step_factor(error), 0.9));
+  int target = -1;
+  double share = 2;
+  if (!find_root(l, target, share)) {
+    // Two halves may say more.
+    if (lane.target >= 0 || ++lane.halvings > kMostHalvings) return open(Why::sign);
+    lane.forced = lane.h / 2;
+    return true;
+  }
+  if (target >= 0) {
+    lane.target = target;
+    lane.retakes = 1;
+    lane.forced = share * lane.h;
+    return lane.forced > 0 || open(Why::sign);
+  }
+  if (lane.target >= 0) {
+    const auto w = static_cast<std::size_t>(lane.target);
+    const double value = end_.at(PackSystem::watch_values, w, l);
+    const double rate = end_.at(PackSystem::watch_rates, w, l);
+    if (!(rate * lane.sides[w] < 0)) return open(Why::sign);
+    const double rest = -value / rate;
+    if (std::abs(rest) > kAtRoot * horizon_ && lane.retakes < 4) {
+      ++lane.retakes;
+      lane.forced = lane.h + rest;
+      return lane.forced > 0 || open(Why::sign);
+    }
+  }
+  return accept(l);
+}
+
+bool LaneSet::find_root(std::size_t l, int& target, double& share) {
+  PackLane& lane = *lanes_[l];
+  std::fill(lane.zero.begin(), lane.zero.end(), 0);
+  for (std::size_t w = 0; w < pack_.watches.size(); ++w) {
+    if (lane.relevant[w] == 0 || !pack_.watches[w].moves) continue;
+    const StepPolynomial along = along_watch(w, l);
+    const double error =
+        std::max(error_of(w, l, start_, coarse_start_), error_of(w, l, end_, coarse_look_)) +
+        along.error();
+    const auto& b = along.coefficients();
+    const int known = lane.sides[w];
+    const int side = known != 0 ? known : sign_of(b[5]);
+    bool clear = true;
+    for (std::size_t k = 1; k < b.size(); ++k)
+      clear = clear && side * b[k] > (known != 0 || k == 5 ? error : 0);
+    if (clear || static_cast<int>(w) == lane.target) continue;
+    if (known != 0 && ends_at_root(lane, w, b, error)) {
+      lane.zero[w] = error;
+      continue;
+    }
+    const bool crosses = known != 0 && side * b[5] < -error && crosses_once(b, side);
+    if (!crosses || lane.target >= 0) return false;
+    const double at = along.root(known);
+    const double apart = std::abs(at - share) * lane.h;
+    if (share <= 1 && apart <= hybrid::kHardly * horizon_) return open(Why::order);
+    if (at < share) {
+      share = at;
+      target = static_cast<int>(w);
+    }
+  }
+  return true;
+}
+
+bool LaneSet::ends_at_root(const PackLane& lane, std::size_t w, const std::array<double, 6>& b,
+                           double error) const {
+  if (!arrives(lane)) return false;
+  for (std::size_t k = 1; k + 1 < b.size(); ++k)
+    if (lane.sides[w] * b[k] <= error) return false;
+  return std::abs(b.back()) <= error;
+}
+
+bool LaneSet::crosses_once(const std::array<double, 6>& b, int side) {
+  if (side * b[0] <= 0 && side * b[1] <= 0) return false;
+  int changes = 0;
+  for (std::size_t k = 1; k < b.size(); ++k) {
+    const bool before = k == 1 || side * b[k - 1] > 0;
+    changes += before != (side * b[k] > 0) ? 1 : 0;
+  }
+  return changes == 1;
+}
+
+bool LaneSet::accept(std::size_t l) {
+  PackLane& lane = *lanes_[l];
+  const bool at_stop = arrives(lane);
+  const double now = at_stop ? lane.stop : lane.t + lane.h;
+  const std::vector<ClaimLane> claims_before = lane.claims;
+  for (std::size_t c = 0; c < lane.claims.size(); ++c) {
+    lane.claims[c].along(now, lane.h, claim_sample(start_, c, l), claim_sample(middle_, c, l),
+                         claim_sample(end_, c, l), reading(c, l, end_, coarse_look_),
+                         may_branch(c, l), lane.halvings > 0 || 2 * lane.h < lane.wanted);
+    if (!lane.claims[c].open()) continue;
+    // Two halves may say more.
+    if (lane.target >= 0 || ++lane.halvings > kMostHalvings) return open(Why::claim);
+    lane.claims = claims_before;
+    lane.forced = lane.h / 2;
+    return true;
+  }
+  for (const int row : pack_.rows)
+    if (!(std::abs(fine_end_.at(static_cast<std::size_t>(row), l)) <= hybrid::kLargestState))
+      return open(Why::range);
+  find_new_sides(l);
+  coarse_.copy_lane(coarse_end_, l);
+  fine_.copy_lane(fine_end_, l);
+  start_.copy_lane(end_, l);
+  coarse_start_.copy_lane(coarse_look_, l);
+  const double wanted = lane.h * step_factor(errors_.at(0, l));
+  const bool shortened = lane.forced > 0 || lane.h < lane.wanted;
+  lane.wanted = shortened ? std::max(lane.wanted, wanted) : wanted;
+  lane.t = now;
+  fill_clocks(l);
+  const int target = lane.target;
+  forget_root(lane);
+  if (!still_inside(l)) return false;
+  if (target >= 0) return arrive_at_root(l, static_cast<std::size_t>(target));
+  return !at_stop || arrive_at_stop(l);
+}
+
+bool LaneSet::may_branch(std::size_t c, std::size_t l) const {
+  return std::any_of(
+      pack_.claims[c].branches.begin(), pack_.claims[c].branches.end(), [&](std::size_t k) {
+        const double first = start_.at(PackSystem::extras, k, l);
+        const double last = end_.at(PackSystem::extras, k, l);
+        const double middle = 2 * middle_.at(PackSystem::extras, k, l) - (first + last) / 2;
+        return !(first > 0 && middle > 0 && last > 0) && !(first < 0 && middle < 0 && last < 0);
+      });
+}
+
+void LaneSet::find_new_sides(std::size_t l) {
+  PackLane& lane = *lanes_[l];
+  for (std::size_t w = 0; w < pack_.watches.size(); ++w) {
+    if (!pack_.watches[w].moves) continue;
+    const double value = std::abs(end_.at(PackSystem::watch_values, w, l));
+    const double error = error_of(w, l, end_, coarse_look_);
+    if (static_cast<int>(w) == lane.target) {
+      lane.sides[w] = static_cast<std::int8_t>(-lane.sides[w]);
+      lane.zero[w] = std::max(error, 2 * value);
+    } else if (lane.zero[w] > 0) {
+      lane.sides[w] = 0;
+    } else if (lane.relevant[w] == 0 || lane.sides[w] == 0) {
+      lane.sides[w] = value > error ? sign_of(end_.at(PackSystem::watch_values, w, l)) : 0;
+    }
+  }
+}
+
+}  // namespace gainsmith::packs

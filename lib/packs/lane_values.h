@@ -1,0 +1,48 @@
+// Values of all lanes: row k is the kLanes numbers of value k, and what `look` says of them.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "packs/pack_system.h"
+
+namespace gainsmith::packs {
+
+class LaneValues {
+ public:
+  explicit LaneValues(std::size_t rows = 0) : rows_(rows), data_(rows * lanes::kLanes, 0) {}
+
+  double* row(std::size_t k) { return data_.data() + k * lanes::kLanes; }
+  const double* row(std::size_t k) const { return data_.data() + k * lanes::kLanes; }
+  double& at(std::size_t k, std::size_t lane) { return row(k)[lane]; }
+  double at(std::size_t k, std::size_t lane) const { return row(k)[lane]; }
+  std::size_t rows() const { return rows_; }
+  void copy_lane(const LaneValues& from, std::size_t lane) {
+    for (std::size_t k = 0; k < rows_; ++k) at(k, lane) = from.at(k, lane);
+  }
+
+ private:
+  std::size_t rows_;
+  std::vector<double> data_;
+};
+
+inline std::int8_t sign_of(double x) {
+  return static_cast<std::int8_t>(x > 0 ? 1 : x < 0 ? -1 : 0);
+}
+
+/// The results of `look`, by PackSystem::LookResult.
+struct LaneLook {
+  std::array<LaneValues, PackSystem::extras + 1> of;
+  std::uint32_t faults = 0;
+
+  double at(PackSystem::LookResult result, std::size_t k, std::size_t lane) const {
+    return of[result].at(k, lane);
+  }
+  void copy_lane(const LaneLook& from, std::size_t lane) {
+    for (std::size_t r = 0; r < of.size(); ++r) of[r].copy_lane(from.of[r], lane);
+  }
+};
+
+}  // namespace gainsmith::packs

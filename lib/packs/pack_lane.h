@@ -1,0 +1,66 @@
+// One lane of a pack: where its run is.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "packs/claim_lane.h"
+#include "packs/pack_watch.h"
+
+namespace gainsmith::packs {
+
+enum class Phase : std::uint8_t {
+  idle,  ///< no run
+  look,  ///< at an instant, its values have changed: what follows is to be found out
+  step,  ///< flows
+  jump   ///< an event is due
+};
+
+struct PackLane {
+  PackLane(const PackSystem& pack, std::uint64_t seed, std::uint64_t run)
+      : run_number(run),
+        clocks(*pack.system, *pack.scenario, seed, run),
+        noise(*pack.system, seed, run),
+        sides(pack.watches.size(), 0),
+        before(pack.watches.size(), 0),
+        zero(pack.watches.size(), 0),
+        relevant(pack.watches.size(), 0),
+        signs(pack.events.size(), 0),
+        crossed(pack.events.size(), 0),
+        spent(pack.events.size(), 0),
+        happened(pack.events.size(), 0),
+        claims(pack.claims.size()) {}
+
+  std::uint64_t run_number = 0;
+  Phase phase = Phase::look;
+  bool fresh = true;  ///< at the start, of which no claim knows yet
+  double t = 0;
+  double stop = 0;  ///< to which the flow is stepped
+  double flow_start = 0;
+  double h = 0;       ///< of this step
+  double wanted = 0;  ///< the step that the control of errors wants
+  double forced = 0;  ///< a shorter one, to a root or to see more; 0: none
+  int halvings = 0;
+  int target = -1;  ///< the watch whose root a step goes to
+  int retakes = 0;
+  std::int64_t steps = 0;
+  int chain = 0;        ///< jumps at this instant
+  int short_flows = 0;  ///< in a row
+  hybrid::EventClocks clocks;
+  hybrid::NoiseDraws noise;
+  Sides sides;
+  std::vector<double> before;  ///< by watch: its value before the last change
+  std::vector<double> zero;  ///< by watch: within which it is 0 where a flow has ended at its root
+  std::vector<char> relevant;      ///< by watch, in this flow
+  bool undetermined = false;       ///< a condition hangs on a side that the next step tells
+  std::vector<std::int8_t> signs;  ///< by event with a crossing: the last sign that was not 0
+  std::vector<char> crossed, spent, happened;  ///< by event
+  std::optional<std::size_t> due;              ///< the event that jumps
+  std::optional<std::size_t> jumped;           ///< that has jumped, of which no claim knows yet
+  bool moved = false;                          ///< along the flows to the root, by these times
+  double coarse_shift = 0, fine_shift = 0;
+  std::vector<ClaimLane> claims;
+};
+
+}  // namespace gainsmith::packs

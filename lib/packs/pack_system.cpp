@@ -1,0 +1,341 @@
+#include "packs/pack_system.h"
+
+#include <algorithm>
+
+#include "expr/branches.h"
+#include "hybrid/breaks.h"
+#include "numbers/scalar_rules.h"
+#include "packs/dormand_prince.h"
+#include "packs/pack_graph.h"
+#include "packs/tolerances.h"
+
+namespace gainsmith::packs {
+
+namespace {
+
+using lanes::LaneCode;
+using model::Dynamics;
+using numbers::ScalarGraph;
+using numbers::ScalarOp;
+
+// --- What packs run. ---
+
+bool runs_jumps(const Dynamics& dynamics) {
+  return std::none_of(dynamics.reactions.begin(), dynamics.reactions.end(), [](const auto& one) {
+    return std::any_of(one.passes.begin(), one.passes.end(),
+                       [](const Dynamics::Pass& pass) { return pass.repeats; });
+  });
+}
+
+bool runs_claims(const std::vector<claims::Claim>& claims) {
+  return std::none_of(claims.begin(), claims.end(), [](const claims::Claim& one) {
+    return one.stated() && (one.kind == model::ClaimKind::cost || one.flow_cost || one.jump_cost ||
+                            one.value.shape().size() != 1);
+  });
+}
+
+// --- A step. ---
+
+class StepCode {
+ public:
+  explicit StepCode(const PackSystem& pack) : pack_(pack), texts_(*pack.system) {}
+
+  LaneCode make(double relative, const Eigen::VectorXd& absolute) {
+    ScalarGraph& graph = texts_.graph();
+    const Nodes x = texts_.inputs();
+    h_ = texts_.beside(0);
+    for (std::size_t stage = 0; stage < kStages; ++stage) {
+      Nodes at = stage == 0 ? x : moved(x, kStageWeights[stage - 1]);
+      k_.push_back(texts_.rates(at));
+    }
+    const Nodes end = moved(x, kStageWeights.back());
+    Nodes out;
+    for (const int row : pack_.rows) out.push_back(end[index(row)]);
+    const int relative_factor = graph.multiply(texts_.beside(1), graph.constant(relative));
+    const int absolute_factor = texts_.beside(2);
+    int sum5 = graph.constant(0);
+    int sum3 = graph.constant(0);
+    int count = 0;
+    for (const int row : pack_.rows) {
+      if (!is_integrated(row)) continue;
+      ++count;
+      const int size = graph.apply(ScalarOp::maximum, graph.apply(ScalarOp::abs, x[index(row)]),
+                                   graph.apply(ScalarOp::abs, end[index(row)]));
+      const int allowed = graph.add(graph.multiply(absolute_factor, graph.constant(absolute(row))),
+                                    graph.multiply(relative_factor, size));
+      const int part5 = graph.divide(weighted(row, kErrorOfOrder5), allowed);
+      const int part3 = graph.divide(weighted(row, error_of_order_3()), allowed);
+      sum5 = graph.add(sum5, graph.multiply(part5, part5));
+      sum3 = graph.add(sum3, graph.multiply(part3, part3));
+    }
+    return {graph, {out, {error(sum5, sum3, count)}}, pack_.whole + 3};
+  }
+
+ private:
+  bool is_integrated(int row) const {
+    const auto& variables = pack_.system->dynamics.variables;
+    for (std::size_t i = 0; i < variables.size(); ++i) {
+      const hybrid::Slot& slot = pack_.system->layout.slots[i];
+      if (row < slot.offset || row >= slot.offset + slot.shape.size()) continue;
+      return pack_.system->moves[i] == hybrid::Moves::flows;
+    }
+    return false;
+  }
+
+  static StageWeights error_of_order_3() {
+    StageWeights weights = kStageWeights.back();
+    weights[0] -= kOrder3Of1;
+    weights[8] -= kOrder3Of9;
+    weights[11] -= kOrder3Of12;
+    return weights;
+  }
+
+  int weighted(int row, const StageWeights& weights) {
+    ScalarGraph& graph = texts_.graph();
+    int sum = graph.constant(0);
+    for (std::size_t j = 0; j < k_.size(); ++j)
+      if (weights[j] != 0)
+        sum = graph.add(graph.multiply(graph.constant(weights[j]), k_[j][index(row)]), sum);
+    return sum;
+  }
+
+  Nodes moved(const Nodes& x, const StageWeights& weights) {
+    ScalarGraph& graph = texts_.graph();
+    Nodes at = x;
+    for (const int row : pack_.rows)
+      at[index(row)] = graph.add(graph.multiply(h_, weighted(row, weights)), x[index(row)]);
+    texts_.complete(at);
+    return at;
+  }
+
+  int error(int sum5, int sum3, int count) {
+    ScalarGraph& graph = texts_.graph();
+    if (count == 0) return graph.constant(0);
+    constexpr double tiny = 1e-200;
+    const int both = graph.add(sum5, graph.multiply(graph.constant(0.01), sum3));
+    const int scale = graph.apply(
+        ScalarOp::sqrt, graph.multiply(graph.constant(count),
+                                       graph.apply(ScalarOp::maximum, both, graph.constant(tiny))));
+    return graph.divide(graph.multiply(h_, sum5), scale);
+  }
+
+  const PackSystem& pack_;
+  PackGraph texts_;
+  int h_ = 0;
+  std::vector<Nodes> k_;
+};
+
+// --- Claims and what is watched. ---
+
+class LookCode {
+ public:
+  explicit LookCode(PackSystem& pack) : pack_(pack), texts_(*pack.system) {
+    x_ = texts_.inputs();
+    rates_ = texts_.rates(x_);
+    for (const int row : pack.rows) results_[PackSystem::rates].push_back(rates_[index(row)]);
+  }
+
+  void add(const claims::Claim& claim) {
+    PackClaim& made = pack_.claims.emplace_back();
+    made.kind = claim.kind;
+    made.after = claim.after;
+    made.over = claim.over;
+    made.tolerance = claim.tolerance;
+    const numbers::TracedMatrix value = texts_.moving(claim.value, x_, rates_);
+    push(PackSystem::claim_values, value.value[0]);
+    push(PackSystem::claim_rates, value.slopes[0][0]);
+    push(PackSystem::claim_terms, texts_.value(hybrid::absolute_terms(claim.value), x_).value[0]);
+    const auto& limit = claim.bound ? claim.bound : claim.factor;
+    push(PackSystem::limits,
+         limit ? texts_.value(*limit, x_).value[0] : texts_.graph().constant(0));
+    const auto moves = [&](const std::string& name) { return pack_.system->is_moving(name); };
+    for (const expr::Branch& branch : expr::branches_of(claim.value, moves))
+      for (const int node : texts_.value(branch.difference, x_).value) {
+        made.branches.push_back(results_[PackSystem::extras].size());
+        push(PackSystem::extras, node);
+      }
+  }
+
+  /// False: a comparison that packs do not decide.
+  bool add(const expr::Condition& condition, WatchedCondition& made) {
+    made.kind = condition.kind;
+    for (const expr::Condition& part : condition.parts)
+      if (!add(part, made.parts.emplace_back())) return false;
+    if (!condition.is_comparison()) return true;
+    made.elements = watch(condition.difference);
+    return condition.kind != expr::Condition::Kind::zero ||
+           std::none_of(made.elements.begin(), made.elements.end(),
+                        [&](const Watched& one) { return pack_.watches[one.watch].moves; });
+  }
+
+  /// Watches all elements; what is watched already, or its opposite, is not watched again.
+  std::vector<Watched> watch(const expr::Program& difference) {
+    const numbers::TracedMatrix value = texts_.moving(difference, x_, rates_);
+    const Nodes terms = texts_.value(hybrid::absolute_terms(difference), x_).value;
+    const bool moves =
+        std::any_of(difference.inputs.begin(), difference.inputs.end(),
+                    [&](const expr::Input& one) { return pack_.system->is_moving(one.name); });
+    std::vector<Watched> made;
+    for (std::size_t e = 0; e < value.value.size(); ++e) {
+      const int node = value.value[e];
+      if (const auto same = known(node)) {
+        made.push_back({*same, 1});
+        continue;
+      }
+      if (const auto opposite = known(opposite_of(node))) {
+        made.push_back({*opposite, -1});
+        continue;
+      }
+      made.push_back({pack_.watches.size(), 1});
+      push(PackSystem::watch_values, node);
+      push(PackSystem::watch_rates, value.slopes[0][e]);
+      push(PackSystem::watch_terms, terms[e]);
+      pack_.watches.push_back({moves, {}});
+    }
+    return made;
+  }
+
+  LaneCode make() { return {texts_.graph(), results_, pack_.whole}; }
+
+ private:
+  std::optional<std::size_t> known(int node) const {
+    const auto& all = results_[PackSystem::watch_values];
+    const auto found = std::find(all.begin(), all.end(), node);
+    if (found == all.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - all.begin());
+  }
+
+  int opposite_of(int node) {
+    const ScalarGraph::Node one = texts_.graph().nodes()[index(node)];
+    return one.op == ScalarOp::subtract ? texts_.graph().subtract(one.b, one.a)
+                                        : texts_.graph().negate(node);
+  }
+
+  void push(PackSystem::LookResult result, int node) { results_[result].push_back(node); }
+
+  PackSystem& pack_;
+  PackGraph texts_;
+  Nodes x_, rates_;
+  std::vector<std::vector<int>> results_{PackSystem::extras + 1};
+};
+
+bool add_event(const Dynamics::Event& event, LookCode& look, PackSystem& pack) {
+  PackEvent& made = pack.events.emplace_back();
+  if (event.condition && !look.add(*event.condition, made.when.emplace())) return false;
+  if (event.only_if && !look.add(*event.only_if, made.only_if.emplace())) return false;
+  if (event.crossing) made.crossing = look.watch(event.crossing->program).front();
+  return true;
+}
+
+/// A kink is continuous: the control of steps sees to it.
+void add_switches(LookCode& look, PackSystem& pack) {
+  for (const hybrid::Switch& one : pack.system->switches) {
+    if (one.kind == hybrid::Switch::Kind::kink) continue;
+    const auto& slot = pack.system->layout.slots[*pack.system->slot(one.input)];
+    auto element = static_cast<std::size_t>(slot.offset);
+    for (const Watched& watched : look.watch(one.difference))
+      pack.watches[watched.watch].branches.push_back(
+          {element++, watched.factor, one.kind == hybrid::Switch::Kind::sign, one.strict});
+  }
+}
+
+// --- Jumps. ---
+
+/// All values after the maps, then what must be 0: the parts of modes that are no whole numbers.
+LaneCode jump_code(const PackSystem& pack, std::size_t event, bool lost) {
+  const Dynamics& dynamics = pack.system->dynamics;
+  PackGraph texts(*pack.system);
+  ScalarGraph& graph = texts.graph();
+  const Nodes before = texts.inputs();
+  Nodes after = before;
+  Nodes parts;
+  const auto offset = [&](std::size_t variable) {
+    return static_cast<std::size_t>(pack.system->layout.slots[variable].offset);
+  };
+  for (const Dynamics::Reaction& reaction : dynamics.reactions) {
+    if (reaction.event != event) continue;
+    if (lost && dynamics.components[reaction.component].observer) continue;
+    Nodes own = before;
+    for (const Dynamics::Pass& pass : reaction.passes) {
+      std::vector<Nodes> results;
+      for (const Dynamics::Assignment& one : pass.map)
+        results.push_back(texts.value(one.value.program, own).value);
+      for (std::size_t k = 0; k < results.size(); ++k) {
+        const Dynamics::Variable& variable = dynamics.variables[pass.map[k].variable];
+        Nodes& value = results[k];
+        if (variable.kind == Dynamics::VariableKind::mode)
+          parts.push_back(graph.subtract(value[0], graph.apply(ScalarOp::floor, value[0])));
+        if (variable.structure == model::Structure::symmetric) {
+          const auto rows = index(variable.shape.rows);
+          const Nodes full = value;
+          for (std::size_t e = 0; e < full.size(); ++e) {
+            const int mirror = full[(e % rows) * rows + e / rows];
+            if (mirror != full[e])
+              value[e] = graph.multiply(graph.constant(0.5), graph.add(full[e], mirror));
+          }
+        }
+        std::copy(value.begin(), value.end(),
+                  own.begin() + static_cast<std::ptrdiff_t>(offset(pass.map[k].variable)));
+      }
+    }
+    for (const Dynamics::Pass& pass : reaction.passes)
+      for (const Dynamics::Assignment& one : pass.map) {
+        const std::size_t first = offset(one.variable);
+        const auto size = index(dynamics.variables[one.variable].shape.size());
+        std::copy_n(own.begin() + static_cast<std::ptrdiff_t>(first), size,
+                    after.begin() + static_cast<std::ptrdiff_t>(first));
+      }
+  }
+  for (std::size_t i = 0; i < dynamics.variables.size(); ++i) {
+    const Dynamics::Variable& variable = dynamics.variables[i];
+    using Kind = Dynamics::VariableKind;
+    int& node = after[offset(i)];
+    if (variable.kind == Kind::jumps || (variable.kind == Kind::count && variable.of == event))
+      node = graph.add(before[offset(i)], graph.constant(1));
+    if (variable.kind == Kind::passes && variable.of == event) node = graph.constant(0);
+  }
+  return {graph, {after, parts}, pack.whole};
+}
+
+}  // namespace
+
+std::unique_ptr<const PackSystem> make_pack_system(const hybrid::System& system,
+                                                   const hybrid::Scenario& scenario,
+                                                   const std::vector<claims::Claim>& claims,
+                                                   double relative,
+                                                   const Eigen::VectorXd& absolute) {
+  if (!system.dynamics.measured.empty() || !runs_jumps(system.dynamics) || !runs_claims(claims))
+    return nullptr;
+  auto pack = std::make_unique<PackSystem>();
+  pack->system = &system;
+  pack->scenario = &scenario;
+  pack->accuracy = relative;
+  pack->whole = static_cast<std::size_t>(system.whole);
+  {
+    const PackGraph texts(system);
+    pack->rows = texts.rows();
+    for (int k = 0; k < static_cast<int>(system.whole); ++k) pack->kept.push_back(texts.kept(k));
+  }
+  try {
+    pack->step.emplace(StepCode(*pack).make(relative, absolute));
+    LookCode look(*pack);
+    for (const claims::Claim& claim : claims)
+      if (claim.stated()) look.add(claim);
+    for (const Dynamics::Event& event : system.dynamics.events)
+      if (!add_event(event, look, *pack)) return nullptr;
+    for (const Dynamics::Component& component : system.dynamics.components)
+      for (const auto& set : component.flow_sets)
+        if (!look.add(set.where, pack->flow_sets.emplace_back())) return nullptr;
+    add_switches(look, *pack);
+    pack->look.emplace(look.make());
+  } catch (const numbers::NoFormula&) {
+    return nullptr;
+  }
+  for (std::size_t e = 0; e < pack->events.size(); ++e) {
+    pack->events[e].jump.emplace(jump_code(*pack, e, false));
+    if (system.dynamics.events[e].lost > 0) pack->events[e].lost.emplace(jump_code(*pack, e, true));
+  }
+  return pack;
+}
+
+}  // namespace gainsmith::packs

@@ -1,0 +1,110 @@
+// What the packs of a campaign run: a System and its claims as code over lanes, made once.
+//
+//   step    values, h, the factors of a PackAccuracy -> the values that move after a step of length h by the method of order 8 of
+//           Dormand and Prince, and its error as a part of what is allowed
+//   look    values -> rates, claims with their rates, and what is watched: the differences of
+//           conditions, of crossings and of switches, with their rates
+//   jump    of each event: values -> values after its maps
+//
+// What packs do not run: loops of jumps, measured data, costs along a run, values that have no
+// formula for their rates. Such campaigns are left to the careful run.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "claims/claims.h"
+#include "hybrid/scenario.h"
+#include "hybrid/system.h"
+#include "lanes/machine.h"
+
+namespace gainsmith::packs {
+
+/// Of the coarser of both runs: times the accuracy of the careful run.
+struct PackAccuracy {
+  double relative = 1;
+  double absolute = 1;
+};
+
+/// A difference whose sign matters, to conditions, crossings and branches of the flow.
+struct Watch {
+  /// An element of the values that holds a branch of the flow.
+  struct Branch {
+    std::size_t element = 0;
+    int factor = 1;      ///< the branch is of this times the difference
+    bool sign = false;   ///< it is sign(D), otherwise that of `where`
+    bool strict = true;  ///< of `where`: D > 0, otherwise D >= 0
+  };
+  bool moves = true;  ///< otherwise it is the same along a flow, and exact
+  std::vector<Branch> branches;
+};
+
+/// A watch, or what is opposite to it.
+struct Watched {
+  std::size_t watch = 0;
+  int factor = 1;  ///< -1: opposite
+};
+
+/// A condition over watches.
+struct WatchedCondition {
+  expr::Condition::Kind kind = expr::Condition::Kind::all;
+  std::vector<Watched> elements;  ///< of a comparison
+  std::vector<WatchedCondition> parts;
+};
+
+struct PackEvent {
+  std::optional<WatchedCondition> when, only_if;
+  std::optional<Watched> crossing;
+  std::optional<lanes::LaneCode> jump, lost;  ///< lost: of the plant alone
+};
+
+struct PackClaim {
+  model::ClaimKind kind = model::ClaimKind::nonincreasing;
+  double after = 0;
+  std::optional<std::size_t> over;
+  double tolerance = 0;
+  std::vector<std::size_t> branches;  ///< extras: what its value branches on
+};
+
+struct PackSystem {
+  const hybrid::System* system = nullptr;
+  const hybrid::Scenario* scenario = nullptr;
+  double accuracy = 0;    ///< relative, of the careful run
+  std::size_t whole = 0;  ///< values
+  std::vector<int> rows;  ///< that move
+  std::vector<int> kept;  ///< of each value: the one that it is kept in
+  std::vector<PackEvent> events;
+  std::vector<WatchedCondition> flow_sets;
+  std::vector<Watch> watches;
+  std::vector<PackClaim> claims;
+  std::optional<lanes::LaneCode> step, look;
+
+  /// Results of `step`.
+  enum StepResult : std::size_t { end, error };
+  /// Results of `look`. terms: the sums of the absolute values of the terms of a value; limits: the
+  /// bound or the factor of each claim; extras: the differences that claims branch on.
+  enum LookResult : std::size_t {
+    rates,
+    claim_values,
+    claim_rates,
+    claim_terms,
+    limits,
+    watch_values,
+    watch_rates,
+    watch_terms,
+    extras
+  };
+};
+
+/// `relative`, `absolute`: to which the careful run of a campaign integrates, the latter of each
+/// element. nullptr for what packs do not run. The system, the scenario and the
+/// claims must outlive it.
+std::unique_ptr<const PackSystem> make_pack_system(const hybrid::System& system,
+                                                   const hybrid::Scenario& scenario,
+                                                   const std::vector<claims::Claim>& claims,
+                                                   double relative,
+                                                   const Eigen::VectorXd& absolute);
+
+}  // namespace gainsmith::packs

@@ -1,0 +1,80 @@
+#include "packs/step_polynomial.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gainsmith::packs {
+
+namespace {
+
+using Coefficients = std::array<double, 6>;
+
+/// On its two halves.
+void split(const Coefficients& b, Coefficients& left, Coefficients& right) {
+  left = right = b;
+  for (std::size_t level = 1; level < b.size(); ++level) {
+    for (std::size_t k = b.size() - 1; k >= level; --k) left[k] = (left[k] + left[k - 1]) / 2;
+    for (std::size_t k = 0; k < b.size() - level; ++k) right[k] = (right[k] + right[k + 1]) / 2;
+  }
+}
+
+/// The largest coefficient once halves, and halves of halves, have no larger one inside than at
+/// their ends.
+double highest_of(const Coefficients& b, int depth) {
+  const double largest = *std::max_element(b.begin(), b.end());
+  if (depth == 0 || largest <= std::max(b.front(), b.back())) return largest;
+  Coefficients left, right;
+  split(b, left, right);
+  return std::max(highest_of(left, depth - 1), highest_of(right, depth - 1));
+}
+
+/// The sum of all rises, of the coefficients of parts that are so short.
+double rise_of(const Coefficients& b, int depth) {
+  double rise = 0;
+  for (std::size_t k = 1; k < b.size(); ++k) rise += std::max(b[k] - b[k - 1], 0.0);
+  if (depth == 0 || rise == 0) return rise;
+  Coefficients left, right;
+  split(b, left, right);
+  return rise_of(left, depth - 1) + rise_of(right, depth - 1);
+}
+
+}  // namespace
+
+StepPolynomial::StepPolynomial(Sample start, Sample middle, Sample end, double length) {
+  b_[0] = start.value;
+  b_[1] = start.value + length * start.rate / 5;
+  b_[4] = end.value - length * end.rate / 5;
+  b_[5] = end.value;
+  const double sum = (32 * middle.value - b_[0] - 5 * b_[1] - 5 * b_[4] - b_[5]) / 10;
+  const double difference =
+      (3.2 * length * middle.rate + b_[0] + 3 * b_[1] - 3 * b_[4] - b_[5]) / 2;
+  b_[2] = (sum - difference) / 2;
+  b_[3] = (sum + difference) / 2;
+  const double fifth = b_[5] - 5 * b_[4] + 10 * b_[3] - 10 * b_[2] + 5 * b_[1] - b_[0];
+  error_ = 0.15 / 32 * std::abs(fifth);
+}
+
+double StepPolynomial::operator()(double share) const {
+  std::array<double, 6> b = b_;
+  for (std::size_t level = 5; level > 0; --level)
+    for (std::size_t k = 0; k < level; ++k) b[k] += share * (b[k + 1] - b[k]);
+  return b[0];
+}
+
+double StepPolynomial::largest() const { return *std::max_element(b_.begin(), b_.end()); }
+
+double StepPolynomial::highest() const { return highest_of(b_, 10); }
+
+double StepPolynomial::rise() const { return rise_of(b_, 6); }
+
+double StepPolynomial::root(int side) const {
+  double low = 0;
+  double high = 1;
+  for (int k = 0; k < 60; ++k) {
+    const double middle = (low + high) / 2;
+    ((*this)(middle)*side > 0 ? low : high) = middle;
+  }
+  return high;
+}
+
+}  // namespace gainsmith::packs

@@ -1,0 +1,82 @@
+#include "verify/pack_judge.h"
+
+#include <fmt/format.h>
+#include <stdexcept>
+#include <utility>
+
+namespace gainsmith::verify {
+
+using claims::Judgement;
+
+namespace {
+
+RunVerdict verdict_of(const packs::PackVerdict& pack, const packs::PackSystem& system) {
+  RunVerdict verdict;
+  verdict.judgement = pack.violated() ? Judgement::violated : Judgement::held;
+  verdict.happened = pack.happened;
+  for (std::size_t c = 0; c < pack.claims.size(); ++c) {
+    const packs::PackVerdict::Claim& claim = pack.claims[c];
+    claims::Finding finding;
+    finding.judgement = claim.violated ? Judgement::violated : Judgement::held;
+    finding.score = claim.score;
+    finding.floor = claim.floor;
+    finding.looked = claim.looked;
+    finding.estimated = true;
+    finding.tolerance = system.claims[c].tolerance;
+    verdict.findings.push_back(finding);
+  }
+  return verdict;
+}
+
+}  // namespace
+
+void require_agreement(std::uint64_t run, Judgement packs, Judgement careful) {
+  if (packs == careful || packs == Judgement::undecided || careful == Judgement::undecided) return;
+  throw std::logic_error(
+      fmt::format("run {}: {} as one of many runs at once, but {} as a careful run; this is a "
+                  "fault of gainsmith",
+                  run, claims::to_string(packs), claims::to_string(careful)));
+}
+
+std::unique_ptr<const packs::PackSystem> make_packs(const Setup& setup) {
+  if (setup.sampled) return nullptr;
+  const EventSetup& events = setup.judged();
+  const simulate::Accuracy accuracy = events.accuracy(kAccuracyOfMany);
+  const Eigen::VectorXd absolute =
+      accuracy.absolute_of.size() > 0
+          ? accuracy.absolute_of
+          : Eigen::VectorXd(Eigen::VectorXd::Constant(events.system.size, accuracy.absolute));
+  return packs::make_pack_system(events.system, events.scenario, events.claims, accuracy.relative,
+                                 absolute);
+}
+
+PackJudge::PackJudge(const Setup& setup, const packs::PackSystem* packs)
+    : setup_(&setup), system_(packs) {
+  if (packs != nullptr) packs_.emplace(*packs);
+}
+
+void PackJudge::begin(std::uint64_t seed, std::uint64_t first, std::uint64_t last) {
+  seed_ = seed;
+  first_ = first;
+  verdicts_.clear();
+  if (packs_) verdicts_ = packs_->run(seed, first, last);
+}
+
+RunVerdict PackJudge::careful(std::uint64_t seed, std::uint64_t run) {
+  if (!judge_) judge_.emplace(*setup_);
+  return (*judge_)(seed, run);
+}
+
+CampaignVerdictOnRun PackJudge::operator()(std::uint64_t run) {
+  if (!packs_) return {careful(seed_, run), true, {}};
+  const packs::PackVerdict& pack = verdicts_[static_cast<std::size_t>(run - first_)];
+  if (pack.open) return {careful(seed_, run), true, pack.why};
+  RunVerdict verdict = verdict_of(pack, *system_);
+  if (run % kSampled != 0) return {std::move(verdict), false, {}};
+  RunVerdict again = careful(seed_, run);
+  for (std::size_t c = 0; c < again.findings.size(); ++c)
+    require_agreement(run, verdict.findings[c].judgement, again.findings[c].judgement);
+  return {std::move(again), true, {}};
+}
+
+}  // namespace gainsmith::verify

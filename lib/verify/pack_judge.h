@@ -1,0 +1,51 @@
+// The verdicts on the runs of a campaign: by packs where they run them, otherwise, and for what packs
+// leave open, by the careful run. One run in kSampled is always repeated by it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "packs/pack_runner.h"
+#include "verify/judge.h"
+
+namespace gainsmith::verify {
+
+/// A verdict, and whether the careful run has given it.
+struct CampaignVerdictOnRun {
+  RunVerdict verdict;
+  bool careful = true;
+  std::optional<packs::Why> why{};  ///< packs left it open
+};
+
+/// nullptr for runs of a kind that packs do not run, or that have a faster way of their own. The
+/// setup must outlive it.
+std::unique_ptr<const packs::PackSystem> make_packs(const Setup& setup);
+
+class PackJudge {
+ public:
+  /// Without packs all runs are careful. One for each thread; both must outlive it.
+  PackJudge(const Setup& setup, const packs::PackSystem* packs);
+
+  /// Prepares runs first, ..., last - 1.
+  void begin(std::uint64_t seed, std::uint64_t first, std::uint64_t last);
+  /// The verdict on one of them. std::logic_error where packs and the careful run contradict each
+  /// other: that is a fault of the program.
+  CampaignVerdictOnRun operator()(std::uint64_t run);
+  /// By the careful run, which may not contradict what packs said.
+  RunVerdict careful(std::uint64_t seed, std::uint64_t run);
+
+ private:
+  const Setup* setup_;
+  const packs::PackSystem* system_;
+  std::uint64_t seed_ = 0, first_ = 0;
+  std::optional<packs::PackRunner> packs_;
+  std::optional<Judge> judge_;  ///< made when it is asked for
+  std::vector<packs::PackVerdict> verdicts_;
+};
+
+/// std::logic_error where one says held and the other violated.
+void require_agreement(std::uint64_t run, claims::Judgement packs, claims::Judgement careful);
+
+}  // namespace gainsmith::verify

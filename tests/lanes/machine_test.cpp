@@ -1,0 +1,234 @@
+#include "lanes/machine.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "numbers/tape.h"
+
+namespace gainsmith::lanes {
+namespace {
+
+using numbers::ScalarGraph;
+using numbers::ScalarOp;
+
+std::vector<const Variant*> variants() {
+  std::vector<const Variant*> all;
+  for (const char* name : {"v2", "v3", "v4"})
+    if (const Variant* one = find_variant(name)) all.push_back(one);
+  return all;
+}
+
+/// Sums, products, quotients, selections and constants at random; the last nodes are results.
+struct RandomGraph {
+  static constexpr int kInputs = 7;
+  ScalarGraph graph;
+  std::vector<std::vector<int>> results;
+
+  explicit RandomGraph(unsigned seed) {
+    std::mt19937 random(seed);
+    std::vector<int> nodes;
+    for (int k = 0; k < kInputs; ++k) nodes.push_back(graph.input(k));
+    const auto any = [&] { return nodes[random() % nodes.size()]; };
+    for (int k = 0; k < 120; ++k) {
+      switch (random() % 9) {
+        case 0:
+          nodes.push_back(graph.constant(0.25 * static_cast<double>(random() % 17) - 2));
+          break;
+        case 1:
+          nodes.push_back(graph.subtract(any(), any()));
+          break;
+        case 2:
+          nodes.push_back(graph.where(random() % 2 == 0, any(), any(), any()));
+          break;
+        case 3:
+          nodes.push_back(graph.apply(ScalarOp::minimum, any(), any()));
+          break;
+        case 4:
+          nodes.push_back(graph.apply(ScalarOp::abs, any()));
+          break;
+        case 5: {
+          const int size = graph.apply(ScalarOp::abs, any());
+          nodes.push_back(graph.divide(any(), graph.add(graph.constant(1), size)));
+          break;
+        }
+        case 6:
+          nodes.push_back(graph.multiply(any(), graph.constant(0.5)));
+          break;
+        case 7:
+          nodes.push_back(graph.add(graph.multiply(any(), any()), any()));
+          break;
+        default:
+          nodes.push_back(graph.add(any(), any()));
+      }
+      // Products of products grow beyond all numbers.
+      if (k % 10 == 9) {
+        const int size = graph.apply(ScalarOp::abs, nodes.back());
+        nodes.push_back(graph.divide(nodes.back(), graph.add(graph.constant(1), size)));
+      }
+    }
+    for (int k = 0; k < 5; ++k)
+      results.push_back({any(), nodes[nodes.size() - 1 - static_cast<std::size_t>(k)]});
+  }
+};
+
+std::vector<std::vector<double>> run_all(const RandomGraph& one, const LaneCode& code,
+                                         const Variant& variant, unsigned seed) {
+  LaneMachine machine(code, variant);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> number(-2, 2);
+  for (int k = 0; k < RandomGraph::kInputs; ++k)
+    for (std::size_t l = 0; l < kLanes; ++l)
+      machine.input(static_cast<std::size_t>(k))[l] = number(random);
+  machine.run();
+  std::vector<std::vector<double>> values;
+  for (std::size_t r = 0; r < one.results.size(); ++r)
+    for (std::size_t e = 0; e < one.results[r].size(); ++e) {
+      const double* const at = machine.result(r, e);
+      values.emplace_back(at, at + kLanes);
+    }
+  return values;
+}
+
+TEST(LaneMachine, HasTheBitsOfOneRunAtATimeWithoutFusedProducts) {
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    const RandomGraph one(seed);
+    const LaneCode code(one.graph, one.results, RandomGraph::kInputs);
+    const auto lanes = run_all(one, code, *find_variant("v2"), seed);
+    numbers::Tape tape(one.graph, one.results, RandomGraph::kInputs);
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> number(-2, 2);
+    std::vector<std::vector<double>> inputs(RandomGraph::kInputs, std::vector<double>(kLanes));
+    for (auto& input : inputs)
+      for (double& x : input) x = number(random);
+    for (std::size_t l = 0; l < kLanes; ++l) {
+      for (std::size_t k = 0; k < inputs.size(); ++k) tape.inputs()[k] = inputs[k][l];
+      if (!tape.run()) continue;
+      std::size_t at = 0;
+      for (std::size_t r = 0; r < one.results.size(); ++r)
+        for (std::size_t e = 0; e < one.results[r].size(); ++e)
+          EXPECT_EQ(tape(r, e), lanes[at++][l]) << "seed " << seed;
+    }
+  }
+}
+
+TEST(LaneMachine, HasTheSameBitsOnAllMachinesWithFusedProducts) {
+  const Variant* const v3 = find_variant("v3");
+  const Variant* const v4 = find_variant("v4");
+  if (v3 == nullptr || v4 == nullptr) GTEST_SKIP() << "this machine is not x86-64-v4";
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    const RandomGraph one(seed);
+    const LaneCode code(one.graph, one.results, RandomGraph::kInputs);
+    EXPECT_EQ(run_all(one, code, *v3, seed), run_all(one, code, *v4, seed));
+  }
+}
+
+/// Units in the last place between two numbers.
+double places_between(double a, double b) {
+  if (a == b) return 0;
+  if (!std::isfinite(a) || !std::isfinite(b)) return std::isnan(a) && std::isnan(b) ? 0 : 1e300;
+  const double unit = std::max(std::nextafter(std::abs(b), INFINITY) - std::abs(b), 0x1p-1074);
+  return std::abs(a - b) / unit;
+}
+
+struct Function {
+  const char* name;
+  ScalarOp op;
+  double (*exact)(double);
+  std::vector<double> at;
+};
+
+std::vector<double> numbers_between(double low, double high) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> number(low, high);
+  std::vector<double> all(32 * 1000);
+  for (double& one : all) one = number(random);
+  return all;
+}
+
+TEST(LaneMachine, FunctionsAreRightToFourPlaces) {
+  std::vector<double> small = numbers_between(-1, 1);
+  for (double& one : small) one = std::ldexp(one, -static_cast<int>(std::abs(one) * 1e4) % 60);
+  // Next to multiples of pi/2, where the value is what is left of nearly everything.
+  std::vector<double> quarters;
+  for (int k = 1; k <= 3200; ++k) quarters.push_back(k * 1.5707963267948966);
+  const auto with = [](std::vector<double> list, const std::vector<double>& more) {
+    list.insert(list.end(), more.begin(), more.end());
+    while (list.size() % kLanes != 0) list.push_back(0);
+    return list;
+  };
+  const std::vector<double> ends{0.0, -0.0, INFINITY, -INFINITY, NAN, 1e300, -1e300, 5e-324};
+  using Of = double (*)(double);
+  const Of sine = std::sin, cosine = std::cos, exponential = std::exp, tangent = std::tanh;
+  const std::vector<double> angles =
+      with(with(with(numbers_between(-20, 20), quarters), numbers_between(-3e6, 3e6)), ends);
+  const std::vector<Function> functions{
+      {"sin", ScalarOp::sin, sine, with(angles, small)},
+      {"cos", ScalarOp::cos, cosine, with(angles, small)},
+      {"exp", ScalarOp::exp, exponential,
+       with(with(with(numbers_between(-3, 3), numbers_between(-760, 720)), ends), small)},
+      {"tanh", ScalarOp::tanh, tangent,
+       with(with(with(numbers_between(-30, 30), small), numbers_between(-1, 1)), ends)}};
+  for (const Function& one : functions) {
+    ScalarGraph graph;
+    const LaneCode code(graph, {{graph.apply(one.op, graph.input(0))}}, 1);
+    std::vector<std::vector<double>> by_variant;
+    for (const Variant* const variant : variants()) {
+      LaneMachine machine(code, *variant);
+      std::vector<double>& values = by_variant.emplace_back();
+      double worst = 0;
+      for (std::size_t first = 0; first < one.at.size(); first += kLanes) {
+        std::copy_n(one.at.begin() + static_cast<std::ptrdiff_t>(first), kLanes, machine.input(0));
+        machine.run();
+        for (std::size_t l = 0; l < kLanes; ++l) {
+          const double value = machine.result(0, 0)[l];
+          values.push_back(value);
+          const double places = places_between(value, one.exact(one.at[first + l]));
+          EXPECT_LE(places, 4) << one.name << '(' << one.at[first + l] << ") = " << value << " in "
+                               << variant->name;
+          worst = std::max(worst, places);
+        }
+      }
+      EXPECT_LE(worst, 4) << one.name << " in " << variant->name;
+    }
+    if (by_variant.size() < 3) continue;
+    for (std::size_t k = 0; k < one.at.size(); ++k)
+      EXPECT_EQ(std::bit_cast<std::uint64_t>(by_variant[1][k]),
+                std::bit_cast<std::uint64_t>(by_variant[2][k]))
+          << one.name << '(' << one.at[k] << ')';
+  }
+}
+
+TEST(LaneMachine, MarksTheLanesInWhichSomethingHasNoValue) {
+  ScalarGraph graph;
+  const int x = graph.input(0);
+  const int root = graph.apply(ScalarOp::sqrt, x);
+  const int log = graph.apply(ScalarOp::log, x);
+  // A fault counts although no result needs what has none.
+  graph.divide(graph.constant(1), x);
+  const LaneCode code(graph, {{root}, {log}}, 1);
+  for (const Variant* const variant : variants()) {
+    LaneMachine machine(code, *variant);
+    for (std::size_t l = 0; l < kLanes; ++l)
+      machine.input(0)[l] = l == 3 ? 0 : l == 7 ? -1 : static_cast<double>(l) + 0.5;
+    machine.run();
+    EXPECT_EQ(machine.faults(), (1U << 3) | (1U << 7)) << variant->name;
+    EXPECT_EQ(machine.result(0, 0)[5], std::sqrt(5.5));
+    EXPECT_EQ(machine.result(1, 0)[5], std::log(5.5));
+    // What is computed one by one is left out where a lane is not active; that is no fault.
+    machine.run(1U << 5);
+    EXPECT_EQ(machine.faults() & (1U << 5), 0U);
+  }
+}
+
+TEST(LaneMachine, KnowsNoOtherVariants) {
+  EXPECT_EQ(find_variant("v5"), nullptr);
+  EXPECT_NE(find_variant("v2"), nullptr);
+}
+
+}  // namespace
+}  // namespace gainsmith::lanes

@@ -1,0 +1,87 @@
+#include "packs/claim_lane.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace gainsmith::packs {
+namespace {
+
+using model::ClaimKind;
+
+/// A claim over v along steps of one length; both runs differ by `difference`.
+struct Follower {
+  PackClaim claim;
+  PackSystem system;
+  ClaimLane lane;
+  double difference = 1e-9;
+
+  Follower(ClaimKind kind, double limit) {
+    claim.kind = kind;
+    system.accuracy = 1e-8;
+    lane.begin(claim, system, {1, 1}, limit);
+  }
+  Reading reading(double value) const { return {value, value + difference, std::abs(value)}; }
+
+  template <class Value, class Rate>
+  const ClaimLane& along(const Value& value, const Rate& rate, double end, double length) {
+    lane.at(0, {value(0.0), value(0.0), std::abs(value(0.0))}, {});
+    const auto at = [&](double t) { return Sample{value(t), rate(t)}; };
+    for (double t = 0; t < end - length / 2; t += length)
+      lane.along(t + length, length, at(t), at(t + length / 2), at(t + length),
+                 reading(value(t + length)), false, false);
+    lane.finish();
+    return lane;
+  }
+};
+
+const auto kDecay = [](double t) { return std::exp(-t); };
+const auto kDecayRate = [](double t) { return -std::exp(-t); };
+const auto kSine = [](double t) { return std::sin(t); };
+const auto kCosine = [](double t) { return std::cos(t); };
+
+TEST(ClaimLane, ComparesWithABound) {
+  // The largest value, 1, lies within a step.
+  EXPECT_FALSE(Follower(ClaimKind::below, 1.001).along(kSine, kCosine, 3, 0.3).violated());
+  EXPECT_FALSE(Follower(ClaimKind::below, 1.001).along(kSine, kCosine, 3, 0.3).open());
+  EXPECT_TRUE(Follower(ClaimKind::below, 0.999).along(kSine, kCosine, 3, 0.3).violated());
+  EXPECT_TRUE(Follower(ClaimKind::below, 1 + 1e-9).along(kSine, kCosine, 3, 0.3).open());
+  EXPECT_NEAR(Follower(ClaimKind::below, 2).along(kSine, kCosine, 3, 0.3).score(), -0.5, 1e-4);
+  EXPECT_TRUE(Follower(ClaimKind::above, 0.2).along(kSine, kCosine, 3, 0.3).violated());
+  EXPECT_FALSE(Follower(ClaimKind::above, -0.1).along(kSine, kCosine, 3, 0.3).violated());
+}
+
+TEST(ClaimLane, AValueThatNeverRises) {
+  Follower held(ClaimKind::nonincreasing, 0);
+  EXPECT_FALSE(held.along(kDecay, kDecayRate, 5, 0.25).open());
+  EXPECT_FALSE(held.lane.violated());
+  EXPECT_NEAR(held.lane.score(), std::exp(-5) - 1, 1e-9);
+  EXPECT_TRUE(Follower(ClaimKind::nonincreasing, 0).along(kSine, kCosine, 1, 0.25).violated());
+  // It turns within a step, and both ends are lower than the start.
+  const auto turns = [](double t) { return -t + 0.9 * std::sin(1.5 * t); };
+  const auto rate = [](double t) { return -1 + 1.35 * std::cos(1.5 * t); };
+  const ClaimLane& lane = Follower(ClaimKind::nonincreasing, 0).along(turns, rate, 5, 1);
+  EXPECT_TRUE(lane.violated() || lane.open());
+}
+
+TEST(ClaimLane, AValueThatShrinks) {
+  EXPECT_FALSE(Follower(ClaimKind::shrinks, 0.01).along(kDecay, kDecayRate, 5, 0.25).violated());
+  EXPECT_TRUE(Follower(ClaimKind::shrinks, 0.001).along(kDecay, kDecayRate, 5, 0.25).violated());
+  EXPECT_TRUE(Follower(ClaimKind::shrinks, std::exp(-5)).along(kDecay, kDecayRate, 5, 0.25).open());
+}
+
+TEST(ClaimLane, RunsThatHavePartedSayNothing) {
+  Follower follower(ClaimKind::below, 100);
+  follower.difference = 0.1;
+  EXPECT_TRUE(follower.along(kSine, kCosine, 3, 0.3).open());
+}
+
+TEST(ClaimLane, WhatDoesNotCountYetIsNotCompared) {
+  Follower follower(ClaimKind::below, 0.5);
+  follower.claim.after = 2.8;
+  follower.lane.begin(follower.claim, follower.system, {1, 1}, 0.5);
+  EXPECT_FALSE(follower.along(kSine, kCosine, 3, 0.1).violated());
+}
+
+}  // namespace
+}  // namespace gainsmith::packs
