@@ -101,13 +101,12 @@ std::string check_text(const verify::CheckReport& check, std::size_t width) {
       : check.undecided > 0 ? fmt::format("undecided in {}", runs_text(check.undecided))
                             : "held";
   std::string text =
-      fmt::format("  {:<{}} {:<17} {:<8}  {} run {}: {} against {} at (t, j) = ({}, {})\n",
-                  check.name, width, kind_text(check.kind), verdict, held ? "nearest" : "worst",
+      fmt::format("  {:<{}} {:<17} {:<8}  ", check.name, width, kind_text(check.kind), verdict);
+  if (worst.ended) return text + fmt::format("run {} {}\n", check.worst_run, end_text(worst));
+  text +=
+      fmt::format("{} run {}: {} against {} at (t, j) = ({}, {})\n", held ? "nearest" : "worst",
                   check.worst_run, brief(worst.value), brief(worst.bound), brief(worst.t), worst.j);
-  if (worst.ended)
-    text += "               undecided: the run ends there, before the horizon\n";
-  else if (worst.undecided())
-    text += "               " + uncertainty_text(check.kind, worst) + "\n";
+  if (worst.undecided()) text += "               " + uncertainty_text(check.kind, worst) + "\n";
   if (worst.tolerance > 0)
     text += fmt::format("               within a tolerance of {} {}\n", brief(worst.tolerance),
                         bounded && worst.bound == 0 ? "of the largest terms" : "of the bound");
@@ -168,6 +167,11 @@ std::string undecided_text(const verify::Report& report, const std::string& gain
 }
 
 }  // namespace
+
+std::string end_text(const claims::Finding& finding) {
+  return fmt::format("ended at (t, j) = ({}, {}), before {}", brief(finding.t), finding.j,
+                     finding.violated() ? "its horizon" : "the claim could be decided");
+}
 
 ExitCode campaign_exit(model::CampaignVerdict verdict) {
   switch (verdict) {

@@ -18,6 +18,9 @@ model::CampaignRecord campaign_record(const verify::Report& report, const std::s
 /// Verdict, checks and how to replay the worst run; `gains_file` is named in the command.
 std::string campaign_summary(const verify::Report& report, const std::string& gains_file);
 
+/// Of a claim that the end of a run leaves open, or violates: "ended at (t, j) = (1.25, 0), before ...".
+std::string end_text(const claims::Finding& finding);
+
 /// "interrupted after 1234 of 10000 runs: 1230 held, 4 violated; ...".
 std::string interruption_text(const verify::Report& report);
 

@@ -70,8 +70,7 @@ std::vector<std::string> check_runs(const model::Instance& instance) {
   if (!runs) return notes;
   const std::vector<std::string> nowhere = missing_starts(design);
   if (!nowhere.empty()) {
-    notes.push_back("no run can be made: " + counted("state", nowhere) +
-                    (nowhere.size() == 1 ? " has no start" : " have no start"));
+    notes.push_back(note_on_starts(nowhere));
     return notes;
   }
   const bool needs_nothing = design.unknowns.empty() && design.inequalities.empty() &&

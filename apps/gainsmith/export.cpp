@@ -19,6 +19,7 @@
 #include "gainsmith/gain_check.h"
 #include "gainsmith/load.h"
 #include "gainsmith/output.h"
+#include "gainsmith/run_figure.h"
 #include "gainsmith/terminal.h"
 #include "io/gains_json.h"
 #include "model/names.h"
@@ -163,8 +164,8 @@ ExitCode export_gains(const ExportOptions& options) {
   const model::Stated stated = bind::state(loaded.stated, loaded.gains);
   std::optional<model::RunTexts> texts;
   if (design.dynamics) texts = model::run_texts(design, stated);
-  exports::Content content =
-      exports::content_of(loaded.gains, design, stated, texts, read_text(options.gains));
+  exports::Content content = exports::content_of(loaded.gains, design, stated, texts,
+                                                 read_text(options.gains), view_of(design).units);
   content.single = options.single;
   const std::string name = name_of(options, loaded.gains);
   std::string text = text_of_target(options, name, content);

@@ -22,6 +22,17 @@ std::string note_on_events(const std::vector<std::string>& events) {
   return counted("event", events) + (events.size() == 1 ? " never happens" : " never happen");
 }
 
+std::string note_on_starts(const std::vector<std::string>& states) {
+  std::string initial;
+  for (const std::string& state : states)
+    initial += (initial.empty() ? "" : ", ") + state + ": ...";
+  return "no run can be made: " + counted("state", states) +
+         (states.size() == 1 ? " has" : " have") +
+         " no start. verify, simulate and the campaign of run will fail: add campaign: {initial: "
+         "{" +
+         initial + "}} with a value or a {box: [low, high]}";
+}
+
 std::string note_on_runs(const std::optional<std::uint64_t>& different) {
   if (!different) return "";
   if (*different == 1) return "nothing is drawn in this campaign: all its runs are equal";

@@ -20,6 +20,9 @@ std::string note_on_events(const std::vector<std::string>& events);
 /// Of a campaign with so many different runs (hybrid/idle.h); empty where its runs are drawn.
 std::string note_on_runs(const std::optional<std::uint64_t>& different);
 
+/// Of states that start nowhere: no run can be made; what fails, and what to add.
+std::string note_on_starts(const std::vector<std::string>& states);
+
 /// "the event 'far'", "the events 'far' and 'near'".
 std::string counted(const std::string& what, const std::vector<std::string>& names);
 

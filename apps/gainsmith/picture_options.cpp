@@ -45,7 +45,9 @@ void add_runs(const std::string& part, const std::string& text, std::vector<std:
     throw InputError({"--runs"},
                      "expected numbers of runs, such as 0,3,17 or 0:9, not '" + text + "'");
   if (*last - *first >= kMost || runs.size() + (*last - *first) >= kMost)
-    throw InputError({"--runs"}, "more than 100 runs");
+    throw InputError({"--runs"},
+                     "at most 100 runs are drawn or compared: name fewer of them; for the claims "
+                     "of many runs 'gainsmith verify --runs N' has no such limit");
   for (std::uint64_t run = *first; run <= *last; ++run) {
     if (std::find(runs.begin(), runs.end(), run) != runs.end())
       throw InputError({"--runs"}, "run " + std::to_string(run) + " is named twice");

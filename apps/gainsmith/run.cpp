@@ -141,7 +141,9 @@ Command run_command() {
               "problem files, or folders of them; - for standard input")
            .required(),
        set_option(options->job.set),
-       Option("-o,--output", options->output, "folder for the results, one folder a problem in it"),
+       Option("-o,--output", options->output,
+              "folder for the results: one folder a problem in it, named after its file, such as "
+              "motor for a/motor.yaml"),
        Option("--runs", options->job.runs, "runs of each campaign (default: the problem's)")
            .within<std::uint64_t>(1, 1000000000000000),
        Option("--seed", options->job.seed, "seed (default: the problem's)"),
@@ -151,6 +153,8 @@ Command run_command() {
        Option("--report", options->report, "write report.html into the folder of the results"),
        Option("--json", options->json, "print the results as JSON")},
       "Prints one line a problem; the exit code is the worst of all.\n"
+      "Two files of one name have a/motor and b/motor. A file of a folder of problems has its path "
+      "from there.\n"
       "Examples:\n"
       "  gainsmith run problem.yaml -o out\n"
       "  gainsmith run problems/ -o out --junit out/junit.xml",

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/nearest.h"
+#include "model/estimate_name.h"
 
 namespace gainsmith::app {
 
@@ -44,7 +45,7 @@ bool estimates(const Column& estimate, const Column& state) {
   if (estimate.observer.empty() || (estimate.kind != Kind::state && estimate.kind != Kind::signal))
     return false;
   const std::string index = state.name.substr(state.stem.size());
-  return (estimate.stem == state.stem + "h" || estimate.stem == state.stem + "_hat") &&
+  return model::is_estimate_name(estimate.stem, state.stem) &&
          own_name(estimate) == estimate.stem + index;
 }
 

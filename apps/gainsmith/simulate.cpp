@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include "base/file.h"
 #include "base/number.h"
+#include "gainsmith/campaign_text.h"
 #include "gainsmith/commands.h"
 #include "gainsmith/load.h"
 #include "gainsmith/notes.h"
@@ -57,6 +59,11 @@ std::string claims_text(const std::vector<verify::ReplayedClaim>& claims, bool e
                               "of the claim");
       continue;
     }
+    if (finding.ended) {
+      text += fmt::format("  {:<12} {}: the run {}\n", claim.name, to_string(finding.judgement),
+                          end_text(finding));
+      continue;
+    }
     const bool so_far = early && finding.judgement == claims::Judgement::held;
     const std::string tolerance =
         finding.tolerance > 0 ? ", tolerance " + brief(finding.tolerance) : "";
@@ -67,18 +74,40 @@ std::string claims_text(const std::vector<verify::ReplayedClaim>& claims, bool e
   return text;
 }
 
-/// The design's, and events that do not happen in a run that came to its end.
-std::vector<std::string> notes_on_run(const model::Design& design, const hybrid::Trajectory& run) {
+/// Which of the runs these are: "this run", "any of these runs", "the runs 0 and 3".
+std::string which_runs(const std::vector<std::uint64_t>& some,
+                       const std::vector<std::uint64_t>& all) {
+  if (all.size() == 1) return "this run";
+  if (some.size() == all.size()) return "any of these runs";
+  std::string text = some.size() == 1 ? "run " : "the runs ";
+  for (std::size_t k = 0; k < some.size(); ++k)
+    text += (k == 0 ? "" : k + 1 == some.size() ? " and " : ", ") + std::to_string(some[k]);
+  return text;
+}
+
+/// The design's, and events that do not happen in runs that came to their ends; each once.
+std::string notes_text(const model::Design& design, const std::vector<std::uint64_t>& runs,
+                       const std::vector<verify::Replay>& replays) {
+  const std::size_t events = design.dynamics->events.size();
+  std::vector<std::vector<std::uint64_t>> silent(events);  // of each event the runs without it
+  for (std::size_t k = 0; k < replays.size(); ++k) {
+    const hybrid::Trajectory& run = replays[k].run;
+    if (!is_complete(run.ending)) continue;
+    std::vector<char> happened(events, 0);
+    for (const auto& part : run.parts)
+      if (const auto* jump = std::get_if<hybrid::JumpPoint>(&part)) happened[jump->event] = 1;
+    for (std::size_t e = 0; e < events; ++e)
+      if (happened[e] == 0) silent[e].push_back(runs[k]);
+  }
   std::vector<std::string> notes = notes_on_observers(hybrid::idle_observers(*design.dynamics));
-  std::vector<char> happened(design.dynamics->events.size(), 0);
-  for (const auto& part : run.parts)
-    if (const auto* jump = std::get_if<hybrid::JumpPoint>(&part)) happened[jump->event] = 1;
-  std::vector<std::string> silent;
-  for (std::size_t e = 0; e < happened.size(); ++e)
-    if (happened[e] == 0) silent.push_back(design.dynamics->events[e].name);
-  if (!silent.empty() && is_complete(run.ending))
-    notes.push_back(note_on_events(silent) + " in this run");
-  return notes;
+  std::map<std::vector<std::uint64_t>, std::vector<std::string>> alike;
+  for (std::size_t e = 0; e < events; ++e)
+    if (!silent[e].empty()) alike[silent[e]].push_back(design.dynamics->events[e].name);
+  for (const auto& [some, names] : alike)
+    notes.push_back(note_on_events(names) + " in " + which_runs(some, runs));
+  std::string text;
+  for (const std::string& note : notes) text += "  note: " + note + "\n";
+  return text;
 }
 
 std::string judged_text(const std::vector<judge::Fault>& faults) {
@@ -144,8 +173,7 @@ ExitCode compare(const SimulateOptions& options, const LoadedGains& loaded, std:
 }
 
 /// How a run ended, and its claims.
-std::string run_text(const model::Design& design, std::uint64_t seed, std::uint64_t run,
-                     const verify::Replay& replay) {
+std::string run_text(std::uint64_t seed, std::uint64_t run, const verify::Replay& replay) {
   const auto jumps = std::count_if(
       replay.run.parts.begin(), replay.run.parts.end(),
       [](const auto& part) { return std::holds_alternative<hybrid::JumpPoint>(part); });
@@ -154,7 +182,6 @@ std::string run_text(const model::Design& design, std::uint64_t seed, std::uint6
                   replay.table.rows(), jumps, brief(replay.run.end), to_string(replay.run.ending));
   if (!replay.run.message.empty()) text += "  " + replay.run.message + "\n";
   for (const std::string& note : replay.run.notes) text += "  " + note + "\n";
-  for (const std::string& note : notes_on_run(design, replay.run)) text += "  note: " + note + "\n";
   return text + claims_text(replay.claims, !is_complete(replay.run.ending));
 }
 
@@ -187,8 +214,8 @@ ExitCode simulate(const SimulateOptions& options) {
     write(options,
           options.json ? io::to_text(events_json(first, view_of(design))) : events_csv(first));
   std::string text;
-  for (std::size_t k = 0; k < replays.size(); ++k)
-    text += run_text(design, seed, runs[k], replays[k]);
+  for (std::size_t k = 0; k < replays.size(); ++k) text += run_text(seed, runs[k], replays[k]);
+  text += notes_text(design, runs, replays);
   if (options.judge && !stopped) text += judged_text(first.faults);
   print_report(text, table_on_stdout);
   if (stopped) return ExitCode::undecided;
@@ -219,10 +246,10 @@ Command simulate_command() {
        Option("--band", options->picture.bands,
               "with --plot: xh:P: +-2 sigma around an estimate, from its covariance (default: "
               "'covariance' of the problem); may be repeated"),
-       Option(
-           "--runs", options->picture.runs,
-           "several runs, 0,3,17 or 0:9; with --plot: over each other; with --compare: the least, "
-           "median and largest value of each figure"),
+       Option("--runs", options->picture.runs,
+              "several runs, 0,3,17 or 0:9, at most 100 (for claims of more: verify); with --plot: "
+              "over "
+              "each other; with --compare: the least, median and largest value of each figure"),
        Option("--compare", options->compare,
               "print the figures under 'compare' of all observers, of one run or of --runs"),
        Option("--judge", options->judge,

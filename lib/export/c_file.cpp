@@ -36,6 +36,13 @@ std::vector<std::string> flat_elements(const std::string& name, expr::Shape shap
   });
 }
 
+/// Without what would end a comment.
+std::string harmless(std::string text) {
+  for (const auto& [from, to] : {std::pair("*/", "* /"), std::pair("/*", "/ *")})
+    for (std::size_t k = 0; (k = text.find(from, k)) != std::string::npos;) text.replace(k, 2, to);
+  return text;
+}
+
 /// A function that returns a number, or writes a matrix to `out`.
 std::string function(const std::string& comment, const std::string& name,
                      const std::string& parameters, expr::Shape shape, const Code& made,
@@ -100,8 +107,11 @@ class CObserver : public ObserverWriter {
 
   std::string structure() const {
     std::string text = fmt::format("/* The observer {}. */\ntypedef struct {{\n", observer_.name);
-    for (std::size_t k = 0; k < fields_.size(); ++k)
-      text += fmt::format("  {} {}{};\n", type(), fields_[k], extent(observer_.states[k].shape));
+    for (std::size_t k = 0; k < fields_.size(); ++k) {
+      const State& state = observer_.states[k];
+      const std::string unit = state.unit.empty() ? "" : " /* " + harmless(state.unit) + " */";
+      text += fmt::format("  {} {}{};{}\n", type(), fields_[k], extent(state.shape), unit);
+    }
     return text + "} " + state_type() + ";\n\n";
   }
 
@@ -162,9 +172,10 @@ class CObserver : public ObserverWriter {
     }
     body += lines_text(made.lines, "  ") + assignments(observer_.rate, made, "rate->");
     return fmt::format(
-        "/* The rate of the states between events. */\n"
+        "/* The rate of the states between events.{} */\n"
         "static inline void {}rate(const {} *state{}, {} *rate)\n{{\n{}{}}}\n\n",
-        prefix_, state_type(), parameters(inputs), state_type(), unread_of(inputs, body), body);
+        harmless(units_text(inputs)), prefix_, state_type(), parameters(inputs), state_type(),
+        unread_of(inputs, body), body);
   }
 
   std::string matrix(const std::string& name, const numbers::Matrix& M) const {
@@ -208,9 +219,9 @@ class CObserver : public ObserverWriter {
     const int n = observer_.size();
     std::string text = fmt::format(
         "/* The exact flow over the time dt >= 0{}: x' = M x + rest, by Taylor's series over\n"
-        "   steps with |M| step <= 1. */\nstatic inline void {}flow({} *state{}, {} dt)\n{{\n",
-        inputs.empty() ? "" : " while the inputs are held", prefix_, state_type(),
-        parameters(inputs), type());
+        "   steps with |M| step <= 1.{} */\nstatic inline void {}flow({} *state{}, {} dt)\n{{\n",
+        inputs.empty() ? "" : " while the inputs are held", harmless(units_text(inputs, "dt")),
+        prefix_, state_type(), parameters(inputs), type());
     text += matrix("M", observer_.linear->M);
     text += fmt::format(
         "  const int steps = 1 + (int)({} * dt);\n  const {} step = dt / ({})steps;\n"
@@ -243,9 +254,12 @@ class CObserver : public ObserverWriter {
     const auto [Phi, Psi] = step_matrices(observer_.linear->M, *jump->period);
     const int n = observer_.size();
     std::string text = fmt::format(
-        "/* The same from one {} to the next, {} later. */\nstatic inline void {}flow_period({} "
+        "/* The same from one {} to the next, {}{} later.{} */\nstatic inline void "
+        "{}flow_period({} "
         "*state{})\n{{\n",
-        jump->event, model::printed(*jump->period), prefix_, state_type(), parameters(inputs));
+        jump->event, model::printed(*jump->period),
+        content_.time_unit.empty() ? "" : " " + harmless(content_.time_unit),
+        harmless(units_text(inputs)), prefix_, state_type(), parameters(inputs));
     const bool moved = !nonzero_elements(made).empty();
     text += matrix("Phi", Phi);
     if (moved) text += matrix("Psi", Psi);
@@ -284,14 +298,18 @@ class CObserver : public ObserverWriter {
                                                          : taken_(prefix_ + "jump_" + jump.event);
     const auto inputs = inputs_read(programs_of(jump));
     return fmt::format(
-        "/* What happens at the event {}. */\nstatic inline void {}({} *state{})\n{{\n{}{}}}\n\n",
-        jump.event, name, state_type(), parameters(inputs), unread_of(inputs, body), body);
+        "/* What happens at the event {}.{} */\nstatic inline void {}({} "
+        "*state{})\n{{\n{}{}}}\n\n",
+        jump.event, harmless(units_text(inputs)), name, state_type(), parameters(inputs),
+        unread_of(inputs, body), body);
   }
 
   std::string output(const Output& output) override {
     const Code made = code({output.value});
     const auto inputs = inputs_read({output.value});
-    return function(output.name, taken_(prefix_ + output.name),
+    std::string comment = output.name + (output.unit.empty() ? "" : " [" + output.unit + "]");
+    if (const std::string units = units_text(inputs); !units.empty()) comment += "." + units;
+    return function(harmless(comment), taken_(prefix_ + output.name),
                     "const " + state_type() + " *state" + parameters(inputs), output.value.shape(),
                     made, dialect_,
                     [&](const std::string& body) { return unread_of(inputs, body); });
@@ -331,13 +349,10 @@ std::string function_text(const Content& content, const GainFunction& gain, cons
                   [&](const std::string& body) { return unread({variable}, body); });
 }
 
-/// Without what would end the comment.
 std::string commented(const std::vector<std::string>& lines) {
-  std::string text = "/* ";
-  for (std::size_t k = 0; k < lines.size(); ++k) text += (k > 0 ? "\n   " : "") + lines[k];
-  for (std::size_t k = 3; (k = text.find("*/", k)) != std::string::npos;) text.replace(k, 2, "* /");
-  for (std::size_t k = 3; (k = text.find("/*", k)) != std::string::npos;) text.replace(k, 2, "/ *");
-  return text + " */\n";
+  std::string text;
+  for (const std::string& line : lines) text += (text.empty() ? "" : "\n   ") + line;
+  return "/* " + harmless(text) + " */\n";
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "base/hash.h"
 #include "expr/substitute.h"
 #include "model/dynamics_programs.h"
+#include "model/estimate_name.h"
 #include "numbers/degree.h"
 
 namespace gainsmith::exports {
@@ -37,6 +38,21 @@ std::string flat(std::string text) {
   return text;
 }
 
+/// "rad, rad/s" of the first of the names that has units for such a shape; empty: none has.
+std::string unit_text(const Units& units, const std::vector<std::string>& names,
+                      expr::Shape shape) {
+  for (const std::string& name : names) {
+    const auto found = units.find(name);
+    if (found == units.end()) continue;
+    const std::vector<std::string>& each = found->second;
+    if (each.size() != 1 && each.size() != static_cast<std::size_t>(shape.size())) continue;
+    std::string list;
+    for (const std::string& unit : each) list += (list.empty() ? "" : ", ") + unit;
+    return flat(list);
+  }
+  return "";
+}
+
 /// A map that is left out, and why.
 struct LeftOut {
   std::string why;
@@ -44,8 +60,8 @@ struct LeftOut {
 
 class Collector {
  public:
-  Collector(const model::RunTexts& texts, Content& content)
-      : dynamics_(texts.dynamics), values_(texts.stated.values), content_(content) {
+  Collector(const model::RunTexts& texts, const Units& units, Content& content)
+      : dynamics_(texts.dynamics), values_(texts.stated.values), units_(units), content_(content) {
     for (const Dynamics::Variable& variable : dynamics_.variables)
       variables_[variable.name] = &variable;
     for (const Dynamics::Signal& signal : dynamics_.signals)
@@ -63,7 +79,9 @@ class Collector {
     add_rate();
     for (const Dynamics::Reaction& reaction : dynamics_.reactions)
       if (reaction.component == component_)
-        attempt("the map at " + dynamics_.events[reaction.event].name, [&] { add_jump(reaction); });
+        attempt(
+            "the map at " + dynamics_.events[reaction.event].name, [&] { add_jump(reaction); },
+            kWithoutJump);
     for (const Dynamics::Signal& signal : dynamics_.signals) add_output(signal);
     content_.observers.push_back(std::move(observer_));
   }
@@ -83,15 +101,28 @@ class Collector {
   }
 
   template <class Work>
-  void attempt(const std::string& what, const Work& work) {
+  void attempt(const std::string& what, const Work& work, const std::string& consequence) {
     const Observer before = observer_;
     try {
       work();
     } catch (const LeftOut& left) {
       observer_ = before;
       content_.notes.push_back("observer " + observer_.name + ": " + what +
-                               " is left out: " + left.why);
+                               " is left out: " + left.why + consequence);
     }
+  }
+
+  /// The unit of a quantity of the observer. An estimate without one has that of what it estimates.
+  std::string unit_of(const std::string& key, const std::string& name, expr::Shape shape) const {
+    std::vector<std::string> names = {key, observer_.name + "." + name, name};
+    const auto add_estimated = [&](const std::string& what) {
+      if (model::is_estimate_name(name, what)) names.push_back(what);
+    };
+    for (const Dynamics::Variable& variable : dynamics_.variables)
+      if (is_own(variable.kind) && !dynamics_.components[variable.component].observer)
+        add_estimated(variable.name);
+    for (const auto& [measured, program] : measured_) add_estimated(measured);
+    return unit_text(units_, names, shape);
   }
 
   void add_states() {
@@ -100,11 +131,12 @@ class Collector {
       if (!is_own(variable.kind) || variable.component != component_ || variable.shape.size() == 0)
         continue;
       place_[k] = observer_.states.size();
+      const std::string name = own_name(observer_.name, variable.name);
       numbers::Matrix start = numbers::Matrix::Zero(variable.shape.rows, variable.shape.cols);
       if (variable.start && model::has_values(variable.start->program, values_))
         start = numbers::evaluate(variable.start->program, values_);
       observer_.states.push_back(
-          {{variable.name, own_name(observer_.name, variable.name), variable.shape},
+          {{variable.name, name, variable.shape, unit_of(variable.name, name, variable.shape)},
            std::move(start)});
     }
   }
@@ -126,22 +158,27 @@ class Collector {
       if (!named && is_own(variable->second->kind))
         throw LeftOut{"it reads " + input.name + ", which is no output of the plant"};
       if (std::none_of(observer_.inputs.begin(), observer_.inputs.end(),
-                       [&](const Variable& known) { return known.key == input.name; }))
+                       [&](const Variable& known) { return known.key == input.name; })) {
+        const std::string name = signal_name(observer_.name, input.name);
         observer_.inputs.push_back(
-            {input.name, signal_name(observer_.name, input.name), input.shape});
+            {input.name, name, input.shape, unit_of(input.name, name, input.shape)});
+      }
     }
     return made;
   }
 
   void add_rate() {
-    attempt("the flow", [&] {
-      if (dynamics_.components[component_].frozen)
-        throw LeftOut{"`frozen` stops it for some modes"};
-      for (const Dynamics::Assignment& one : dynamics_.flow)
-        if (const auto place = place_.find(one.variable); place != place_.end())
-          observer_.rate.push_back({place->second, taken(one.value.program)});
-      observer_.linear = linear_flow();
-    });
+    attempt(
+        "the flow",
+        [&] {
+          if (dynamics_.components[component_].frozen)
+            throw LeftOut{"`frozen` stops it for some modes"};
+          for (const Dynamics::Assignment& one : dynamics_.flow)
+            if (const auto place = place_.find(one.variable); place != place_.end())
+              observer_.rate.push_back({place->second, taken(one.value.program)});
+          observer_.linear = linear_flow();
+        },
+        kWithoutFlow);
   }
 
   /// Whether an input keeps its value while it is held: the time and what follows it do not.
@@ -230,7 +267,9 @@ class Collector {
           std::any_of(program.inputs.begin(), program.inputs.end(),
                       [&](const expr::Input& input) { return is_state(input.name); });
       if (!reads_states) throw LeftOut{};
-      observer_.outputs.push_back({signal_name(observer_.name, signal.name), std::move(program)});
+      const std::string name = signal_name(observer_.name, signal.name);
+      const expr::Shape shape = program.shape();
+      observer_.outputs.push_back({name, std::move(program), unit_of(signal.name, name, shape)});
     } catch (const LeftOut&) {
       observer_ = before;  // it is none of this observer
     }
@@ -238,6 +277,7 @@ class Collector {
 
   const Dynamics& dynamics_;
   const numbers::Values& values_;
+  const Units& units_;
   Content& content_;
   std::map<std::string, const Dynamics::Variable*, std::less<>> variables_;
   std::vector<std::pair<std::string, expr::Program>> measured_;
@@ -269,7 +309,7 @@ std::vector<GainMatrix> matrices_of(const model::Gains& gains, std::vector<std::
 
 Content content_of(const model::Gains& gains, const model::Design& design,
                    const model::Stated& stated, const std::optional<model::RunTexts>& texts,
-                   const std::string& file_text) {
+                   const std::string& file_text, const Units& units) {
   Content content;
   content.problem = gains.problem_name;
   content.method = gains.statement.method_name;
@@ -293,7 +333,8 @@ Content content_of(const model::Gains& gains, const model::Design& design,
         {gain.name, body.variable, stated.bodies.link(body.program), flat(function->formula)});
   }
   if (!texts) return content;
-  Collector collector(*texts, content);
+  content.time_unit = unit_text(units, {"t"}, {1, 1});
+  Collector collector(*texts, units, content);
   for (std::size_t k = 0; k < texts->dynamics.components.size(); ++k)
     if (texts->dynamics.components[k].observer) collector.add(k);
   return content;

@@ -9,6 +9,7 @@
 // read states and inputs by their `key`.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -24,6 +25,7 @@ struct Variable {
   std::string key;   ///< "nominal.xh"
   std::string name;  ///< "xh"
   expr::Shape shape;
+  std::string unit;  ///< "rad, rad/s": one, or one for each element; empty: the problem states none
 };
 
 struct GainMatrix {
@@ -60,6 +62,7 @@ struct Jump {
 struct Output {
   std::string name;
   expr::Program value;
+  std::string unit;
 };
 
 /// x' = M x + (a function of the inputs): its flow is known exactly while the inputs are held.
@@ -80,10 +83,19 @@ struct Observer {
   int size() const;  ///< elements of all states
 };
 
+/// What follows where a map of an observer is left out: the end of a note on it.
+inline constexpr const char* kWithoutJump =
+    "; so the exported observer does not do at that event what the simulated one does, and the "
+    "claims that were verified do not cover it";
+inline constexpr const char* kWithoutFlow =
+    "; so the exported observer does not do between events what the simulated one does, and the "
+    "claims that were verified do not cover it";
+
 struct Content {
   std::string problem, method, version;
   std::string statement_hash, file_hash;  ///< SHA-256
   bool single = false;                    ///< the gains are numbers of single precision
+  std::string time_unit;                  ///< empty: the problem states none
   std::vector<model::Margin> margins;
   std::vector<GainMatrix> gains;
   std::vector<GainFunction> functions;
@@ -92,11 +104,14 @@ struct Content {
   std::vector<std::string> notes;  ///< what is left out, and why
 };
 
+/// Of names, one or one for each element, as the problem states them.
+using Units = std::map<std::string, std::vector<std::string>>;
+
 /// Of a gain file whose texts are bound: `stated` and, where something moves, `texts`. `file_text` is
 /// hashed.
 Content content_of(const model::Gains& gains, const model::Design& design,
                    const model::Stated& stated, const std::optional<model::RunTexts>& texts,
-                   const std::string& file_text);
+                   const std::string& file_text, const Units& units);
 
 /// The matrices of `gains` and the coefficients of those that are polynomials, "F_0", "F_1"; formulas
 /// are none of these, and a note says so.

@@ -51,7 +51,11 @@ class MatlabObserver : public ObserverWriter {
     std::string start;
     for (std::size_t k = 0; k < fields_.size(); ++k)
       start += (k > 0 ? ", '" : "'") + fields_[k] + "', " + matrix_text(observer_.states[k].start);
-    handles_ = fmt::format("  s.{}.start = struct({});\n", name_, start);
+    std::string units;
+    for (std::size_t k = 0; k < fields_.size(); ++k)
+      if (const std::string& unit = observer_.states[k].unit; !unit.empty())
+        units += (units.empty() ? "  % " : ", ") + fields_[k] + " [" + unit + "]";
+    handles_ = fmt::format("  s.{}.start = struct({});{}\n", name_, start, units);
     const std::string functions = maps();
     return {handles_, functions};
   }
@@ -91,7 +95,7 @@ class MatlabObserver : public ObserverWriter {
       body += fmt::format("  r.{} = zeros({}, {});\n", fields_[k], observer_.states[k].shape.rows,
                           observer_.states[k].shape.cols);
     body += lines_text(made.lines, "  ") + assignments(observer_.rate, made);
-    return "% The rate of the states between events.\n" +
+    return "% The rate of the states between events." + units_text(inputs_read(programs)) + "\n" +
            function("rate", "r", parameter_names(programs), body);
   }
 
@@ -114,7 +118,8 @@ class MatlabObserver : public ObserverWriter {
                           first + shape.size() - 1, shape.rows, shape.cols);
       first += shape.size();
     }
-    return "% The exact flow over the time dt while the inputs are held.\n" +
+    return "% The exact flow over the time dt while the inputs are held." +
+           units_text(inputs_read(still), "dt") + "\n" +
            function("flow", "x", parameter_names(still) + ", dt", body);
   }
 
@@ -125,15 +130,18 @@ class MatlabObserver : public ObserverWriter {
       body += "  r = x;\n" + lines_text(made.lines, "  ") + assignments(pass, made) + "  x = r;\n";
     }
     const std::string name = taken_(observer_.jumps.size() == 1 ? "jump" : "jump_" + jump.event);
-    return "% What happens at the event " + jump.event + ".\n" +
+    return "% What happens at the event " + jump.event + "." +
+           units_text(inputs_read(programs_of(jump))) + "\n" +
            function(name, "x", parameter_names(programs_of(jump)), body);
   }
 
   std::string output(const Output& output) override {
     const Code made = code({output.value});
     const std::string value = matrix(made.results[0], output.value.shape());
-    return function(taken_(output.name), "r", parameter_names({output.value}),
-                    lines_text(made.lines, "  ") + "  r = " + value + ";\n");
+    const std::string unit =
+        output.unit.empty() ? "" : "% " + output.name + " [" + output.unit + "]\n";
+    return unit + function(taken_(output.name), "r", parameter_names({output.value}),
+                           lines_text(made.lines, "  ") + "  r = " + value + ";\n");
   }
 
   std::string name_;

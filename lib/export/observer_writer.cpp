@@ -13,12 +13,13 @@ void Remarks::add(const Code& code) {
 }
 
 std::string ObserverWriter::attempt(const std::string& what,
-                                    const std::function<std::string()>& map) {
+                                    const std::function<std::string()>& map,
+                                    const std::string& consequence) {
   try {
     return map();
   } catch (const NoCode& none) {
     remarks_.notes.push_back("observer " + observer_.name + ": " + what +
-                             " is left out: " + none.what());
+                             " is left out: " + none.what() + consequence);
     return "";
   }
 }
@@ -26,11 +27,13 @@ std::string ObserverWriter::attempt(const std::string& what,
 std::string ObserverWriter::maps() {
   std::string text;
   if (!observer_.rate.empty()) {
-    text += attempt("the flow", [&] { return rate(); });
+    text += attempt(
+        "the flow", [&] { return rate(); }, kWithoutFlow);
     if (observer_.linear) text += attempt("the exact flow", [&] { return flow(); });
   }
   for (const Jump& one : observer_.jumps)
-    text += attempt("the map at " + one.event, [&] { return jump(one); });
+    text += attempt(
+        "the map at " + one.event, [&] { return jump(one); }, kWithoutJump);
   for (const Output& one : observer_.outputs)
     text += attempt("the output " + one.name, [&] { return output(one); });
   return text;
@@ -69,6 +72,17 @@ std::string ObserverWriter::parameter_names(const std::vector<expr::Program>& pr
   std::string text;
   for (const Variable* input : inputs_read(programs)) text += ", " + parameters_.at(input->key);
   return text;
+}
+
+std::string ObserverWriter::units_text(const std::vector<const Variable*>& inputs,
+                                       const std::string& time) const {
+  std::string text;
+  const auto add = [&](const std::string& name, const std::string& unit) {
+    if (!unit.empty()) text += (text.empty() ? " Units: " : ", ") + name + " [" + unit + "]";
+  };
+  for (const Variable* input : inputs) add(parameters_.at(input->key), input->unit);
+  if (!time.empty()) add(time, content_.time_unit);
+  return text.empty() ? text : text + ".";
 }
 
 std::vector<expr::Program> ObserverWriter::rate_at_rest() const {

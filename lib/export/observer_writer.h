@@ -33,8 +33,9 @@ class ObserverWriter {
         names_(std::move(names)),
         remarks_(remarks) {}
 
-  /// The text of a map; nothing, and a note, where it has no formula on numbers.
-  std::string attempt(const std::string& what, const std::function<std::string()>& map);
+  /// The text of a map; nothing, and a note with the consequence, where it has no formula on numbers.
+  std::string attempt(const std::string& what, const std::function<std::string()>& map,
+                      const std::string& consequence = "");
   /// Its flow, its exact flow, its maps and its outputs, by attempt().
   std::string maps();
   virtual std::string rate() = 0;
@@ -49,6 +50,10 @@ class ObserverWriter {
   std::vector<const Variable*> inputs_read(const std::vector<expr::Program>& programs) const;
   /// The names of the parameters for them, ", u, y".
   std::string parameter_names(const std::vector<expr::Program>& programs) const;
+
+  /// " Units: u [V], dt [s]." of inputs, and of a time where it has a name; nothing without units.
+  std::string units_text(const std::vector<const Variable*>& inputs,
+                         const std::string& time = "") const;
 
   /// The constant part of a linear flow: the rates where the states are 0.
   std::vector<expr::Program> rate_at_rest() const;

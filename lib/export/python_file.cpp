@@ -68,16 +68,19 @@ class PythonObserver : public ObserverWriter {
       std::vector<std::string> start;
       for (int e = 0; e < state.shape.size(); ++e)
         start.push_back(number_text(state.start(e), kPython));
-      text += fmt::format("        self.{} = {}\n", fields_[k], value_text(start, state.shape));
+      text += fmt::format("        self.{} = {}{}\n", fields_[k], value_text(start, state.shape),
+                          state.unit.empty() ? "" : "  # " + state.unit);
     }
     return text + maps();
   }
 
  private:
-  std::string method(const std::string& name, const std::string& parameters,
-                     const std::string& help, const std::string& body) const {
-    return fmt::format("\n    def {}(self{}):\n        \"\"\"{}\"\"\"\n{}", name, parameters, help,
-                       body);
+  /// `units`: " Units: u [V].", or nothing.
+  static std::string method(const std::string& name, const std::string& parameters,
+                            const std::string& help, const std::string& units,
+                            const std::string& body) {
+    return fmt::format("\n    def {}(self{}):\n        \"\"\"{}\"\"\"\n{}{}", name, parameters,
+                       help, units.empty() ? "" : "        #" + units + "\n", body);
   }
 
   std::string rate() override {
@@ -89,7 +92,7 @@ class PythonObserver : public ObserverWriter {
           fmt::format("            '{}': {},\n", fields_[observer_.rate[k].state],
                       value_text(made.results[k], observer_.states[observer_.rate[k].state].shape));
     return method("rate", parameter_names(programs), "The rate of the states between events.",
-                  body + "        }\n");
+                  units_text(inputs_read(programs)), body + "        }\n");
   }
 
   std::string flow() override {
@@ -118,7 +121,8 @@ class PythonObserver : public ObserverWriter {
       first += shape.size();
     }
     return method("flow", parameter_names(still) + ", dt",
-                  "The exact flow over the time dt while the inputs are held.", text);
+                  "The exact flow over the time dt while the inputs are held.",
+                  units_text(inputs_read(still), "dt"), text);
   }
 
   std::string jump(const Jump& jump) override {
@@ -136,12 +140,14 @@ class PythonObserver : public ObserverWriter {
     }
     return method(members_(observer_.jumps.size() == 1 ? "jump" : "jump_" + jump.event),
                   parameter_names(programs_of(jump)),
-                  "What happens at the event " + jump.event + ".", body);
+                  "What happens at the event " + jump.event + ".",
+                  units_text(inputs_read(programs_of(jump))), body);
   }
 
   std::string output(const Output& output) override {
     const Code made = code({output.value});
     return method(members_(output.name), parameter_names({output.value}), output.name,
+                  output.unit.empty() ? "" : " Units: " + output.unit,
                   lines_text(made.lines, "        ") + "        return " +
                       value_text(made.results[0], output.value.shape()) + "\n");
   }

@@ -82,6 +82,27 @@ TEST(CampaignText, ARunThatEndsEarlyIsNotSaidToBeTooClose) {
     EXPECT_EQ(text.find(words), std::string::npos) << words << "\n" << text;
 }
 
+TEST(CampaignText, AClaimThatAnEndLeavesOpenIsNoComparison) {
+  verify::Report report = two_undecided();
+  verify::CheckReport& check = report.checks[1];
+  check.undecided = 1;
+  check.worst_run = 7;
+  check.worst.judgement = claims::Judgement::undecided;
+  check.worst.ended = true;
+  check.worst.t = 1.25;
+  const std::string text = campaign_summary(report, "gains.json");
+  EXPECT_NE(text.find("undecided in 1 run  run 7 ended at (t, j) = (1.25, 0), before the claim "
+                      "could be decided"),
+            std::string::npos)
+      << text;
+  EXPECT_EQ(text.find("against"), text.rfind("against")) << "that of the other claim\n" << text;
+  check.worst.judgement = claims::Judgement::violated;
+  check.violations = 1;
+  EXPECT_NE(campaign_summary(report, "gains.json")
+                .find("violated in 1 run  run 7 ended at (t, j) = (1.25, 0), before its horizon"),
+            std::string::npos);
+}
+
 TEST(CampaignText, ADisputedViolationIsNotSaidToBeTooClose) {
   verify::Report report = two_undecided();
   report.first_undecided->finding.disputed = true;

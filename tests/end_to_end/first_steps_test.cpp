@@ -39,7 +39,9 @@ TEST(FirstSteps, AMissingStartStopsRunsAlone) {
       "data: {A: [[-1, 1], [0, -2]]}\ncampaign: {horizon: 3}\n");
   const Outcome check = gainsmith({"check", file});
   EXPECT_EQ(check.exit, 0) << check.err;
-  EXPECT_TRUE(has(check.out, "note        no run can be made: the state 'x' has no start"))
+  EXPECT_TRUE(has(check.out,
+                  "note        no run can be made: the state 'x' has no start. verify, simulate "
+                  "and the campaign of run will fail: add campaign: {initial: {x: ...}} with"))
       << check.out;
   const std::string gains = folder.path("gains.json");
   EXPECT_EQ(gainsmith({"synth", file, "-o", gains}).exit, 0);
@@ -111,12 +113,27 @@ TEST(FirstSteps, WhatNeverHappensIsNamed) {
   EXPECT_EQ(simulate.exit, 0);
   EXPECT_TRUE(has(simulate.out, idle)) << simulate.out;
   EXPECT_TRUE(has(simulate.out, "note: the event 'far' never happens in this run")) << simulate.out;
+  const std::string drawn = folder.path("r.svg");
+  EXPECT_TRUE(has(gainsmith({"simulate", file, "--runs", "0:7", "--plot", drawn}).out,
+                  "  note: the event 'far' never happens in any of these runs\n"));
   const std::string late = folder.file("q.yaml", replaced(kDecay, "every: 0.5", "every: 5"));
   const Outcome check = gainsmith({"check", late});
   EXPECT_EQ(check.exit, 0);
   EXPECT_TRUE(has(check.out, "the event 'sample' never happens: it is due after the horizon"))
       << check.out;
   EXPECT_FALSE(has(check.out, "'far'")) << check.out;
+}
+
+TEST(FirstSteps, ANoteOnSeveralRunsIsPrintedOnceWithTheRuns) {
+  const Folder folder;
+  const std::string file = folder.file(
+      "p.yaml",
+      replaced(replaced(kDecay, "when: plant.x(1) > 3", "falls: plant.x(1) - 3"), "runs: 200",
+               "runs: 4, initial: {x: {list: [[1, 0], [4, 0], [2, 0], [5, 0]]}}"));
+  const std::string text =
+      gainsmith({"simulate", file, "--runs", "0:3", "--plot", folder.path("r.svg")}).out;
+  EXPECT_TRUE(has(text, "  note: the event 'far' never happens in the runs 0 and 2\n")) << text;
+  EXPECT_EQ(text.find("never happens"), text.rfind("never happens")) << text;
 }
 
 TEST(FirstSteps, AListIsAColumnWhereATextIsTaken) {
@@ -193,9 +210,10 @@ TEST(FirstSteps, AMissingCommaBeforeASignIsSeen) {
   const Folder folder;
   for (const char* written : {"A: \"[1 -1; 2 -1]\"", "A: [[-1 -2, 1], [0, -3]]"}) {
     const Outcome outcome =
-        gainsmith({"synth", folder.file("p.yaml", "problem: p\nmethod: {data: {A: n x k}, report: "
-                                                  "{a: A}}\ndata:\n  " +
-                                                      std::string(written) + "\n")});
+        gainsmith({"synth", folder.file("p.yaml",
+                                        "problem: p\nmethod: {data: {A: n x k}, report: "
+                                        "{a: A}}\ndata:\n  " +
+                                            std::string(written) + "\n")});
     EXPECT_EQ(outcome.exit, 2) << written;
     EXPECT_TRUE(has(outcome.err, "a comma is missing before '-'")) << outcome.err;
   }

@@ -76,8 +76,13 @@ TEST(NonlinearObserver, ARunThatLeavesTheBoxIsOpenForThatReasonAlone) {
   ASSERT_EQ(gainsmith({"synth", folder.file("plant.yaml", text), "-o", gains}).exit, 0);
   const Outcome outcome = gainsmith({"verify", gains});
   EXPECT_EQ(outcome.exit, 3) << outcome.out;
-  EXPECT_TRUE(says(outcome.out, "undecided: the run ends there, before the horizon"))
-      << outcome.out;
+  const std::string words = ", before the claim could be decided";
+  EXPECT_TRUE(says(outcome.out, " ended at (t, j) = (")) << outcome.out;
+  EXPECT_TRUE(says(outcome.out, words)) << outcome.out;
+  EXPECT_FALSE(says(outcome.out, "against")) << outcome.out;
+  const Outcome run = gainsmith({"simulate", gains, "-o", folder.path("run.csv")});
+  EXPECT_TRUE(says(run.out, "undecided: the run ended at (t, j) = (")) << run.out;
+  EXPECT_TRUE(says(run.out, words)) << run.out;
   EXPECT_FALSE(says(outcome.out, "nothing is certain")) << outcome.out;
 }
 

@@ -224,7 +224,9 @@ TEST(Pictures, WrongRequestsSayWhatWasExpected) {
       {{"--runs", "5:2"}, "--runs: expected numbers of runs"},
       {{"--runs=-1"}, "--runs: expected numbers of runs"},
       {{"--runs", "1,0:2"}, "--runs: run 1 is named twice"},
-      {{"--runs", "0:1e9"}, "--runs: more than 100 runs"},
+      {{"--runs", "0:1e9"},
+       "--runs: at most 100 runs are drawn or compared: name fewer of them; for the claims of many "
+       "runs 'gainsmith verify --runs N'"},
       {{"--runs", "1", "--judge"}, "--runs draws several runs"}};
   for (const auto& [arguments, message] : wrong) {
     const Folder folder;

@@ -42,8 +42,10 @@ Content content(const std::string& text) {
   gains.problem_name = "p";
   gains.gains = {{"K", numbers::Matrix{{0.5}, {0.2}}}};
   const model::Stated stated = bind::state(yaml.instance, gains);
+  Units units;
+  for (const model::UnitText& one : yaml.problem->units) units[one.name] = one.units;
   return content_of(gains, *yaml.instance.design, stated,
-                    model::run_texts(*yaml.instance.design, stated), "file");
+                    model::run_texts(*yaml.instance.design, stated), "file", units);
 }
 
 TEST(ExportContent, MeasurementsAreInputs) {
@@ -150,6 +152,53 @@ TEST(ExportFiles, StepMatricesSolveTheFlow) {
   const auto [Phi, Psi] = step_matrices(numbers::Matrix{{-1}}, 0.3);
   EXPECT_NEAR(Phi(0, 0), std::exp(-0.3), 1e-15);
   EXPECT_NEAR(Psi(0, 0), 1 - std::exp(-0.3), 1e-15);
+}
+
+const std::string kUnits = "units: {t: s, x: [rad, rad/s], y: rad, out: \"V*/A\"}\n";
+
+TEST(ExportFiles, UnitsStandBesideTheirNames) {
+  Content made = content(problem("{every: 0.1}", kSampled) + kUnits);
+  EXPECT_EQ(made.observers[0].states[0].unit, "rad, rad/s") << "of x, which xh estimates";
+  EXPECT_EQ(made.observers[0].inputs[0].unit, "rad");
+  EXPECT_EQ(made.time_unit, "s");
+  const std::string c = c_file(made, "m");
+  for (const char* words :
+       {"  double xh[2]; /* rad, rad/s */\n", "dt [s]. */\nstatic inline void m_flow(",
+        "one sample to the next, 0.1 s later. */", "the event sample. Units: y [rad]. */",
+        "/* out [V* /A] */"})
+    EXPECT_TRUE(has(c, words)) << words << "\n" << c;
+  const std::string matlab = matlab_file(made, "m");
+  for (const char* words :
+       {"[3; 0]);  % xh [rad, rad/s]\n", "the event sample. Units: y [rad].\n", "% out [V*/A]\n"})
+    EXPECT_TRUE(has(matlab, words)) << words << "\n" << matlab;
+  const std::string python = python_file(made, "m");
+  for (const char* words :
+       {"dtype=float)  # rad, rad/s\n", "        # Units: y [rad].\n", "        # Units: V*/A\n"})
+    EXPECT_TRUE(has(python, words)) << words << "\n" << python;
+}
+
+TEST(ExportFiles, UnitsOfAnotherShapeAreOfSomethingElse) {
+  const std::string observer =
+      "  observer: {state: {xh: {shape: scalar, start: 3}}, at: {sample: {xh: y}}}\n";
+  const Content made = content(problem("{every: 0.1}", observer) + kUnits.substr(0, 30) + "}\n");
+  EXPECT_EQ(made.observers[0].states[0].unit, "");
+}
+
+TEST(ExportFiles, AMapThatIsLeftOutSaysWhatFollows) {
+  const std::string consequence =
+      "; so the exported observer does not do at that event what the simulated one does, and the "
+      "claims that were verified do not cover it";
+  for (const char* map : {"xh + svd(xh)(1)*K", "xh + expm(xh(1)*A)*K*y"}) {
+    Content made = content(
+        problem("{every: 0.1}", std::string("  observer: {state: {xh: {shape: n, start: 0}}, "
+                                            "at: {sample: {xh: \"") +
+                                    map + "\"}}}\n"));
+    const std::string c = c_file(made, "m");
+    ASSERT_EQ(made.notes.size(), 1U);
+    EXPECT_TRUE(has(made.notes[0], "the map at sample is left out")) << made.notes[0];
+    EXPECT_TRUE(made.notes[0].ends_with(consequence)) << made.notes[0];
+    EXPECT_TRUE(has(c, consequence)) << c;
+  }
 }
 
 TEST(ExportFiles, LatexHasBracketsAndPowers) {
