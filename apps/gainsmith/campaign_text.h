@@ -15,7 +15,8 @@ ExitCode campaign_exit(model::CampaignVerdict verdict);
 /// `gains_hash`: of the gains that were verified (io/campaign_json.h).
 model::CampaignRecord campaign_record(const verify::Report& report, const std::string& gains_hash);
 
-/// Verdict, checks and how to replay the worst run; `gains_file` is named in the command.
+/// Verdict, checks and how to replay the worst run; `gains_file` is named in the command, with
+/// its --set options.
 std::string campaign_summary(const verify::Report& report, const std::string& gains_file);
 
 /// "interrupted after 1234 of 10000 runs: 1230 held, 4 violated; ...".
