@@ -10,6 +10,7 @@
 #include "design/hautus.h"
 #include "design/search_request.h"
 #include "expr/program.h"
+#include "model/stated_file.h"
 
 namespace gainsmith::app {
 
@@ -37,27 +38,18 @@ bool is_compared(const model::Design& design, const std::string& scalar) {
 
 }  // namespace
 
-std::string quoted(const std::string& word) {
-  const bool plain = word.find_first_not_of(
-                         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
-                         "_-./+,:@%") == std::string::npos;
-  if (plain && !word.empty()) return word;
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
-}
-
 std::vector<std::string> next_commands(const model::Instance& instance, const model::Gains& gains,
                                        const std::string& file) {
   constexpr double kShortest = 0.01;  // of an interval that begins at no scalar
   std::vector<std::string> commands;
+  const std::string problem = model::problem_words(file, instance.design->statement.settings);
   if (gains.verdict == model::Verdict::yes) return commands;
   if (gains.verdict == model::Verdict::undecided && gains.solver.out_of_allowance)
-    commands.push_back("gainsmith synth " + quoted(file) + " --effort full");
+    commands.push_back("gainsmith synth " + problem + " --effort full");
   if (gains.verdict == model::Verdict::undecided)
-    commands.push_back("gainsmith explain " + quoted(file));
+    commands.push_back("gainsmith explain " + problem);
   if (gains.bound_only)
-    commands.push_back("gainsmith bisect " + quoted(file) + " --smallest gain_bound");
+    commands.push_back("gainsmith bisect " + problem + " --smallest gain_bound");
   // What the output does not show no interval shows.
   if (!design::hidden_mode_text(instance).empty()) return commands;
   std::set<std::string> ends;
@@ -75,9 +67,9 @@ std::vector<std::string> next_commands(const model::Instance& instance, const mo
       const std::string from = model::printed(low);
       const std::string to = model::printed(high);
       commands.push_back(gains.search ? fmt::format("gainsmith optimize {} --largest {}={}:{}",
-                                                    quoted(file), *end, from, to)
+                                                    problem, *end, from, to)
                                       : fmt::format("gainsmith bisect {} --largest {} --in {} {}",
-                                                    quoted(file), *end, from, to));
+                                                    problem, *end, from, to));
     }
   return commands;
 }

@@ -9,13 +9,10 @@
 
 namespace gainsmith::app {
 
-/// A text as one word of a shell.
-std::string quoted(const std::string& word);
-
 /// Command lines that can be pasted: an explanation where the verdict is undecided, and the longest
 /// interval with gains for each interval that ends at a scalar of the problem, by a search of the
 /// scalars that were searched too. None for a yes.
-/// `file`: the problem as it was named on the command line.
+/// `file`: the problem as it was named on the command line; its --set options are carried over.
 std::vector<std::string> next_commands(const model::Instance& instance, const model::Gains& gains,
                                        const std::string& file);
 

@@ -2,12 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "base/file.h"
 #include "base/number.h"
+#include "base/stop.h"
+#include "bind/instance.h"
+#include "design/synthesize.h"
 #include "gainsmith/advice.h"
 #include "gainsmith/commands.h"
 #include "gainsmith/load.h"
@@ -20,6 +24,7 @@
 #include "gainsmith/units.h"
 #include "io/gains_json.h"
 #include "model/names.h"
+#include "model/stated_file.h"
 
 namespace gainsmith::app {
 
@@ -113,6 +118,34 @@ std::string table(const design::BisectResult& result, const std::string& name) {
   return text;
 }
 
+/// What the smallest bound on the gains leaves of the objective; empty for other questions.
+std::string objective_note(const BisectOptions& options, const model::Instance& instance,
+                           const design::BisectChoices& choices, const model::Gains& gains) {
+  constexpr double kWider = 2, kNear = 1.01, kFar = 10, kTells = 0.01;
+  if (choices.scalar.name != model::kGainBound || choices.largest || !gains.objective ||
+      gains.verdict != model::Verdict::yes)
+    return "";
+  const double bound = gains.searched.at(model::kGainBound);
+  model::Overrides overrides = instance.overrides;
+  overrides[model::kGainBound] = kWider * bound;
+  try {
+    const model::Gains wider =
+        design::synthesize(bind::evaluate(instance.design, overrides), {}, design::Depth::verdict);
+    if (!wider.objective || wider.verdict != model::Verdict::yes ||
+        std::abs(*gains.objective - *wider.objective) <= kTells * std::abs(*gains.objective))
+      return "";
+    return fmt::format(
+        "note        the smallest bound leaves little to the objective: it is {} here, {} at twice "
+        "the bound\n"
+        "try         gainsmith scan {} --over gain_bound={}:{}:9:log\n",
+        brief(*gains.objective), brief(*wider.objective),
+        model::problem_words(options.problem, instance.design->statement.settings),
+        brief(kNear * bound, 3), brief(kFar * bound, 3));
+  } catch (const Stopped&) {
+    return "";
+  }
+}
+
 ExitCode bisect(const BisectOptions& options) {
   check_picture_name(options.plot);
   prepare_outputs(options.problem, {options.output, options.plot});
@@ -128,6 +161,7 @@ ExitCode bisect(const BisectOptions& options) {
   const std::string report = options.json
                                  ? io::to_text(json_of(result, choices))
                                  : table(result, name) + "\n" + synthesis_summary(result.gains) +
+                                       objective_note(options, instance, choices, result.gains) +
                                        held_line(instance, {choices.scalar.name});
   write_result(result.gains, options.output, report, options.json);
   return exit_of_search(result.gains);

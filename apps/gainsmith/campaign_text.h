@@ -15,7 +15,8 @@ ExitCode campaign_exit(model::CampaignVerdict verdict);
 /// `gains_hash`: of the gains that were verified (io/campaign_json.h).
 model::CampaignRecord campaign_record(const verify::Report& report, const std::string& gains_hash);
 
-/// Verdict, checks and how to replay the worst run; `gains_file` is named in the command.
+/// Verdict, checks and how to replay the worst run; `gains_file` is named in the command, with
+/// its --set options.
 std::string campaign_summary(const verify::Report& report, const std::string& gains_file);
 
 /// Of a claim that the end of a run leaves open, or violates: "ended at (t, j) = (1.25, 0), before ...".

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -33,13 +34,29 @@ std::string plant_line(const model::Instance& instance, const design::Explanatio
   return stands ? "" : hidden_line(instance);
 }
 
+/// How to find out which element of a matrix limits an optimum, where some are plain numbers.
+std::string matrices_line(const model::Design& design) {
+  const auto is_varied = [](const model::Design::Datum& datum) {
+    const bool is_scalar = datum.shape.rows == 1 && datum.shape.cols == 1;
+    // A formula follows the scalars in it.
+    return is_scalar || !datum.value || !datum.value->program.inputs.empty();
+  };
+  if (std::ranges::all_of(design.data, is_varied)) return "";
+  return fmt::format(
+      "{:<12}{}\n", "matrices",
+      "only scalar data and parameters are varied: write an element of a matrix as "
+      "a scalar\n            datum to see what it costs, such as A: \"[0, a; 1, 0]\" "
+      "with a: 2");
+}
+
 /// What is said of gains that could be better.
 std::string better_lines(const model::Instance& instance, const design::Explanation& explanation) {
   if (explanation.gains.verdict != model::Verdict::yes) return "";
   std::string text;
   for (const std::string& fixed : design::fixed_mode_texts(instance))
     text += fmt::format("{:<12}{}\n", "plant", fixed);
-  if (explanation.limits || !explanation.reaches.empty()) return text;
+  if (explanation.limits) return text + matrices_line(*instance.design);
+  if (!explanation.reaches.empty()) return text;
   const std::vector<std::string> scalars = design::scalars_in_use(*instance.design);
   text +=
       "limited by  nothing is minimised, so one solution is as good as another; state what is to "

@@ -92,23 +92,37 @@ std::string conflict_text(const design::Conflict& conflict) {
                             conflict.undecided.size() == 1 ? "is" : "are");
 }
 
+/// The multiple of I that a slack adds to the larger side.
+std::optional<double> in_units(const std::optional<double>& slack,
+                               const design::Relaxation& relaxation) {
+  if (!slack) return std::nullopt;
+  return *slack * relaxation.scale;
+}
+
 std::string relaxations_text(const std::vector<design::Relaxation>& relaxations) {
   if (relaxations.empty()) return "";
   std::size_t width = 10;
   for (const auto& relaxation : relaxations) width = std::max(width, relaxation.name.size());
-  std::string text = fmt::format("{:<{}}  {:>14}  {:>14}  {:>10}\n", "relax by", width, "it alone",
-                                 "all together", "of scale");
+  std::string text =
+      fmt::format("{:<{}}  {:>14}  {:>14}  {:>10}  {:>14}  {:>14}\n", "relax by", width, "it alone",
+                  "all together", "of scale", "adds alone", "adds together");
   const auto number = [](const std::optional<double>& value, bool at_most, const char* none) {
     if (!value) return std::string(none);
     return (at_most && *value > 0 ? "at most " : "") + brief(*value, 4);
   };
   for (const auto& relaxation : relaxations)
-    text += fmt::format("{:<{}}  {:>14}  {:>14}  {:>10}\n", relaxation.name, width,
-                        number(relaxation.alone, relaxation.alone_at_most,
-                               relaxation.alone_undecided ? "undecided" : "does not help"),
-                        number(relaxation.together, relaxation.together_at_most, "undecided"),
-                        brief(relaxation.scale, 3));
-  return text;
+    text += fmt::format(
+        "{:<{}}  {:>14}  {:>14}  {:>10}  {:>14}  {:>14}\n", relaxation.name, width,
+        number(relaxation.alone, relaxation.alone_at_most,
+               relaxation.alone_undecided ? "undecided" : "does not help"),
+        number(relaxation.together, relaxation.together_at_most, "undecided"),
+        brief(relaxation.scale, 3),
+        number(in_units(relaxation.alone, relaxation), relaxation.alone_at_most, "-"),
+        number(in_units(relaxation.together, relaxation), relaxation.together_at_most, "-"));
+  return text +
+         "            'adds' is that number times the scale, in the units of the inequality: so "
+         "much\n"
+         "            times I on the larger side is enough\n";
 }
 
 constexpr const char* kZeroOrNone = "0 or -inf";
@@ -163,8 +177,11 @@ std::string legend_of(const std::vector<design::Limit>& active, double objective
       text += fmt::format("{:<12}{}\n", cell, meaning);
   };
   add(kZeroOrNone,
-      "the other requirements fix no size of the unknowns: the optimum is 0, or there is none");
-  add(kUnbounded, "without this requirement the objective falls below every number");
+      "without this requirement nothing bounds the objective: the optimum is 0, or there is none;\n"
+      "            this number does not tell what limits the design");
+  add(kUnbounded,
+      "without this requirement the objective falls below every number; this does not tell what\n"
+      "            limits the design");
   add(kNotFound, "the solver did not settle the problem without this requirement");
   return text;
 }

@@ -14,7 +14,6 @@
 #include "design/single_precision.h"
 #include "export/files.h"
 #include "export/identifiers.h"
-#include "gainsmith/advice.h"
 #include "gainsmith/commands.h"
 #include "gainsmith/gain_check.h"
 #include "gainsmith/load.h"
@@ -23,6 +22,7 @@
 #include "gainsmith/terminal.h"
 #include "io/gains_json.h"
 #include "model/names.h"
+#include "model/stated_file.h"
 
 namespace gainsmith::app {
 
@@ -83,11 +83,11 @@ std::string text_of_target(const ExportOptions& options, const std::string& name
 /// "gainsmith synth motor.yaml --set margin=1e-06 -o gains.json".
 std::string synth_command_with(const design::SinglePrecisionRemedy& remedy,
                                const ExportOptions& options, const model::Gains& gains) {
-  std::string text = "gainsmith synth " + quoted(gains.statement.problem_file);
-  for (const model::Setting& setting : gains.statement.settings)
-    if (setting.name != remedy.name) text += " --set " + quoted(setting.name + "=" + setting.value);
-  return text + " --set " + remedy.name + "=" + brief(remedy.value) + " -o " +
-         quoted(options.gains);
+  std::vector<model::Setting> settings = gains.statement.settings;
+  std::erase_if(settings, [&](const auto& setting) { return setting.name == remedy.name; });
+  settings.push_back({remedy.name, brief(remedy.value)});
+  return "gainsmith synth " + model::problem_words(gains.statement.problem_file, settings) +
+         " -o " + model::quoted(options.gains);
 }
 
 /// What to do where gains do not hold at single precision.

@@ -88,10 +88,8 @@ std::string bounds_text(const model::Gains& gains) {
   std::string text;
   for (const model::GainBound& bound : gains.bounds)
     if (bound.active)
-      text += fmt::format(
-          "gain bound  active on {}: the bound of its norm is {}, {} is allowed; this limits the "
-          "design\n",
-          bound.what, brief(bound.reached), brief(bound.bound));
+      text += fmt::format("gain bound  active on {}: the bound of its norm is {}, {} is allowed\n",
+                          bound.what, brief(bound.reached), brief(bound.bound));
   return text;
 }
 
@@ -181,17 +179,18 @@ std::string verdict_line(const model::Gains& gains) {
 }
 
 std::string margins_note(const model::Gains& gains) {
+  const bool is_minimum = gains.objective_lower_bound.has_value();
   std::string below;
   for (const model::Margin& margin : gains.margins) {
-    if (margin.is_far_below()) return "";  // the message says so
+    if (margin.is_far_below() && !is_minimum) return "";  // the message says so
     if (margin.is_below())
       below += fmt::format("{}{} {} of {}", below.empty() ? "" : ", ", margin.name,
                            brief(margin.reached, 2), brief(margin.required, 2));
   }
   if (below.empty()) return "";
-  return "margins     a little less than asked for (" + below +
-         "): an optimum lies on the boundary\n"
-         "            the check decides, which shows each inequality at the printed decimals\n";
+  return "margins     less than asked for (" + below + ")" +
+         (is_minimum ? ": an optimum lies on the boundary of its constraints" : "") +
+         "\n            the check decides, which shows each inequality at the printed decimals\n";
 }
 
 std::string objective_text(const model::Gains& gains) {

@@ -12,6 +12,7 @@
 #include "gainsmith/load.h"
 #include "gainsmith/terminal.h"
 #include "io/campaign_json.h"
+#include "model/stated_file.h"
 #include "verify/statistics.h"
 
 namespace gainsmith::app {
@@ -43,11 +44,16 @@ ExitCode verify_gains(const VerifyOptions& options) {
                                          options.confidence};
   const auto setup = verify::make_setup(loaded.stated, loaded.gains);
   const verify::Report report = verify::run_campaign(*setup, campaign);
+  // A gain file holds what was set.
+  const std::string source =
+      options.set.empty()
+          ? options.gains
+          : model::problem_words(options.gains, loaded.stated.design->statement.settings);
   const Telling telling;
   fmt::print("{}",
              options.json
                  ? io::to_text(io::to_json(campaign_record(report, io::gains_hash(loaded.gains))))
-                 : campaign_summary(report, options.gains));
+                 : campaign_summary(report, source));
   return campaign_exit(report.verdict);
 }
 

@@ -31,6 +31,8 @@ model::SolverRecord record_of(const Attempt& attempt, bool has_objective) {
 
 /// What a point that holds has less than was wished for.
 void note_wishes(const Attempt& point, model::Gains& gains) {
+  // A minimum lies on the boundary, where nothing is left of a margin.
+  if (gains.objective_lower_bound) return;
   std::string small;
   for (const model::Margin& margin : point.margins.margins)
     if (margin.is_far_below())
@@ -161,17 +163,20 @@ void accept_point(const Climb& climb, const Attempt& point, model::Gains& gains)
     if (!(largest <= bounds.beta) && climb.posed().choices().gain_bound_stated) {
       gains.verdict = model::Verdict::undecided;
       gains.bound_only = largest;
-      gains.objective_lower_bound.reset();  // it is that of the inequalities without the bound
+      // They are those of the inequalities without the bound.
+      gains.solver.status = "undecided";
+      gains.objective.reset();
+      gains.objective_lower_bound.reset();
+      gains.multipliers.clear();
+      gains.margins.clear();
       gains.solver.add_message(
-          climb.posed().choices().gain_bounds.empty()
-              ? "no gains were found under the gain bound " + brief(bounds.beta) +
-                    ", whose condition is sufficient only; the gains that were found "
-                    "without it need a bound of " +
-                    brief(largest, 2) + ", a smaller one may do: raise synthesis.gain_bound"
-              : "no gains were found under the gain bounds, whose conditions are "
-                "sufficient only; the gains that were found without them need " +
-                    brief(largest / bounds.beta, 2) +
-                    " times the bounds, less may do: raise synthesis.gain_bound");
+          (climb.posed().choices().gain_bounds.empty()
+               ? "no gains were found under the gain bound " + brief(bounds.beta) +
+                     ", whose condition is sufficient only; without it there are gains"
+               : std::string("no gains were found under the gain bounds, whose conditions are "
+                             "sufficient only; without them there are gains")) +
+          ": raise synthesis.gain_bound; explain and 'bisect --smallest gain_bound' find the "
+          "smallest that is enough");
       return;
     }
     if (!(point.reached_gain <= bounds.beta))

@@ -211,7 +211,8 @@ std::optional<Reach> sufficient_gain_bound(const model::Instance& instance,
   const double bound = instance.design->synthesis.gain_bound.value();
   const double largest = needed && std::isfinite(*needed) ? kRoom * *needed : kMost * bound;
   if (!(bound < largest)) return std::nullopt;
-  Reach found = reach(instance, {"gain_bound", search::axis(bound, largest)}, bound, false, solver);
+  Reach found =
+      reach(instance, {"gain_bound", search::axis(bound, largest)}, bound, false, solver);
   if (!found.feasible) return std::nullopt;
   return found;
 }
@@ -328,10 +329,13 @@ Explanation explain(const model::Instance& instance, const sdp::Options& solver)
       explanation.conflict = find_conflict(instance, explanation.gains, solver);
       if (explanation.conflict && !explanation.conflict->gain_bound)
         find_relaxations(instance, solver, explanation.relaxations);
-      if (const auto bound = sufficient_gain_bound(instance, explanation, solver))
-        explanation.reaches.push_back(*bound);
-      const std::vector<Reach> found = find_reaches(instance, solver);
-      explanation.reaches.insert(explanation.reaches.end(), found.begin(), found.end());
+      explanation.reaches = find_reaches(instance, solver);
+      const bool is_found = std::ranges::any_of(explanation.reaches, [](const Reach& reach) {
+        return reach.name == "gain_bound" && reach.feasible;
+      });
+      if (!is_found)
+        if (const auto bound = sufficient_gain_bound(instance, explanation, solver))
+          explanation.reaches.insert(explanation.reaches.begin(), *bound);
     }
   } catch (const Stopped&) {
     // What was found before stays.

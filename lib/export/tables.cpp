@@ -13,10 +13,11 @@ namespace gainsmith::exports {
 
 namespace {
 
+constexpr int kLatexDigits = 6;
+
 /// "-1.5 \times 10^{-6}".
 std::string latex_number(double value) {
-  constexpr int kDigits = 6;
-  const std::string text = brief(value, kDigits);
+  const std::string text = brief(value, kLatexDigits);
   const std::size_t e = text.find('e');
   if (e == std::string::npos) return text;
   return text.substr(0, e) + " \\times 10^{" + std::to_string(std::stoi(text.substr(e + 1))) + "}";
@@ -70,7 +71,10 @@ std::string mat_element(const std::string& name, const numbers::Matrix& value) {
 
 std::string latex_file(const Content& content, const std::vector<GainMatrix>& matrices) {
   constexpr Eigen::Index kColumns = 10;  // of a bmatrix, unless more are asked for
-  std::string text = lines_text(head_lines(content, "Gains"), "% ");
+  std::vector<std::string> head = head_lines(content, "Gains");
+  head.emplace_back("The numbers are rounded to " + std::to_string(kLatexDigits) +
+                    " digits. What was shown is of the gains in the gain file, not of these.");
+  std::string text = lines_text(head, "% ");
   Eigen::Index columns = 0;
   for (const GainMatrix& gain : matrices) columns = std::max(columns, gain.value.cols());
   if (columns > kColumns) text += fmt::format("\\setcounter{{MaxMatrixCols}}{{{}}}\n", columns);

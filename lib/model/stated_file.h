@@ -28,4 +28,10 @@ struct Setting {
   std::string value;
 };
 
+/// A text as one word of a shell.
+std::string quoted(const std::string& word);
+
+/// "motor.yaml --set T2=0.8": a problem on a command line, with what was put in the place of its values.
+std::string problem_words(const std::string& file, const std::vector<Setting>& settings);
+
 }  // namespace gainsmith::model

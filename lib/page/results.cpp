@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/number.h"
+#include "model/stated_file.h"
 #include "page/element.h"
 #include "page/mathml.h"
 #include "page/motion.h"
@@ -191,12 +192,13 @@ std::string margins_section(const Results& results) {
   std::string bounds;
   for (const model::GainBound& bound : gains.bounds)
     bounds += element("tr", cells({bound.what, brief(bound.reached), brief(bound.bound),
-                                   bound.active ? "limits the design" : ""}));
+                                   bound.active ? "active" : ""}));
   if (!bounds.empty())
     text += scrolled_table(heads({"bound on", "reached", "allowed", ""}), bounds);
   if (gains.verdict == model::Verdict::yes && gains.objective)
     text += paragraph("Which requirements limit the optimum, and what each of them costs:") +
-            preformatted("gainsmith explain " + gains.statement.problem_file);
+            preformatted("gainsmith explain " + model::problem_words(gains.statement.problem_file,
+                                                                     gains.statement.settings));
   return section("Margins", text);
 }
 

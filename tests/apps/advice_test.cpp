@@ -58,6 +58,20 @@ TEST(AdviceTest, NamesThatAShellWouldSplitAreQuoted) {
             "gainsmith explain 'my plant'\\''s.yaml'");
 }
 
+TEST(AdviceTest, WhatWasSetIsSetAgain) {
+  tests::YamlProblem yaml(kSampled);
+  yaml.instance = model::with_design(yaml.instance, [](model::Design& design) {
+    design.statement.settings = {{"T2", "1.5"}, {"low", "1 / 4"}};
+  });
+  model::Gains gains;
+  gains.verdict = Verdict::undecided;
+  EXPECT_EQ(next_commands(yaml.instance, gains, "plant.yaml"),
+            (std::vector<std::string>{
+                "gainsmith explain plant.yaml --set T2=1.5 --set 'low=1 / 4'",
+                "gainsmith bisect plant.yaml --set T2=1.5 --set 'low=1 / 4' --largest T2 --in 0.25 "
+                "1.5"}));
+}
+
 TEST(AdviceTest, TheLimitOfAnInputIsNotAskedForWhereItAlsoHelps) {
   const auto with = [](const std::string& bound) {
     return "problem: p\nmethod:\n  method: m\n  data: {limit: scalar}\n  unknowns: {x: scalar}\n"

@@ -51,11 +51,24 @@ TEST(ExplainText, EachCellOfThePricesIsExplained) {
   EXPECT_EQ(prices_of({{"d", 1, 4, {}, nothing}}).find("inf"), std::string::npos);
 }
 
+TEST(ExplainText, ARelaxationIsAlsoSaidInTheUnitsOfTheInequality) {
+  design::Explanation explanation;
+  explanation.relaxations = {{"cap", 0.25, 0.368, false, false, 0.2, false}, {"floor", 2}};
+  const std::string text = explanation_text(explanation);
+  EXPECT_NE(text.find("0.25           0.092            0.05\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("2               -               -\n"), std::string::npos) << text;
+}
+
 TEST(ExplainText, AMarginBelowTheOneAskedForSaysWhatDecided) {
   design::Explanation explanation;
   explanation.gains.verdict = model::Verdict::yes;
   explanation.gains.margins = {{"flow", true, 7e-10, 1e-9, 1, "", true}};
   EXPECT_NE(explanation_text(explanation).find("(flow 7e-10 of 1e-09)"), std::string::npos);
+  explanation.gains.margins[0].reached = 1e-10;
+  EXPECT_EQ(explanation_text(explanation).find("asked for"), std::string::npos) << "a message does";
+  explanation.gains.objective_lower_bound = 1;
+  EXPECT_NE(explanation_text(explanation).find("an optimum lies on the boundary"),
+            std::string::npos);
   explanation.gains.margins[0].reached = 2e-9;
   EXPECT_EQ(explanation_text(explanation).find("asked for"), std::string::npos);
 }

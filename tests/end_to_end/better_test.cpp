@@ -75,6 +75,8 @@ TEST(Better, AGainBoundThatCostsSaysWhatMoreGives) {
   EXPECT_LT(wider.get<double>(), bound - 0.01);
   EXPECT_GT(wider.get<double>(), 1.30610178);
   const std::string shown = gainsmith({"explain", problem("designs/hinf-state-feedback.yaml")}).out;
+  EXPECT_TRUE(has(shown, "without this requirement nothing bounds the objective")) << shown;
+  EXPECT_TRUE(has(shown, "matrices    only scalar data")) << shown;
   EXPECT_TRUE(has(shown, "gain bound  it costs: the optimum with ten times the bound is 1.3"))
       << shown;
 }
@@ -106,18 +108,40 @@ TEST(Better, TheSmallestGainBoundThatIsEnoughIsFound) {
   const std::string file = folder.file("p.yaml", kFirstOrder + "synthesis: {gain_bound: 2}\n");
   const Outcome synth = gainsmith({"synth", file});
   EXPECT_NE(synth.exit, 0);
+  EXPECT_FALSE(has(synth.out, "objective")) << synth.out;
+  EXPECT_FALSE(has(synth.out, "solver: optimal")) << synth.out;
+  const Outcome set = gainsmith({"synth", file, "--set", "gain_bound=1"});
+  EXPECT_TRUE(has(set.out, "explain " + file + " --set gain_bound=1\n")) << set.out;
+  EXPECT_TRUE(has(set.out, file + " --set gain_bound=1 --smallest gain_bound\n")) << set.out;
   const Outcome outcome = gainsmith({"explain", file});
   EXPECT_TRUE(has(outcome.out, "gain_bound at least 4.0")) << outcome.out;
+  const Outcome named = gainsmith(
+      {"explain", folder.file("n.yaml", text_of(file) + "negotiable: {gain_bound: [1, 9]}\n")});
+  const std::size_t once = named.out.find("gain_bound at least");
+  ASSERT_NE(once, std::string::npos) << named.out;
+  EXPECT_EQ(named.out.find("gain_bound at least", once + 1), std::string::npos) << named.out;
   const std::string gains = folder.path("gains.json");
   const Outcome found = gainsmith({"bisect", file, "--smallest", "gain_bound", "-o", gains});
   EXPECT_EQ(found.exit, 0) << found.err;
   EXPECT_TRUE(has(found.out, "search      smallest gain_bound = 4.0")) << found.out;
+  EXPECT_FALSE(has(found.out, "note ")) << "twice the bound gives no more: " << found.out;
   const Json document = Json::parse(text_of(gains));
   EXPECT_NEAR(document["searched"]["gain_bound"].get<double>(), 4, 1e-2);
   EXPECT_EQ(gainsmith({"verify", gains, "--runs", "5"}).exit, 0);
   const Outcome scan = gainsmith({"scan", file, "--over", "gain_bound=2:8:2"});
   EXPECT_TRUE(has(scan.out, "undecided") || has(scan.out, "no")) << scan.out;
   EXPECT_TRUE(has(scan.out, "yes")) << scan.out;
+}
+
+TEST(Better, TheSmallestGainBoundSaysWhatItLeavesToTheObjective) {
+  const std::string file = problem("designs/hinf-state-feedback.yaml");
+  const Outcome outcome =
+      gainsmith({"bisect", file, "--set", "margin=1e-8", "--smallest", "gain_bound"});
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+  EXPECT_TRUE(has(outcome.out, "note        the smallest bound leaves little to the objective"))
+      << outcome.out;
+  EXPECT_TRUE(has(outcome.out, "scan " + file + " --set margin=1e-8 --over gain_bound=0.0202:0.2"))
+      << outcome.out;
 }
 
 /// A report that has no value at the gains found costs neither them nor the verdict.

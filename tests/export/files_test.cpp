@@ -208,6 +208,7 @@ TEST(ExportFiles, LatexHasBracketsAndPowers) {
       has(text, "K = \\begin{bmatrix}\n    1 & -2.5 \\times 10^{-7} \\\\\n    3 & 1.23457\n"))
       << text;
   EXPECT_TRUE(has(text, "\\mathit{Ldno}_{1} = 2")) << text;
+  EXPECT_TRUE(has(text, "% The numbers are rounded to 6 digits.")) << text;
   EXPECT_FALSE(has(text, "MaxMatrixCols"));
   EXPECT_TRUE(has(latex_file({}, {{"K", numbers::Matrix::Zero(1, 11)}}), "{MaxMatrixCols}{11}"));
 }

@@ -132,12 +132,21 @@ TEST(Parser, CallsIndicesAndRanges) {
 
 TEST(Parser, ATightSignAfterASpaceIsNoDifferenceInABlock) {
   for (const char* text : {"[1 -1; 2, 3]", "[a +b]", "[f(x) -1]"})
-    EXPECT_NE(input_error([&] { parse({text, "f"}); }).message().find("a comma is missing before"),
+    EXPECT_NE(input_error([&] {
+                parse({text, "f"});
+              })
+                  .message()
+                  .find("a comma is missing before"),
               std::string::npos)
         << text;
-  for (const char* text : {"[1 - 1; 2]", "[1-1]", "[1, -1]", "[(a -b)]", "[f(a -b)]", "[1 -\n1]", "a -b"})
+  for (const char* text :
+       {"[1 - 1; 2]", "[1-1]", "[1, -1]", "[(a -b)]", "[f(a -b)]", "[1 -\n1]", "a -b"})
     EXPECT_NO_THROW(parse({text, "f"})) << text;
-  EXPECT_NE(input_error([&] { parse_element({"-1 -2", "f"}); }).message().find("a comma is missing"),
+  EXPECT_NE(input_error([&] {
+              parse_element({"-1 -2", "f"});
+            })
+                .message()
+                .find("a comma is missing"),
             std::string::npos);
 }
 
@@ -163,7 +172,9 @@ TEST(Parser, MistakesAreShownWhereTheyAre) {
       {"a b", 1, 3, "found 'b'"},
       {"(a + b", 1, 7, "expected ')'"},
       {"a)", 1, 2, "found ')'"},
-      {"[a, b; c]", 1, 9, "1 entries, the first row has 2"},
+      {"[a, b; c]", 1, 9, "1 entry, the first row has 2"},
+      {"[0,1,0,0; 0.5*K]", 1, 16, "brackets of its own: [[0,1,0,0]; 0.5*K]"},
+      {"[(a + b)*K; 0, 1]", 1, 17, "brackets of its own: [(a + b)*K; [0, 1]]"},
       {"[a, b\n c]", 2, 2, "expected ',' ';' or ']'"},
       {"[]", 1, 2, "found ']'"},
       {"[a, ]", 1, 5, "found ']'"},
