@@ -202,9 +202,17 @@ TEST_F(DataFiles, ASettingIsADefinitionOrAFunction) {
   EXPECT_EQ(report({{"k", "3"}}, 0), 21);
   EXPECT_EQ(report({{"g(s)", "s^2"}}, 1), 9);
   EXPECT_EQ(report({{"f(z)", "2*z"}}, 2), 10);
-  EXPECT_NE(input_error([&] { report({{"b(1)", "5"}}, 0); }).message().find("a whole value"),
+  EXPECT_NE(input_error([&] {
+              report({{"b(1)", "5"}}, 0);
+            })
+                .message()
+                .find("a whole value"),
             std::string::npos);
-  EXPECT_NE(input_error([&] { report({{"k(1)", "5"}}, 0); }).message().find("a whole value"),
+  EXPECT_NE(input_error([&] {
+              report({{"k(1)", "5"}}, 0);
+            })
+                .message()
+                .find("a whole value"),
             std::string::npos);
 }
 
