@@ -175,7 +175,8 @@ TEST(ProblemsTest, AWrongExpectationFailsTheRun) {
 TEST(ProblemsTest, TheLogAndJUnitNameTheCause) {
   const Folder folder;
   const std::string like = "like: " + problem("ferrante-seuret-2021/t2-0.70.yaml");
-  folder.file("p/a-none.yaml", "problem: none\n" + like + "\ndata: {T2: 1.1}\n");
+  std::filesystem::create_directory(folder.path("p"));
+  folder.file("p/a-none.yaml", "problem: long\n" + like + "\ndata: {T2: 1.1}\n");
   folder.file("p/b-hidden.yaml",
               "problem: hidden\n" + like + "\ndata: {A: [[1, 0], [0, -1]], C: [[0, 1]]}\n");
   folder.file(
@@ -212,6 +213,7 @@ TEST(ProblemsTest, AnUndecidedProblemSaysSoFirst) {
       "problem: open\nmethod: static-output-feedback\ndata: {A: [[0, 1], [0, 0]], B: [[0], [1]], "
       "C: "
       "[1, 1]}\nparameters: {alpha: 3}\n";
+  std::filesystem::create_directory(folder.path("p"));
   folder.file("p/a.yaml", open + "expect: {verdict: \"yes\"}\n");
   folder.file("p/b.yaml", open);
   const Outcome outcome = gainsmith(
