@@ -176,7 +176,9 @@ TEST(ProblemsTest, TheLogAndJUnitNameTheCause) {
   const Folder folder;
   const std::string like = "like: " + problem("ferrante-seuret-2021/t2-0.70.yaml");
   std::filesystem::create_directory(folder.path("p"));
-  folder.file("p/a-none.yaml", "problem: long\n" + like + "\ndata: {T2: 1.1}\n");
+  folder.file(
+      "p/a-none.yaml",
+      "problem: long\n" + like + "\ndata: {T2: 1.1}\nexpect: {verdict: \"yes\", campaign: held}\n");
   folder.file("p/b-hidden.yaml",
               "problem: hidden\n" + like + "\ndata: {A: [[1, 0], [0, -1]], C: [[0, 1]]}\n");
   folder.file(
