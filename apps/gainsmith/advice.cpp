@@ -88,11 +88,7 @@ std::string hidden_line(const model::Instance& instance) {
 }
 
 std::string held_line(const model::Instance& instance, const std::vector<std::string>& varied) {
-  std::string held;
-  for (const design::SearchedScalar& scalar : design::request_of(instance).over)
-    if (std::find(varied.begin(), varied.end(), scalar.name) == varied.end())
-      held += (held.empty() ? "" : ", ") + scalar.name + " = " +
-              brief(model::scalar_named(instance, scalar.name).value_or(0));
+  const std::string held = design::held_text(design::held_scalars(instance, varied));
   if (held.empty()) return "";
   return fmt::format("{:<12}{}; synth and optimize search what this keeps\n", "held", held);
 }

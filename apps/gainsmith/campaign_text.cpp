@@ -7,6 +7,7 @@
 #include "base/number.h"
 #include "base/scalars.h"
 #include "base/version.h"
+#include "gainsmith/advice.h"
 #include "gainsmith/notes.h"
 
 namespace gainsmith::app {
@@ -238,6 +239,33 @@ std::string campaign_line(const model::CampaignRecord& record) {
         record.integrated ? "more accurately" : fmt::format("in {} digits", kQuadDigits));
   return fmt::format("undecided in {} of {}{}", record.undecided + record.violations,
                      runs_text(record.runs), worst);
+}
+
+std::vector<std::string> campaign_causes(const verify::Report& report,
+                                         const std::string& gains_file) {
+  const auto replay = [&](std::uint64_t run) {
+    return fmt::format("; replay: gainsmith simulate {} --run {} --seed {}", quoted(gains_file),
+                       run, report.seed);
+  };
+  std::vector<std::string> causes;
+  if (report.verdict == model::CampaignVerdict::undecided && report.first_undecided)
+    causes.push_back(
+        fmt::format("undecided: run {}: {}", report.first_undecided->run, reason_text(report)) +
+        replay(report.first_undecided->run));
+  if (report.verdict != model::CampaignVerdict::violated) return causes;
+  std::vector<const verify::CheckReport*> violated;
+  for (const verify::CheckReport& check : report.checks)
+    if (check.violations > 0) violated.push_back(&check);
+  std::stable_sort(violated.begin(), violated.end(),
+                   [](const auto* a, const auto* b) { return a->worst.score > b->worst.score; });
+  for (const verify::CheckReport* check : violated)
+    causes.push_back(fmt::format("claim {} ({}) violated in {}: {} against {} at (t, j) = ({}, {}) "
+                                 "of run {}",
+                                 check->name, kind_text(check->kind), runs_text(check->violations),
+                                 brief(check->worst.value), brief(check->worst.bound),
+                                 brief(check->worst.t), check->worst.j, check->worst_run) +
+                     replay(check->worst_run));
+  return causes;
 }
 
 std::string campaign_summary(const verify::Report& report, const std::string& gains_file) {

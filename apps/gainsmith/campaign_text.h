@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "base/error.h"
 #include "model/campaign_record.h"
@@ -21,6 +22,11 @@ std::string campaign_summary(const verify::Report& report, const std::string& ga
 
 /// Of a claim that the end of a run leaves open, or violates: "ended at (t, j) = (1.25, 0), before ...".
 std::string end_text(const claims::Finding& finding);
+
+/// Why a campaign did not hold, a line each with the command that repeats the run: the claims that
+/// are violated, the one violated most at first, or the first undecided run. Empty when it held.
+std::vector<std::string> campaign_causes(const verify::Report& report,
+                                         const std::string& gains_file);
 
 /// "interrupted after 1234 of 10000 runs: 1230 held, 4 violated; ...".
 std::string interruption_text(const verify::Report& report);

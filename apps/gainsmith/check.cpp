@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -118,33 +119,44 @@ std::string listed(const io::Json& names) {
   return text.empty() ? "none" : text;
 }
 
-void print(const std::string& path, const io::Json& found) {
+std::string text_of(const std::string& path, const io::Json& found) {
   const int unknowns = found["unknown_scalars"].get<int>();
   const int blocks = found["blocks"].get<int>();
-  fmt::print("{}: valid: method {}, {}\n", path, found["method"].get<std::string>(),
-             unknowns + blocks == 0
-                 ? "a design by formula"
-                 : fmt::format("{} unknown scalars, {} inequality blocks", unknowns, blocks));
+  std::string text =
+      fmt::format("{}: valid: method {}, {}\n", path, found["method"].get<std::string>(),
+                  unknowns + blocks == 0
+                      ? "a design by formula"
+                      : fmt::format("{} unknown scalars, {} inequality blocks", unknowns, blocks));
   if (found.contains("events"))
-    fmt::print("  observers   {}\n  events      {}\n", listed(found["observers"]),
-               listed(found["events"]));
+    text += fmt::format("  observers   {}\n  events      {}\n", listed(found["observers"]),
+                        listed(found["events"]));
   for (const auto& word : found["campaign_defaults"])
-    fmt::print("  by default  {}\n", word.get<std::string>());
-  for (const auto& note : found["notes"]) fmt::print("  note        {}\n", note.get<std::string>());
+    text += fmt::format("  by default  {}\n", word.get<std::string>());
+  for (const auto& note : found["notes"])
+    text += fmt::format("  note        {}\n", note.get<std::string>());
+  return text;
+}
+
+/// How much is printed of a file.
+enum class Detail { none, line, all };
+
+void print(const std::string& text, Detail detail) {
+  if (detail == Detail::none) return;
+  fmt::print("{}", detail == Detail::line ? text.substr(0, text.find('\n') + 1) : text);
 }
 
 /// One file: its result as JSON, printed where JSON is not asked for.
-ExitCode check_file(const std::string& path, const std::vector<std::string>& set, bool prints,
+ExitCode check_file(const std::string& path, const std::vector<std::string>& set, Detail detail,
                     io::Json& found) {
   if (is_gain_file(path)) {
     const design::GainCheck checked = check_gains(load_gains(path));
     found = gain_check_json(path, checked);
-    if (prints) fmt::print("{}", gain_check_text(path, checked));
+    print(gain_check_text(path, checked), detail);
     return exit_of(checked.verdict);
   }
   const model::Instance instance = load_problem(path, set);
   found = description(instance, check_runs(instance));
-  if (prints) print(path, found);
+  print(text_of(path, found), detail);
   found["file"] = path;
   return ExitCode::yes;
 }
@@ -156,18 +168,50 @@ ExitCode worse(ExitCode a, ExitCode b) {
   return ExitCode::yes;
 }
 
+/// The line of a wrong file among others: its name at first, as in those of good files.
+std::string wrong_line(const std::string& path, const InputError& error) {
+  const std::string what = error.what();
+  return (what.starts_with(path) ? what : path + ": " + what) + "\n";
+}
+
+/// "5 files: 3 good, 1 wrong, 1 not known".
+std::string total(const std::map<ExitCode, int>& counts, std::size_t files) {
+  std::string text = fmt::format("{} files:", files);
+  std::string mark = " ";
+  for (const auto& [code, word] : {std::pair(ExitCode::yes, "good"),
+                                   {ExitCode::no, "do not hold"},
+                                   {ExitCode::bad_input, "wrong"},
+                                   {ExitCode::undecided, "not known"}}) {
+    const auto found = counts.find(code);
+    if (found == counts.end()) continue;
+    text += fmt::format("{}{} {}", mark, found->second, word);
+    mark = ", ";
+  }
+  return text + "\n";
+}
+
 ExitCode check(const CheckOptions& options) {
   ExitCode exit = ExitCode::yes;
   io::Json results = io::Json::array();
-  for (const ProblemFile& problem : problem_files(options.problems)) {
+  const std::vector<ProblemFile> files = problem_files(options.problems);
+  const bool several = files.size() > 1;
+  const Detail detail = options.json ? Detail::none : several ? Detail::line : Detail::all;
+  std::map<ExitCode, int> counts;
+  for (const ProblemFile& problem : files) {
     const std::string path = problem.path.string();
     try {
       io::Json found;
-      exit = worse(exit, check_file(path, options.set, !options.json, found));
+      const ExitCode code = check_file(path, options.set, detail, found);
+      ++counts[code];
+      exit = worse(exit, code);
       results.push_back(std::move(found));
     } catch (const InputError& error) {
+      ++counts[ExitCode::bad_input];
       exit = ExitCode::bad_input;
-      say(fmt::format("gainsmith: {}\n", error.what()));
+      if (detail == Detail::line)
+        fmt::print("{}", wrong_line(path, error));
+      else
+        say(fmt::format("gainsmith: {}\n", error.what()));
       results.push_back({{"valid", false},
                          {"file", error.place().file},
                          {"line", error.place().line},
@@ -176,6 +220,7 @@ ExitCode check(const CheckOptions& options) {
     }
   }
   if (options.json) fmt::print("{}", io::to_text(results));
+  if (detail == Detail::line) fmt::print("{}", total(counts, files.size()));
   return exit;
 }
 
@@ -192,6 +237,7 @@ Command check_command() {
            .required(),
        set_option(options->set), Option("--json", options->json, "print the result as JSON")},
       "A problem is read, not solved. A gain file is taken as it stands, edited or not.\n"
+      "Of several files it prints a line each, of wrong ones too, and their number at the end.\n"
       "Exit code: 0 all valid and proved, 1 the inequalities do not hold at the gains of a file, 2 "
       "wrong\n"
       "input, 3 whether they hold is not known.\n"

@@ -14,6 +14,7 @@ namespace gainsmith::app {
 namespace {
 
 constexpr const char* kHelp = "print help";
+constexpr const char* kHelpCommand = "print the help of a command";
 
 std::string joined(const std::vector<std::string>& words) {
   return fmt::format("{}", fmt::join(words, " "));
@@ -118,14 +119,15 @@ std::string bash_completions(const Program& program) {
       "words\n"
       "  COMPREPLY=()\n"
       "  if [ \"$COMP_CWORD\" -eq 1 ]; then\n"
-      "    COMPREPLY=($(compgen -W '{} --help --version' -- \"$word\"))\n"
+      "    COMPREPLY=($(compgen -W '{0} help --help --version' -- \"$word\"))\n"
       "    return\n"
       "  fi\n"
-      "  case ${{COMP_WORDS[1]}} in\n{}"
+      "  case ${{COMP_WORDS[1]}} in\n{1}"
+      "    help) options='' words='{0}' ;;\n"
       "    *) return ;;\n"
       "  esac\n"
       "  [[ $word == -* ]] && words=$options\n"
-      "  case \"${{COMP_WORDS[1]}} $before\" in\n{}"
+      "  case \"${{COMP_WORDS[1]}} $before\" in\n{2}"
       "  esac\n"
       "  COMPREPLY=($(compgen -W \"$words\" -- \"$word\"))\n"
       "}}\n"
@@ -144,6 +146,9 @@ std::string zsh_completions(const Program& program) {
       cases += " \\\n      " + zsh_option(option);
     cases += " ;;\n";
   }
+  commands += "    " + quoted(std::string("help:") + kHelpCommand) + "\n";
+  cases += "    help) _arguments " +
+           quoted(fmt::format("1:command:({})", joined(command_names(program)))) + " ;;\n";
   return fmt::format(
       "#compdef gainsmith\n"
       "# Completion of gainsmith in zsh, made by 'gainsmith completions zsh'.\n"
@@ -178,6 +183,10 @@ std::string fish_completions(const Program& program) {
     for (const Option& option : options_of(command, patience))
       text += fish_option(command.name, option);
   }
+  text += fmt::format(
+      "complete -c gainsmith -n __fish_use_subcommand -f -a help -d '{}'\n"
+      "complete -c gainsmith -n '__fish_seen_subcommand_from help' -f -a '{}'\n",
+      kHelpCommand, joined(command_names(program)));
   return text;
 }
 

@@ -72,14 +72,18 @@ ExitCode explain(const ExplainOptions& options) {
       load_problem(options.problem, options.set, effort(options.effort));
   const design::Explanation explanation = design::explain(instance, {});
   const Telling telling;
+  const bool no =
+      explanation.gains.verdict == model::Verdict::no;  // then its line says what is held
   fmt::print("{}", options.json
                        ? io::to_text(explanation_json(explanation))
                        : explanation_text(explanation) + plant_line(instance, explanation) +
-                             better_lines(instance, explanation) + held_line(instance));
+                             better_lines(instance, explanation) + (no ? "" : held_line(instance)));
   if (!explanation.finished) {
     say("not finished: what is undecided or missing here was not examined to its end\n");
     return ExitCode::undecided;
   }
+  // Other values of what synth searches may have gains.
+  if (no && !explanation.held.empty()) return ExitCode::undecided;
   return exit_of(explanation.gains.verdict);
 }
 
@@ -96,7 +100,8 @@ Command explain_command() {
               "what double does not decide: ordinary (an allowance of work) or full (any)")
            .one_of({"ordinary", "full"}),
        Option("--json", options->json, "print as JSON")},
-      "The problem is taken at its own values: what it wants searched is not searched.\n"
+      "The problem is taken at its own values: what synth searches is held, and a no at these\n"
+      "values is undecided.\n"
       "Of a problem with gains it says what limits the optimum: what each requirement, each bound\n"
       "and each scalar costs, and how far the scalars under 'negotiable' go.\n"
       "Exit code: 0 feasible, 1 infeasible, 2 wrong input, 3 undecided.\n"

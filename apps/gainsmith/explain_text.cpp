@@ -266,6 +266,16 @@ io::Json conflict_json(const design::Conflict& conflict) {
           {"backward_error", conflict.certificate.backward_error}};
 }
 
+/// "no at b = 0.001, infeasible by a checked certificate; synth also searches b".
+std::string verdict_text(const design::Explanation& explanation) {
+  const std::string line = verdict_line(explanation.gains);
+  if (explanation.gains.verdict != model::Verdict::no || explanation.held.empty()) return line;
+  std::vector<std::string> names;
+  for (const design::HeldScalar& scalar : explanation.held) names.push_back(scalar.name);
+  return "no at " + design::held_text(explanation.held) + line.substr(std::string("no").size()) +
+         "; synth also searches " + listed(names);
+}
+
 }  // namespace
 
 std::string explanation_line(const design::Conflict& conflict,
@@ -279,7 +289,7 @@ std::string explanation_line(const design::Conflict& conflict,
 
 std::string explanation_text(const design::Explanation& explanation) {
   std::string text = fmt::format("problem     {}\nverdict     {}\n", explanation.gains.problem_name,
-                                 verdict_line(explanation.gains));
+                                 verdict_text(explanation));
   const bool yes = explanation.gains.verdict == model::Verdict::yes;
   if (!explanation.conflict) text += message_lines(explanation.gains);
   if (yes) text += margins_note(explanation.gains) + objective_text(explanation.gains);
@@ -316,6 +326,9 @@ io::Json explanation_json(const design::Explanation& explanation) {
          {"beyond_about", reach.certificate ? io::Json(reach.certificate->about) : io::Json()},
          {"conflict", reach.conflict ? conflict_json(*reach.conflict) : io::Json()},
          {"conflict_at", reach.conflict ? io::Json(reach.conflict_at) : io::Json()}});
+  document["held"] = io::Json::object();
+  for (const design::HeldScalar& scalar : explanation.held)
+    document["held"][scalar.name] = scalar.value;
   if (explanation.gains.objective) document["objective"] = *explanation.gains.objective;
   document["limits"] = explanation.limits ? limits_json(*explanation.limits) : io::Json();
   return document;

@@ -201,7 +201,8 @@ Command export_command() {
           {Option("gains", options->gains, "gain file (JSON)").required(),
            Option("--to", options->target, "c, matlab, python, json, csv, mat or latex")
                .required()
-               .checked(target_error),
+               .checked(target_error)
+               .suggests(kTargets),
            Option("-o,--output", options->output,
                   "write it here (default: standard output); its name is that of the code"),
            Option("--float", options->single,

@@ -11,8 +11,11 @@
 #include "base/stop.h"
 #include "bind/instance.h"
 #include "design/expectations.h"
+#include "design/explain.h"
+#include "design/hautus.h"
 #include "design/optimize.h"
 #include "gainsmith/campaign_text.h"
+#include "gainsmith/explain_text.h"
 #include "gainsmith/load.h"
 #include "gainsmith/run_table.h"
 #include "gainsmith/search_wanted.h"
@@ -71,6 +74,18 @@ void prepare(const fs::path& folder) {
   for (const char* name : kWritten) fs::remove(folder / name, error);
 }
 
+/// Why there are no gains, in one line: the hidden mode, or what conflicts.
+std::string no_gains_cause(const model::Instance& instance, const model::Gains& gains) {
+  constexpr double kSeconds = 1;  // of work
+  const std::string& message = gains.solver.message;
+  if (gains.verdict == model::Verdict::undecided || !gains.certificate)
+    return verdict_line(gains) + (message.empty() ? "" : ": " + message);
+  const std::string hidden = design::hidden_mode_text(instance);
+  if (!hidden.empty()) return "infeasible: " + hidden;
+  const auto conflict = design::guess_conflict(instance, gains, {}, kSeconds);
+  return "infeasible: " + explanation_line(conflict.value(), {});
+}
+
 class Job {
  public:
   /// `hash`: of the gains, as soon as they are written.
@@ -89,13 +104,16 @@ class Job {
     const auto campaign = verify_and_write(gains);
     result.differences = design::differences(
         instance_, gains, campaign ? std::optional(campaign->verdict) : std::nullopt);
-    const verify::RunDifferences run = verify::run_differences(instance_, gains);
+    const bool nothing = design::lacks_gains(*instance_.design, gains);
+    const verify::RunDifferences run =
+        nothing ? verify::RunDifferences{} : verify::run_differences(instance_, gains);
     if (is_stopping()) throw Interrupted("interrupted while figures of the first run were found");
     result.differences.insert(result.differences.end(), run.different.begin(), run.different.end());
     result.exit = judge(*instance_.design, gains, campaign, result.differences);
     if (result.exit == ExitCode::yes && !run.undecided.empty()) result.exit = ExitCode::undecided;
     for (const std::string& open : run.undecided)
       result.differences.push_back(open + ": the digits do not decide");
+    if (result.exit != ExitCode::yes) result.causes = causes(gains, campaign);
     result.line = verdict_line(gains) + "; " +
                   (campaign ? campaign_line(campaign_record(*campaign, hash_))
                             : "no campaign: " + why_no_campaign(gains));
@@ -123,6 +141,16 @@ class Job {
     write();
     if (campaign) write_campaign(*setup, *campaign);
     return campaign;
+  }
+
+  /// What is not as expected, or not as usual, of the verdict and of the campaign.
+  std::vector<std::string> causes(const model::Gains& gains,
+                                  const std::optional<verify::Report>& campaign) const {
+    if (design::lacks_gains(*instance_.design, gains)) return {no_gains_cause(instance_, gains)};
+    const auto& expect = instance_.design->expect;
+    const std::string wanted = expect && expect->campaign ? *expect->campaign : "held";
+    if (!campaign || to_string(campaign->verdict) == wanted) return {};
+    return campaign_causes(*campaign, (folder_ / "gains.json").string());
   }
 
   /// Empty when the method can be simulated and every gain has a value.
@@ -162,6 +190,7 @@ class Job {
     if (gains.objective) document["objective"] = *gains.objective;
     document["campaign"] = campaign ? io::Json(to_string(campaign->verdict)) : io::Json();
     if (!campaign) document["no_campaign"] = why_no_campaign(gains);
+    document["causes"] = result.causes;
     document["differences"] = result.differences;
     return document;
   }
@@ -169,6 +198,9 @@ class Job {
   std::string summary(const model::Gains& gains, const std::optional<verify::Report>& campaign,
                       const JobResult& result) const {
     std::string text = synthesis_summary(gains);
+    // Otherwise the message above says it.
+    if (design::lacks_gains(*instance_.design, gains) && gains.solver.message.empty())
+      text += "why         " + result.causes.front() + "\n";
     if (campaign) text += campaign_summary(*campaign, (folder_ / "gains.json").string());
     if (instance_.design->expect)
       text +=

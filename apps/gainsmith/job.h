@@ -23,6 +23,7 @@ struct JobResult {
   ExitCode exit = ExitCode::fault;
   std::string name;  ///< of the problem's folder in the output
   std::string line;  ///< "yes, objective 688.572; held in 1000 runs, worst run 627"
+  std::vector<std::string> causes;       ///< why it is not ok, the first at first
   std::vector<std::string> differences;  ///< from `expect:`
   io::Json report;                       ///< without timings
   std::string gains_hash;                ///< of the gains that were written (io/campaign_json.h)

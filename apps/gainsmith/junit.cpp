@@ -37,9 +37,11 @@ std::string test_case(const JobResult& result) {
                   escaped(result.name), result.seconds);
   if (result.exit == ExitCode::yes) return text + "/>\n";
   const std::string element = result.exit == ExitCode::no ? "failure" : "error";
-  const std::string& cause =
-      result.differences.empty() ? result.line : result.differences.front();
+  const std::string& cause = !result.causes.empty()        ? result.causes.front()
+                             : !result.differences.empty() ? result.differences.front()
+                                                           : result.line;
   std::string details = result.line;
+  for (const std::string& one : result.causes) details += "\n" + one;
   for (const std::string& difference : result.differences) details += "\n" + difference;
   return text + fmt::format(">\n      <{0} message=\"{1}\">{2}</{0}>\n    </testcase>\n", element,
                             escaped(mark_of(result.exit) + ": " + cause), escaped(details));

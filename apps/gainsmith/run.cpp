@@ -66,6 +66,7 @@ class Lines {
  private:
   void print(const JobResult& result) const {
     fmt::print("{:<11} {:<{}}  {}\n", mark_of(result.exit), result.name, width_, result.line);
+    for (const std::string& cause : result.causes) fmt::print("            {}\n", cause);
     for (const std::string& difference : result.differences)
       fmt::print("            {}\n", difference);
   }

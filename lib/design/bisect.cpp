@@ -45,12 +45,14 @@ std::string values_with(const search::Bisection& found, search::Answer answer) {
 }
 
 /// What is said when no value is feasible: nothing of those that were not tried.
-/// `limits`: what the certificates are limited to (model::limits_of).
+/// `limits`: what the certificates are limited to (model::limits_of). `held`: scalars that a search
+/// might have moved, as text.
 std::string nothing_found(const search::Bisection& found, const BisectChoices& choices,
-                          const std::string& limits) {
+                          const std::string& limits, const std::string& held) {
   std::string text = "no feasible " + choices.scalar.name + " among the " +
                      std::to_string(found.samples.size()) + " values tried in [" +
-                     brief(choices.scalar.axis.low) + ", " + brief(choices.scalar.axis.high) + "]";
+                     brief(choices.scalar.axis.low) + ", " + brief(choices.scalar.axis.high) + "]" +
+                     (held.empty() ? "" : " at " + held);
   const bool all = std::all_of(found.samples.begin(), found.samples.end(), [](const auto& sample) {
     return sample.answer == search::Answer::no;
   });
@@ -63,6 +65,13 @@ std::string nothing_found(const search::Bisection& found, const BisectChoices& c
     text += "; those at " + excluded + " are excluded by certificates" + limits;
   if (!refused.empty()) text += "; those at " + refused + " are refused by the assumptions";
   return text;
+}
+
+/// The scalars that the caller sets.
+std::vector<std::string> set_names(const BisectChoices& choices, const model::Overrides& fixed) {
+  std::vector<std::string> names = {choices.scalar.name};
+  for (const auto& [name, value] : fixed) names.push_back(name);
+  return names;
 }
 
 /// What the weakest of the certificates is limited to.
@@ -121,8 +130,10 @@ BisectResult bisect(const model::Instance& own, const model::Overrides& fixed,
   result.gains = tried.at(result.found.yes.value_or(easiest));
   result.gains.search = record_of(result.found, choices);
   if (!result.found.yes)
-    set_undecided(result.gains, nothing_found(result.found, choices, weakest_limits(tried)) +
-                                    hidden_mode_note(own));
+    set_undecided(result.gains,
+                  nothing_found(result.found, choices, weakest_limits(tried),
+                                held_text(held_scalars(own, set_names(choices, fixed)))) +
+                      hidden_mode_note(own));
   if (result.found.no) result.gains.search->certificate = tried.at(*result.found.no).certificate;
   return result;
 }

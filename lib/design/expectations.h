@@ -10,9 +10,14 @@
 
 namespace gainsmith::design {
 
+/// Whether the verdict is not yes where yes, or another word, is expected: then there is nothing else
+/// to compare.
+bool lacks_gains(const model::Design& design, const model::Gains& gains);
+
 /// The differences between what `expect:` says and what was found, one sentence each, with the
-/// place in the problem file; empty when all is as expected, or nothing is. `campaign` is none when
-/// no campaign was run; an expectation on it is then a difference.
+/// place in the problem file; empty when all is as expected, or nothing is. Where it lacks gains the
+/// verdict alone. `campaign` is none when no campaign was run; an expectation on it is then a
+/// difference.
 std::vector<std::string> differences(const model::Instance& instance, const model::Gains& gains,
                                      std::optional<model::CampaignVerdict> campaign);
 

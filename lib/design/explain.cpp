@@ -320,6 +320,7 @@ std::vector<Reach> find_room(const model::Instance& instance, const sdp::Options
 Explanation explain(const model::Instance& instance, const sdp::Options& solver) {
   Explanation explanation;
   explanation.gains = synthesize(instance, solver);
+  explanation.held = held_scalars(instance);
   try {
     if (explanation.gains.verdict == model::Verdict::yes) {
       if (!explanation.gains.multipliers.empty())

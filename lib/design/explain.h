@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "design/limits.h"
+#include "design/search_request.h"
 #include "model/gains.h"
 #include "model/instance.h"
 #include "sdp/solver.h"
@@ -62,6 +63,7 @@ struct Explanation {
   std::vector<Relaxation> relaxations;  ///< one a requirement, in the order of the method
   std::vector<Reach> reaches;           ///< of `negotiable`, and of what the problem searches
   std::optional<Limits> limits;         ///< of a minimum
+  std::vector<HeldScalar> held;         ///< at which all of this is said; synth searches them
   bool finished = true;                 ///< not stopped (base/stop.h)
 };
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/number.h"
+
 namespace gainsmith::design {
 
 namespace {
@@ -35,6 +37,27 @@ SearchRequest request_of(const model::Instance& instance) {
   for (const model::Range& range : instance.design->open)
     if (!names(request, range.name)) request.over.push_back(searched_scalar(instance, range));
   return request;
+}
+
+std::vector<HeldScalar> held_scalars(const model::Instance& instance,
+                                     const std::vector<std::string>& varied) {
+  const SearchRequest request = request_of(instance);
+  std::vector<SearchedScalar> searched = request.over;
+  if (request.extreme) searched.push_back(*request.extreme);
+  std::vector<HeldScalar> held;
+  for (const SearchedScalar& scalar : searched) {
+    const auto value = model::scalar_named(instance, scalar.name);
+    if (value && std::find(varied.begin(), varied.end(), scalar.name) == varied.end())
+      held.push_back({scalar.name, *value});
+  }
+  return held;
+}
+
+std::string held_text(const std::vector<HeldScalar>& held) {
+  std::string text;
+  for (const HeldScalar& scalar : held)
+    text += (text.empty() ? "" : ", ") + scalar.name + " = " + brief(scalar.value);
+  return text;
 }
 
 search::Tolerance default_tolerance(const search::Axis& axis) {

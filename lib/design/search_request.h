@@ -43,6 +43,19 @@ struct SearchRequest {
 /// `search:` does not name them. The ends of ranges have the instance's values.
 SearchRequest request_of(const model::Instance& instance);
 
+/// A scalar that stays at a value of the problem.
+struct HeldScalar {
+  std::string name;
+  double value = 0;
+};
+
+/// The scalars that synth would search, at the instance's values, without those in `varied`.
+std::vector<HeldScalar> held_scalars(const model::Instance& instance,
+                                     const std::vector<std::string>& varied = {});
+
+/// "b = 0.001, eta = 0.1"; empty without one.
+std::string held_text(const std::vector<HeldScalar>& held);
+
 /// What counts as one value unless the problem gives a tolerance: 1e-4 of the range, or of the
 /// value on a logarithmic scale.
 search::Tolerance default_tolerance(const search::Axis& axis);

@@ -44,10 +44,20 @@ model::Let definition(const YamlFile& file, const YamlItem& item) {
   return {expr::parse_signature(item.key_text), file.expression(item.value, item.key), item.place};
 }
 
+/// InputError for "A(1,2): ...", where A is no function.
+void refuse_element(const YamlItem& entry, const model::Method& method) {
+  const std::string name = entry.key.substr(0, entry.key.find('('));
+  for (const model::Declaration& datum : method.data)
+    if (datum.name == name && datum.arguments.empty())
+      throw InputError(entry.place, "a datum is given as a whole, not by its elements: '" + name +
+                                        ": VALUE', of a matrix as in 'A: \"[0, 1; -1, 0]\"'");
+}
+
 /// "A: ..." is a matrix, "f(x): ..." a function.
 void read_data(const YamlFile& file, const std::optional<YamlItem>& item, model::Problem& problem) {
   for (const YamlItem& entry : items_of(file, item, "data")) {
     if (entry.key.find('(') != std::string::npos) {
+      refuse_element(entry, *problem.method);
       problem.functions.push_back(definition(file, entry));
     } else {
       add(datum_of(file, entry), entry, problem.data);

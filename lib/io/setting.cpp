@@ -7,6 +7,7 @@
 
 #include "base/nearest.h"
 #include "expr/parser.h"
+#include "io/keys.h"
 #include "io/synthesis_yaml.h"
 #include "io/yaml.h"
 #include "model/names.h"
@@ -34,7 +35,7 @@ class Setter {
         option_(sources.shown_option("--set " + setting.name)),
         sources_(sources),
         problem_(problem),
-        name_(setting.name.substr(0, setting.name.find('('))) {}
+        name_(setting.name.substr(0, setting.name.find_first_of("(["))) {}
 
   void run() {
     const model::Method& method = *problem_.method;
@@ -45,18 +46,27 @@ class Setter {
     };
     const auto by_name = [](const auto& item) { return item.name; };
     const auto datum = std::find_if(method.data.begin(), method.data.end(), named);
-    if (datum != method.data.end() && !datum->arguments.empty())
+    const bool in_method = is_in_problem(method) && has(method.let, signed_as);
+    if (datum != method.data.end() && !datum->arguments.empty()) {
       define(problem_.functions);
-    else if (datum != method.data.end())
+    } else if (datum != method.data.end()) {
+      refuse_index();
       replace_item(problem_.data, value(), by_name);
-    else if (has(method.parameters, named))
+    } else if (has(method.parameters, named)) {
+      refuse_index();
       replace_item(problem_.parameters, value(), by_name);
-    else if (has(problem_.let, signed_as) || (is_in_problem(method) && has(method.let, signed_as)))
+    } else if (has(problem_.let, signed_as) || in_method) {
+      const auto is_value = [&](const model::Let& let) {
+        return signed_as(let) && let.signature.parameters.empty() && let.signature.indices.empty();
+      };
+      if (has(problem_.let, is_value) || (in_method && has(method.let, is_value))) refuse_index();
       define(problem_.let);
-    else if (const auto choice = choices().find(name_); choice != choices().end())
+    } else if (const auto choice = choices().find(name_); choice != choices().end()) {
+      refuse_index();
       choose(choice->second);
-    else
+    } else {
       refuse_unknown(method);
+    }
   }
 
  private:
@@ -80,10 +90,22 @@ class Setter {
       throw InputError({option_}, "expected NAME=VALUE; there is no value");
   }
 
+  /// "A(1,2)": only functions have something in brackets.
+  void refuse_index() const {
+    if (name_ != setting_.name)
+      throw InputError({option_}, "--set gives a whole value, not an element: --set '" + name_ +
+                                      "=VALUE', of a matrix as in 'A=[0, 1; -1, 0]'");
+  }
+
   /// A method of the problem's own has no text beside that of the problem.
   static bool is_in_problem(const model::Method& method) { return method.text.empty(); }
 
   [[noreturn]] void refuse_unknown(const model::Method& method) const {
+    const std::string key = name_.substr(name_.rfind('.') + 1);  // of "campaign.horizon" too
+    if (keys::campaign.find(key) != nullptr)
+      throw InputError({option_}, "'" + key +
+                                      "' is a key of the campaign, which is set in the problem "
+                                      "file; --runs and --seed are options of run and verify");
     std::vector<std::string> known;
     for (const auto& datum : method.data) known.push_back(datum.name);
     for (const auto& parameter : method.parameters) known.push_back(parameter.name);

@@ -218,6 +218,9 @@ void check_scalar_name(const std::string& method, const std::vector<std::string>
     throw InputError(place, "'" + name + "' is a matrix (" + matrix->second +
                                 "); expected a scalar datum or parameter");
   if (name == kGainBound) return;
+  if (const std::size_t bracket = name.find_first_of("(["); bracket != std::string::npos)
+    throw InputError(place, "'" + name + "' is an element of '" + name.substr(0, bracket) +
+                                "'; expected the name of a scalar datum or parameter");
   throw InputError(place, "the method " + method + " has no scalar datum or parameter '" + name +
                               "'" + suggestion(name, scalars));
 }

@@ -53,6 +53,22 @@ TEST(ExpectationsTest, EachDifferenceIsSaidWithItsPlace) {
       << found[3];
 }
 
+TEST(ExpectationsTest, WithoutGainsTheVerdictAloneDiffers) {
+  model::Gains none;
+  none.verdict = model::Verdict::no;
+  const auto found = [&](const std::string& expect) {
+    const tests::YamlProblem yaml(problem_with(expect));
+    return differences(yaml.instance, none, std::nullopt);
+  };
+  const std::string rest =
+      "  campaign: held\n  values: {K: {value: [[1, 0], [0, 2]], absolute: 1}}\n";
+  ASSERT_EQ(found("  verdict: yes\n" + rest).size(), 1U);
+  EXPECT_NE(found("  verdict: yes\n" + rest)[0].find("verdict: expected yes, found no"),
+            std::string::npos);
+  EXPECT_TRUE(found(rest).empty());
+  EXPECT_EQ(found("  verdict: no\n" + rest).size(), 2U);
+}
+
 TEST(ExpectationsTest, AMatrixIsComparedElementByElement) {
   const auto found =
       differences_of("  values:\n    K: {value: [[1, 0], [0.1, 2]], absolute: 0.05}\n");

@@ -131,6 +131,24 @@ TEST(DataIn, AScanMayHaveOnePoint) {
   EXPECT_EQ(gainsmith({"optimize", t2, "--over", "T2=1"}).exit, 2);
 }
 
+TEST(DataIn, AnElementIsRefused) {
+  const Folder folder;
+  const std::string t2 = problem("ferrante-seuret-2021/t2-0.70.yaml");
+  const std::string variant =
+      folder.file("v.yaml", "problem: v\nlike: " + t2 + "\ndata: {C(1): 0.5}\n");
+  for (const auto& [command, says] :
+       {std::pair<Words, const char*>{{"synth", t2, "--set", "C(1)=[0.5, 0]"}, "--set 'C=VALUE'"},
+        {{"scan", t2, "--over", "C(1)=0.5"}, "'C(1)' is an element of 'C'"},
+        {{"scan", t2, "--over", "T2(1)=0.5:0.7:2"}, "'T2(1)' is an element of 'T2'"},
+        {{"bisect", t2, "--largest", "A(1,2)", "--in", "0.5", "0.7"}, "is an element of 'A'"},
+        {{"check", variant}, "v.yaml:3:8: a datum is given as a whole"}}) {
+    const Outcome refused = gainsmith(command);
+    EXPECT_EQ(refused.exit, 2) << command[0];
+    EXPECT_NE((refused.out + refused.err).find(says), std::string::npos)
+        << refused.out << refused.err;
+  }
+}
+
 TEST(DataIn, WhatIsWrongInAFileIsSaidWithItsPlace) {
   const Folder folder;
   const std::string path = with_files(folder);

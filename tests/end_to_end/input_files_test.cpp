@@ -41,12 +41,15 @@ TEST(InputFilesTest, CheckTakesAFolder) {
   std::filesystem::create_symlink("loop", folder.path("loop"));
   const Outcome good = gainsmith({"check", folder.path("")});
   EXPECT_EQ(good.exit, 0) << good.err;
-  EXPECT_EQ(count_lines(good.out), 2);
+  EXPECT_EQ(count_lines(good.out), 3);
+  EXPECT_TRUE(good.out.ends_with("\n2 files: 2 good\n")) << good.out;
   folder.file("c.yaml", "problem: [\n");
   const Outcome bad = gainsmith({"check", folder.path("")});
   EXPECT_EQ(bad.exit, 2);
-  EXPECT_EQ(count_lines(bad.out), 2);
-  EXPECT_NE(bad.err.find("c.yaml:"), std::string::npos) << bad.err;
+  EXPECT_EQ(count_lines(bad.out), 4);
+  EXPECT_NE(bad.out.find("\n" + folder.path("c.yaml:")), std::string::npos) << bad.out;
+  EXPECT_TRUE(bad.out.ends_with("\n3 files: 2 good, 1 wrong\n")) << bad.out;
+  EXPECT_EQ(bad.err, "");
 }
 
 TEST(InputFilesTest, AFolderThatIsNoFileIsNamedSo) {

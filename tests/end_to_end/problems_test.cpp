@@ -171,6 +171,61 @@ TEST(ProblemsTest, AWrongExpectationFailsTheRun) {
   EXPECT_NE(text_of(folder.path("j.xml")).find("<failure"), std::string::npos);
 }
 
+/// The message of a test case is what one would look for in the summary.
+TEST(ProblemsTest, TheLogAndJUnitNameTheCause) {
+  const Folder folder;
+  const std::string like = "like: " + problem("ferrante-seuret-2021/t2-0.70.yaml");
+  std::filesystem::create_directory(folder.path("p"));
+  folder.file(
+      "p/a-none.yaml",
+      "problem: long\n" + like + "\ndata: {T2: 1.1}\nexpect: {verdict: \"yes\", campaign: held}\n");
+  folder.file("p/b-hidden.yaml",
+              "problem: hidden\n" + like + "\ndata: {A: [[1, 0], [0, -1]], C: [[0, 1]]}\n");
+  folder.file(
+      "p/c-violated.yaml",
+      "problem: violated\nmethod:\n  plant: {state: {x: {shape: 1, start: 1}}, flow: {x: -x}}\n"
+      "  claims: {big: {above: x, bound: 0.4}, small: {below: x, bound: 0.5}}\n"
+      "campaign: {horizon: 1}\nexpect: {campaign: held}\n");
+  const Outcome outcome = gainsmith({"run", folder.path("p"), "-o", folder.path("out"), "--junit",
+                                     folder.path("j.xml"), "--json"});
+  EXPECT_EQ(outcome.exit, 1);
+  const std::string junit = text_of(folder.path("j.xml"));
+  const std::string replay = "; replay: gainsmith simulate " +
+                             folder.path("out/c-violated/gains.json") + " --run 0 --seed 1";
+  const auto problems = outcome.json()["problems"];
+  std::size_t at = 0;
+  for (const std::string& cause :
+       {std::string("infeasible: positive_P1 and flow cannot hold together"),
+        std::string("infeasible: the output does not show a mode of the plant"),
+        "claim small (stays below) violated in 1 run: 1 against 0.5 at (t, j) = (0, 0) of run 0" +
+            replay}) {
+    EXPECT_NE(junit.find("<failure message=\"NO: " + cause), std::string::npos) << junit;
+    EXPECT_TRUE(problems[at++]["causes"][0].get<std::string>().starts_with(cause));
+  }
+  EXPECT_EQ(problems[0]["differences"].size(), 1U);
+  EXPECT_EQ(problems[2]["causes"].size(), 2U);
+  EXPECT_NE(
+      text_of(folder.path("out/a-none/summary.txt")).find("why         infeasible: positive_P1"),
+      std::string::npos);
+}
+
+TEST(ProblemsTest, AnUndecidedProblemSaysSoFirst) {
+  const Folder folder;
+  const std::string open =
+      "problem: open\nmethod: static-output-feedback\ndata: {A: [[0, 1], [0, 0]], B: [[0], [1]], "
+      "C: "
+      "[1, 1]}\nparameters: {alpha: 3}\n";
+  std::filesystem::create_directory(folder.path("p"));
+  folder.file("p/a.yaml", open + "expect: {verdict: \"yes\"}\n");
+  folder.file("p/b.yaml", open);
+  const Outcome outcome = gainsmith(
+      {"run", folder.path("p"), "-o", folder.path("out"), "--junit", folder.path("j.xml")});
+  const std::string junit = text_of(folder.path("j.xml"));
+  EXPECT_NE(junit.find("<failure message=\"NO: undecided, "), std::string::npos) << junit;
+  EXPECT_NE(junit.find("<error message=\"UNDECIDED: undecided, "), std::string::npos) << junit;
+  EXPECT_EQ(outcome.exit, 3) << outcome.out;
+}
+
 TEST(ProblemsTest, TheWorstExitCodeWins) {
   const Folder folder;
   const std::string good = problem("classics/quadratic-stability.yaml");

@@ -25,6 +25,29 @@ method:
   gains: {K: 2*x}
 )";
 
+/// synth finds a weight b with gains; at the end of its range there are none.
+TEST(SearchTest, ANoAtAHeldScalarIsNoNoOfTheProblem) {
+  const Folder folder;
+  const std::string file = folder.file(
+      "servo.yaml",
+      "problem: servo\nmethod: static-output-feedback\ndata:\n  A: [[0, 1], [0, 0]]\n  B: "
+      "[[0], [1]]\n  C: [1, 1]\nparameters: {alpha: 1.7}\n");
+  EXPECT_EQ(gainsmith({"synth", file}).exit, 0);
+  const Outcome explained = gainsmith({"explain", file});
+  EXPECT_EQ(explained.exit, 3);
+  EXPECT_NE(explained.out.find("verdict     no at b = 0.001, infeasible by a checked certificate; "
+                               "synth also searches b\n"),
+            std::string::npos)
+      << explained.out;
+  EXPECT_EQ(gainsmith({"explain", file, "--json"}).json()["held"]["b"], 0.001);
+  EXPECT_EQ(gainsmith({"explain", file, "--set", "b=0.001"}).exit, 1);
+  const Outcome bisected = gainsmith({"bisect", file, "--largest", "alpha", "--in", "1.7", "1.8"});
+  EXPECT_EQ(bisected.exit, 3);
+  EXPECT_NE(bisected.out.find("values tried in [1.7, 1.8] at b = 0.001; each is excluded"),
+            std::string::npos)
+      << bisected.out;
+}
+
 TEST(BisectTest, TheLargestT2OfThePublishedExampleIsProvedOnBothSides) {
   const Folder folder;
   const std::string path = folder.path("gains.json");

@@ -86,7 +86,10 @@ class Tree(unittest.TestCase):
                       f"COMP_WORDS=({line}); COMP_CWORD={len(words) - 1}; _gainsmith; printf '%s\\n' \"${{COMPREPLY[@]}}\"")
             return set(run("bash", "-c", script).stdout.split())
 
-        self.assertEqual(completed("gainsmith", ""), {*self.names, "--help", "--version"})
+        self.assertEqual(completed("gainsmith", ""), {*self.names, "help", "--help", "--version"})
+        self.assertEqual(completed("gainsmith", "help", ""), set(self.names))
+        self.assertEqual(completed("gainsmith", "help", "sy"), {"synth"})
+        self.assertEqual(completed("gainsmith", "export", "--to", "ma"), {"matlab", "mat"})
         self.assertEqual(completed("gainsmith", "sy"), {"synth"})
         for name in self.names:
             self.assertEqual(completed("gainsmith", name, "-"), options_in(self.help(name)) | {"--help"}, name)
@@ -104,7 +107,8 @@ class Tree(unittest.TestCase):
             done = run("fish", "--no-config", "-c", f"source '{script}'; complete -C '{line}'", env=env)
             return {word.split("\t")[0] for word in done.stdout.splitlines()}
 
-        self.assertEqual(completed("gainsmith "), set(self.names))
+        self.assertEqual(completed("gainsmith "), {*self.names, "help"})
+        self.assertEqual(completed("gainsmith help "), set(self.names))
         for name in self.names:
             self.assertTrue(options_in(self.help(name)) <= completed(f"gainsmith {name} -") | completed(f"gainsmith {name} --"), name)
         self.assertEqual(completed("gainsmith solve --format "), {"json", "csdp", "sdpa"})
@@ -118,7 +122,7 @@ class Tree(unittest.TestCase):
                 "print -- $_comps[gainsmith]; print -- $functions[_gainsmith]")
         printed = run("zsh", "-f", "-c", test).stdout
         self.assertTrue(printed.startswith("_gainsmith\n"), printed[:100])
-        for name in self.names:
+        for name in [*self.names, "help"]:
             self.assertIn(f"({name}) _arguments", re.sub(r"[()]+(\w+)\)\s+_arguments", r"(\1) _arguments", printed), name)
 
 

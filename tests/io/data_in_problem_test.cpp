@@ -108,6 +108,7 @@ TEST_F(DataFiles, AreRefusedWithTheirPlace) {
              "mat, json"},
         Case{"  A: {name: A}\n", 4, 6, "found a mapping with 'name'"},
         Case{"  A: {}\n", 4, 6, "found an empty mapping"},
+        Case{"  A(1,2): 3\n", 4, 3, "given as a whole, not by its elements: 'A: VALUE'"},
         Case{"  A: A.csv\n", 4, 6, "a matrix of a file is written {csv: A.csv}"}}) {
     const InputError error = refused(one.data + kRest);
     EXPECT_EQ(error.place().line, one.line) << error.what();
@@ -201,6 +202,18 @@ TEST_F(DataFiles, ASettingIsADefinitionOrAFunction) {
   EXPECT_EQ(report({{"k", "3"}}, 0), 21);
   EXPECT_EQ(report({{"g(s)", "s^2"}}, 1), 9);
   EXPECT_EQ(report({{"f(z)", "2*z"}}, 2), 10);
+  EXPECT_NE(input_error([&] {
+              report({{"b(1)", "5"}}, 0);
+            })
+                .message()
+                .find("a whole value"),
+            std::string::npos);
+  EXPECT_NE(input_error([&] {
+              report({{"k(1)", "5"}}, 0);
+            })
+                .message()
+                .find("a whole value"),
+            std::string::npos);
 }
 
 TEST_F(DataFiles, ASettingMayBeOneOfTheSynthesis) {
@@ -234,6 +247,14 @@ TEST_F(DataFiles, ASettingIsRefusedWithItsPlace) {
         Case{{{"gain_bound", "-1"}}, {"--set gain_bound", 1, 1}, "expected a positive number"},
         Case{{{"gain_bond", "1"}}, {"--set gain_bond"}, "did you mean 'gain_bound'?"},
         Case{{{"T2", "[[1, 2]]"}}, {"--set T2", 1, 1}, "is declared scalar; found 1 x 2"},
+        Case{{{"C(1)", "[0.5, 0]"}}, {"--set C(1)"}, "a whole value, not an element"},
+        Case{{{"A(1,2)", "-1"}}, {"--set A(1,2)"}, "--set 'A=VALUE'"},
+        Case{{{"A[1,2]", "-1"}}, {"--set A[1,2]"}, "a whole value"},
+        Case{{{"T2(1)", "0.65"}}, {"--set T2(1)"}, "--set 'T2=VALUE'"},
+        Case{{{"delta(1)", "0.65"}}, {"--set delta(1)"}, "a whole value"},
+        Case{{{"margin(1)", "0.1"}}, {"--set margin(1)"}, "a whole value"},
+        Case{{{"horizon", "20"}}, {"--set horizon"}, "set in the problem file; --runs and --seed"},
+        Case{{{"campaign.seed", "2"}}, {"--set campaign.seed"}, "'seed' is a key of the campaign"},
         Case{{{"T2", "1"}, {"T2", "2"}}, {"--set T2"}, "given twice"}}) {
     const InputError error = refused(data, one.settings);
     EXPECT_EQ(error.place(), one.place) << error.what();
