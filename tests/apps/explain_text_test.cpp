@@ -53,7 +53,8 @@ TEST(ExplainText, EachCellOfThePricesIsExplained) {
 
 TEST(ExplainText, ARelaxationIsAlsoSaidInTheUnitsOfTheInequality) {
   design::Explanation explanation;
-  explanation.relaxations = {{"cap", 0.25, 0.368, false, false, 0.2, false}, {"floor", 2}};
+  explanation.relaxations = {{"cap", 0.25, 0.368, false, false, 0.2, false},
+                             {"floor", 2, {}, false, false, {}, false}};
   const std::string text = explanation_text(explanation);
   EXPECT_NE(text.find("0.25           0.092            0.05\n"), std::string::npos) << text;
   EXPECT_NE(text.find("2               -               -\n"), std::string::npos) << text;

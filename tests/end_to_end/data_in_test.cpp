@@ -97,7 +97,11 @@ TEST(DataIn, EveryCommandTakesASetting) {
     EXPECT_EQ(refused.exit, 2) << command[0];
     EXPECT_NE(refused.err.find("did you mean 'k'?"), std::string::npos) << refused.err;
   }
-  EXPECT_EQ(gainsmith({"verify", pendulum, "--set", "bound=0.5"}).exit, 1);
+  const Outcome violated = gainsmith({"verify", pendulum, "--set", "bound=0.5"});
+  EXPECT_EQ(violated.exit, 1);
+  EXPECT_NE(violated.out.find("simulate " + pendulum + " --set bound=0.5 --run "),
+            std::string::npos)
+      << violated.out;
   EXPECT_EQ(gainsmith({"run", pendulum, "-o", folder.path("out"), "--set", "bound=0.5"}).exit, 1);
   EXPECT_EQ(gainsmith({"check", pendulum, "--set", "k"}).exit, 2);
   const std::string t2 = problem("ferrante-seuret-2021/t2-0.70.yaml");
