@@ -42,20 +42,20 @@ std::string zsh_option(const Option& option) {
   const std::string action = words.empty() ? "_files" : fmt::format("({})", fmt::join(words, " "));
   if (names.empty()) {
     const bool many = std::holds_alternative<std::vector<std::string>*>(option.target);
-    return model::in_quotes(fmt::format("{}:{}:{}", many ? "*" : "", option.name, action));
+    return model::quoted(fmt::format("{}:{}:{}", many ? "*" : "", option.name, action));
   }
   const std::string text =
       "[" + bracketed(option.text) + "]" + (takes_value(option) ? ":value:" + action : "");
   std::string result;
   for (const std::string& name : names) {
     const bool again = std::holds_alternative<std::vector<std::string>*>(option.target);
-    result += (result.empty() ? "" : " ") + model::in_quotes((again ? "*" : "") + name + text);
+    result += (result.empty() ? "" : " ") + model::quoted((again ? "*" : "") + name + text);
   }
   return result;
 }
 
 std::string fish_option(const std::string& command, const Option& option) {
-  const std::string here = model::in_quotes("__fish_seen_subcommand_from " + command);
+  const std::string here = model::quoted("__fish_seen_subcommand_from " + command);
   const std::vector<std::string> words = offered_words(option);
   std::string line = fmt::format("complete -c gainsmith -n {}", here);
   const std::vector<std::string> names = dashed_names(option);
@@ -63,8 +63,8 @@ std::string fish_option(const std::string& command, const Option& option) {
   for (const std::string& name : names)
     line += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
   if (!names.empty() && takes_value(option)) line += " -r";
-  if (!words.empty()) line += " -f -a " + model::in_quotes(joined(words));
-  return line + " -d " + model::in_quotes(option.text) + "\n";
+  if (!words.empty()) line += " -f -a " + model::quoted(joined(words));
+  return line + " -d " + model::quoted(option.text) + "\n";
 }
 
 ExitCode print_completions(const std::string& shell) {
@@ -140,15 +140,15 @@ std::string zsh_completions(const Program& program) {
   std::string cases;
   Patience patience;
   for (const Command& command : program.commands) {
-    commands += "    " + model::in_quotes(command.name + ":" + bracketed(command.text)) + "\n";
+    commands += "    " + model::quoted(command.name + ":" + bracketed(command.text)) + "\n";
     cases += fmt::format("    {}) _arguments '--help[{}]'", command.name, kHelp);
     for (const Option& option : options_of(command, patience))
       cases += " \\\n      " + zsh_option(option);
     cases += " ;;\n";
   }
-  commands += "    " + in_quotes(std::string("help:") + kHelpCommand) + "\n";
+  commands += "    " + model::quoted(std::string("help:") + kHelpCommand) + "\n";
   cases += "    help) _arguments " +
-           in_quotes(fmt::format("1:command:({})", joined(command_names(program)))) + " ;;\n";
+           model::quoted(fmt::format("1:command:({})", joined(command_names(program)))) + " ;;\n";
   return fmt::format(
       "#compdef gainsmith\n"
       "# Completion of gainsmith in zsh, made by 'gainsmith completions zsh'.\n"
@@ -179,7 +179,7 @@ std::string fish_completions(const Program& program) {
   Patience patience;
   for (const Command& command : program.commands) {
     text += fmt::format("complete -c gainsmith -n __fish_use_subcommand -f -a {} -d {}\n",
-                        command.name, model::in_quotes(command.text));
+                        command.name, model::quoted(command.text));
     for (const Option& option : options_of(command, patience))
       text += fish_option(command.name, option);
   }
