@@ -9,6 +9,7 @@
 #include "base/version.h"
 #include "gainsmith/advice.h"
 #include "gainsmith/notes.h"
+#include "model/stated_file.h"
 
 namespace gainsmith::app {
 
@@ -244,7 +245,7 @@ std::string campaign_line(const model::CampaignRecord& record) {
 std::vector<std::string> campaign_causes(const verify::Report& report,
                                          const std::string& gains_file) {
   const auto replay = [&](std::uint64_t run) {
-    return fmt::format("; replay: gainsmith simulate {} --run {} --seed {}", quoted(gains_file),
+    return fmt::format("; replay: gainsmith simulate {} --run {} --seed {}", model::quoted(gains_file),
                        run, report.seed);
   };
   std::vector<std::string> causes;
