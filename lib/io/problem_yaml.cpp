@@ -44,9 +44,15 @@ model::Let definition(const YamlFile& file, const YamlItem& item) {
   return {expr::parse_signature(item.key_text), file.expression(item.value, item.key), item.place};
 }
 
-/// InputError for "A(1,2): ...", where A is no function.
+/// InputError for "A(1,2): ...", where A is no function. "A(x): ..." is one, at the wrong place.
 void refuse_element(const YamlItem& entry, const model::Method& method) {
-  const std::string name = entry.key.substr(0, entry.key.find('('));
+  const std::size_t bracket = entry.key.find('(');
+  const std::string name = entry.key.substr(0, bracket);
+  const std::size_t first = entry.key.find_first_not_of(' ', bracket + 1);
+  const bool is_index =
+      first != std::string::npos &&
+      (entry.key[first] == ':' || (entry.key[first] >= '0' && entry.key[first] <= '9'));
+  if (!is_index) return;
   for (const model::Declaration& datum : method.data)
     if (datum.name == name && datum.arguments.empty())
       throw InputError(entry.place, "a datum is given as a whole, not by its elements: '" + name +
