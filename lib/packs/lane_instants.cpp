@@ -162,7 +162,6 @@ bool LaneSet::begin_flow(std::size_t l) {
     if (!pack_.watches[w].branches.empty()) lane.relevant[w] = 1;
   if (lane.moved) {
     move(l, coarse_, coarse_start_, -lane.coarse_shift);
-    move(l, fine_, start_, -lane.fine_shift);
     lane.moved = false;
   }
   lane.stop = std::min({horizon_, lane.clocks.next(), lane.noise.next()});
@@ -202,15 +201,12 @@ bool LaneSet::arrive_at_root(std::size_t l, std::size_t target) {
   const bool is_short = lane.t - lane.flow_start < claims::kInstantOfRun * horizon_;
   lane.short_flows = is_short ? lane.short_flows + 1 : 0;
   if (lane.short_flows > kMostShortFlows) return open(Why::jumps);
-  const auto shift = [&](const LaneLook& seen) {
-    return -seen.at(PackSystem::watch_values, target, l) /
-           seen.at(PackSystem::watch_rates, target, l);
-  };
-  lane.coarse_shift = shift(coarse_start_);
-  lane.fine_shift = shift(start_);
-  if (!std::isfinite(lane.coarse_shift) || !std::isfinite(lane.fine_shift)) return open(Why::sign);
+  // The finer run is at its root; the other one is moved to where the difference is the same.
+  lane.coarse_shift = (start_.at(PackSystem::watch_values, target, l) -
+                       coarse_start_.at(PackSystem::watch_values, target, l)) /
+                      coarse_start_.at(PackSystem::watch_rates, target, l);
+  if (!std::isfinite(lane.coarse_shift)) return open(Why::sign);
   move(l, coarse_, coarse_start_, lane.coarse_shift);
-  move(l, fine_, start_, lane.fine_shift);
   lane.moved = true;
   keep_before(l);
   lane.phase = Phase::look;

@@ -59,8 +59,8 @@ struct PackLane {
   std::vector<char> crossed, spent, happened;  ///< by event
   std::optional<std::size_t> due;              ///< the event that jumps
   std::optional<std::size_t> jumped;           ///< that has jumped, of which no claim knows yet
-  bool moved = false;                          ///< along the flows to the root, by these times
-  double coarse_shift = 0, fine_shift = 0;
+  bool moved = false;  ///< the coarser run along its flow to its root, by this time
+  double coarse_shift = 0;
   std::vector<ClaimLane> claims;
 };
 

@@ -6,8 +6,9 @@
 //
 //   steps    to clocks and the horizon exactly; a step on which a watched difference comes to 0 is
 //            taken again to its root
-//   roots    both runs are moved along their flows to their own zero, jump there, and are moved
-//            back, to first order: so their difference knows of the error of the event's time
+//   roots    the finer run jumps where it is; the other one is moved along its flow to its own root,
+//            jumps there, and is moved back, to first order: so their difference knows of the error
+//            of the event's time
 //   open     whatever is unusual ends the lane, and the run is left to the careful simulator: signs
 //            that are not certain, two events at nearly one time, chains of jumps, short steps,
 //            texts without a value, claims next to their bounds
