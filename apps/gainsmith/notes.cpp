@@ -50,7 +50,8 @@ std::string note_on_careful_runs(const verify::Report& report) {
     reasons += (reasons.empty() ? "" : ", ") + packs::to_string(static_cast<packs::Why>(k)) + " (" +
                std::to_string(report.open[k]) + ")";
   }
-  if (!report.careful || all == 0) return "";
+  // A few are no reason for slowness.
+  if (!report.careful || 10 * all < report.runs) return "";
   return std::to_string(*report.careful) + " of " + std::to_string(report.runs) +
          " runs were simulated one by one, which takes longer: " + reasons;
 }

@@ -94,7 +94,6 @@ class LaneCode::Maker {
 
   void make() {
     first_ = tape_.inputs + static_cast<std::uint32_t>(tape_.constants.size());
-    code_.inputs_ = tape_.inputs;
     code_.constants_ = tape_.constants;
     code_.registers_ = tape_.inputs;
     find_last_uses();

@@ -23,9 +23,6 @@ class LaneCode {
   LaneCode(const numbers::ScalarGraph& graph, const std::vector<std::vector<int>>& results,
            std::size_t inputs);
 
-  std::size_t operations() const { return steps_.size(); }
-  std::size_t registers() const { return registers_; }
-
  private:
   friend class LaneMachine;
   /// What is computed lane by lane: one of these.
@@ -43,7 +40,6 @@ class LaneCode {
   std::vector<double> constants_;
   std::vector<std::pair<std::uint32_t, double>> filled_;  ///< registers of constants
   std::vector<std::vector<std::uint32_t>> results_;
-  std::size_t inputs_ = 0;
   std::size_t registers_ = 0;
 };
 

@@ -11,8 +11,14 @@ extern const Variant variant_v2, variant_v3, variant_v4;
 const Variant* find_variant(const std::string& name) {
   __builtin_cpu_init();
   if (name == "v2") return &variant_v2;
-  if (name == "v3" && __builtin_cpu_supports("x86-64-v3")) return &variant_v3;
-  if (name == "v4" && __builtin_cpu_supports("x86-64-v4")) return &variant_v4;
+  // By what they add, since not every compiler knows the names of the levels.
+  const bool is_v3 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+                     __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2");
+  if (name == "v3" && is_v3) return &variant_v3;
+  const bool is_v4 = is_v3 && __builtin_cpu_supports("avx512f") &&
+                     __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd") &&
+                     __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+  if (name == "v4" && is_v4) return &variant_v4;
   return nullptr;
 }
 

@@ -146,7 +146,6 @@ class LaneSet {
   /// From its side to the other, which it may have left a moment ago.
   static bool crosses_once(const std::array<double, 6>& b, int side);
   bool accept(std::size_t l);
-  /// Whether what a claim branches on may come to 0 on the step, by the parabola through it.
   /// Whether on the step a claim may come to where it branches, or to a sharp turn of a square root.
   bool may_branch(std::size_t c, std::size_t l) const;
   void find_new_sides(std::size_t l);

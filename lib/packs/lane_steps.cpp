@@ -189,7 +189,7 @@ bool LaneSet::accept(std::size_t l) {
   PackLane& lane = *lanes_[l];
   const bool at_stop = arrives(lane);
   const double now = at_stop ? lane.stop : lane.t + lane.h;
-  const std::vector<ClaimLane> claims_before = lane.claims;
+  lane.claims_before = lane.claims;
   for (std::size_t c = 0; c < lane.claims.size(); ++c) {
     lane.claims[c].along(now, samples(PackSystem::claim_values, PackSystem::claim_rates, c, l),
                          reading(c, l, end_, coarse_look_), may_branch(c, l),
@@ -197,7 +197,7 @@ bool LaneSet::accept(std::size_t l) {
     if (!lane.claims[c].open()) continue;
     // Two halves may say more.
     if (lane.target >= 0 || ++lane.halvings > kMostHalvings) return open(Why::claim);
-    lane.claims = claims_before;
+    lane.claims = lane.claims_before;
     lane.forced = lane.h / 2;
     return true;
   }

@@ -11,7 +11,6 @@
 namespace gainsmith::packs {
 
 enum class Phase : std::uint8_t {
-  idle,  ///< no run
   look,  ///< at an instant, its values have changed: what follows is to be found out
   step,  ///< flows
   jump   ///< an event is due
@@ -62,6 +61,7 @@ struct PackLane {
   bool moved = false;  ///< the coarser run along its flow to its root, by this time
   double coarse_shift = 0;
   std::vector<ClaimLane> claims;
+  std::vector<ClaimLane> claims_before;  ///< this step, to come back to
 };
 
 }  // namespace gainsmith::packs

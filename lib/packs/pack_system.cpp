@@ -323,11 +323,7 @@ std::unique_ptr<const PackSystem> make_pack_system(const hybrid::System& system,
   pack->scenario = &scenario;
   pack->accuracy = relative;
   pack->whole = static_cast<std::size_t>(system.whole);
-  {
-    const PackGraph texts(system);
-    pack->rows = texts.rows();
-    for (int k = 0; k < static_cast<int>(system.whole); ++k) pack->kept.push_back(texts.kept(k));
-  }
+  pack->rows = PackGraph(system).rows();
   try {
     pack->step.emplace(StepCode(*pack).make(relative, absolute));
     LookCode look(*pack);

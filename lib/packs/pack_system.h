@@ -1,13 +1,15 @@
 // What the packs of a campaign run: a System and its claims as code over lanes, made once.
 //
-//   step    values, h, the factors of a PackAccuracy -> the values that move after a step of length h by the method of order 8 of
-//           Dormand and Prince, and its error as a part of what is allowed
+//   step    values, h, the factors of a PackAccuracy -> the values that move after a step of length
+//           h by the method of order 8 of Dormand and Prince, and its error as a part of what is
+//           allowed
 //   look    values -> rates, claims with their rates, and what is watched: the differences of
 //           conditions, of crossings and of switches, with their rates
 //   jump    of each event: values -> values after its maps
 //
 // What packs do not run: loops of jumps, measured data, costs along a run, claims and conditions
-// that have no formula for their rates or that may have narrow peaks. Such campaigns are left to the careful run.
+// that have no formula for their rates or that may have narrow peaks. Such campaigns are left to
+// the careful run.
 #pragma once
 
 #include <cstddef>
@@ -75,7 +77,6 @@ struct PackSystem {
   double accuracy = 0;    ///< relative, of the careful run
   std::size_t whole = 0;  ///< values
   std::vector<int> rows;  ///< that move
-  std::vector<int> kept;  ///< of each value: the one that it is kept in
   std::vector<PackEvent> events;
   std::vector<WatchedCondition> flow_sets;
   std::vector<Watch> watches;

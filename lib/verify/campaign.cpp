@@ -183,18 +183,22 @@ Tally judge_all(const Setup& setup, const packs::PackSystem* packs, std::uint64_
   if (begun > 0) sum = judge_runs(setup, packs, seed, 0, begun);
   if (2 * sum.careful > begun) packs = nullptr;
   const std::uint64_t block_size = packs != nullptr ? 256 : 64;
-  std::vector<Tally> blocks((runs - begun + block_size - 1) / block_size);
-  const auto judge_block = [&](std::size_t block) {
-    const std::uint64_t first = begun + block * block_size;
-    const std::uint64_t last = std::min(runs, first + block_size);
-    blocks[block] = judge_runs(setup, packs, seed, first, last);
-  };
-  try {
-    parallel_for(blocks.size(), options.threads, judge_block);
-  } catch (const Stopped&) {
-    // Blocks that were not begun are empty.
+  constexpr std::uint64_t most_blocks = 4096;  // at once, so that memory does not grow with runs
+  for (std::uint64_t from = begun; from < runs;) {
+    const std::uint64_t to = std::min(runs, from + most_blocks * block_size);
+    std::vector<Tally> blocks((to - from + block_size - 1) / block_size);
+    try {
+      parallel_for(blocks.size(), options.threads, [&](std::size_t block) {
+        const std::uint64_t first = from + block * block_size;
+        blocks[block] = judge_runs(setup, packs, seed, first, std::min(to, first + block_size));
+      });
+    } catch (const Stopped&) {
+      // Blocks that were not begun are empty.
+    }
+    for (const Tally& block : blocks) add(block, sum);
+    if (sum.runs < to) break;
+    from = to;
   }
-  for (const Tally& block : blocks) add(block, sum);
   return sum;
 }
 
