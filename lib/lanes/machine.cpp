@@ -99,7 +99,7 @@ class LaneCode::Maker {
     find_last_uses();
     at_.assign(tape_.registers, kNone);
     for (std::uint32_t k = 0; k < tape_.inputs; ++k) at_[k] = k;
-    for (std::size_t k = 0; k < tape_.steps.size(); ++k) add(k);
+    for (std::size_t k = 0; k < tape_.steps.size();) k += add_from(k);
     for (const auto& result : tape_.results) {
       auto& list = code_.results_.emplace_back();
       for (const std::uint32_t one : result) list.push_back(place(one));
@@ -107,8 +107,23 @@ class LaneCode::Maker {
     code_.blocks_ = std::move(tape_.blocks);
   }
 
+  /// Copies the first result to the inputs from `first` on.
+  void feed_back(std::uint32_t first) {
+    std::vector<std::uint32_t> from = code_.results_.front();
+    // An input that another one takes the place of is read before.
+    for (std::uint32_t k = 0; k < from.size(); ++k)
+      if (from[k] < tape_.inputs && from[k] != first + k) {
+        const auto beside = static_cast<std::uint32_t>(code_.registers_++);
+        copy(from[k], beside);
+        from[k] = beside;
+      }
+    for (std::uint32_t k = 0; k < from.size(); ++k)
+      if (from[k] != first + k) copy(from[k], first + k);
+  }
+
  private:
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  static constexpr std::size_t kFewestTerms = 2;  ///< of a polynomial in one step
   static constexpr std::size_t kNever = std::numeric_limits<std::size_t>::max();
 
   template <class Visit>
@@ -198,6 +213,68 @@ class LaneCode::Maker {
     if (last_[out] == k) free_.push_back(at_[out]);
   }
 
+  void copy(std::uint32_t from, std::uint32_t to) {
+    LaneStep made;
+    made.op = LaneOp::copy;
+    made.a = from;
+    made.out = to;
+    code_.steps_.push_back(made);
+  }
+
+  /// Adds step k, or a polynomial that begins there; how many steps these are.
+  std::size_t add_from(std::size_t k) {
+    const std::size_t length = chain_length(k);
+    if (length < kFewestTerms) {
+      add(k);
+      return 1;
+    }
+    add_polynomial(k, length);
+    return length;
+  }
+
+  /// How many steps from k on are Horner's rule with constants: (c a + c') a + c'' ...
+  std::size_t chain_length(std::size_t k) const {
+    std::size_t length = 0;
+    for (; k + length < tape_.steps.size(); ++length) {
+      const TapeCode::Step& step = tape_.steps[k + length];
+      if (step.op != ScalarOp::multiply_add || !is_constant(step.c)) break;
+      if (length == 0 ? is_constant(step.a) == is_constant(step.b) : !continues(k, k + length))
+        break;
+    }
+    return length;
+  }
+
+  std::uint32_t argument_of(const TapeCode::Step& first) const {
+    return is_constant(first.a) ? first.b : first.a;
+  }
+
+  bool continues(std::size_t first, std::size_t k) const {
+    const TapeCode::Step& step = tape_.steps[k];
+    const std::uint32_t before = tape_.steps[k - 1].out;
+    const std::uint32_t argument = argument_of(tape_.steps[first]);
+    const bool takes = (step.a == before && step.b == argument) ||
+                       (step.b == before && step.a == argument);
+    return takes && last_[before] == k;
+  }
+
+  void add_polynomial(std::size_t k, std::size_t length) {
+    const TapeCode::Step& first = tape_.steps[k];
+    LaneStep made;
+    made.op = LaneOp::polynomial;
+    made.a = place(argument_of(first));
+    made.b = static_cast<std::uint32_t>(code_.constants_.size());
+    made.c = static_cast<std::uint32_t>(length);
+    const auto value = [&](std::uint32_t one) { return tape_.constants[one - tape_.inputs]; };
+    code_.constants_.push_back(value(is_constant(first.a) ? first.a : first.b));
+    for (std::size_t i = 0; i < length; ++i)
+      code_.constants_.push_back(value(tape_.steps[k + i].c));
+    const std::size_t end = k + length - 1;
+    for (std::size_t i = k; i <= end; ++i) release(tape_.steps[i], i);
+    made.out = give(tape_.steps[end].out, end);
+    code_.steps_.push_back(made);
+    drop(tape_.steps[end].out, end);
+  }
+
   void add_function(const TapeCode::Step& step, std::size_t k) {
     OneByOne one;
     one.op = step.op;
@@ -246,8 +323,10 @@ class LaneCode::Maker {
 };
 
 LaneCode::LaneCode(const numbers::ScalarGraph& graph, const std::vector<std::vector<int>>& results,
-                   std::size_t inputs) {
-  Maker(numbers::tape_code(graph, results, static_cast<int>(inputs)), *this).make();
+                   std::size_t inputs, std::optional<std::uint32_t> feed_back) {
+  Maker maker(numbers::tape_code(graph, results, static_cast<int>(inputs)), *this);
+  maker.make();
+  if (feed_back) maker.feed_back(*feed_back);
 }
 
 void LaneMachine::Free::operator()(double* registers) const {

@@ -22,6 +22,8 @@ enum class LaneOp : std::uint8_t {
   multiply_constant,  ///< constant a * b
   multiply_add,       ///< a b + c
   multiply_constant_add,
+  copy,
+  polynomial,  ///< by Horner's rule: of register a, with the c + 1 constants from constant b on
   divide,
   negate,
   minimum,  ///< b < a ? b : a
@@ -51,9 +53,14 @@ struct LaneStep {
 using RunSteps = const LaneStep* (*)(const LaneStep* step, const LaneStep* end,
                                      const double* constants, double* registers, double* faults);
 
+/// Draw `draw` of the streams (key, runs[l]) of base/random.h, uniform in [0, 1), of all lanes.
+using Uniforms = void (*)(std::uint64_t key, const std::uint64_t* runs, std::uint64_t draw,
+                          double* out);
+
 struct Variant {
   const char* name;
   RunSteps run;
+  Uniforms uniforms;
 };
 
 /// The best that this machine has, or that GAINSMITH_ISA names: v2, v3 or v4. InputError for

@@ -186,6 +186,81 @@ inline void each(const LaneStep& step, double* registers, const Operation& opera
   for (std::size_t k = 0; k < kVectors; ++k) out[k] = operation(a[k], b[k], c[k]);
 }
 
+/// Everything stays in vector registers.
+inline void polynomial(const LaneStep& step, const double* constants, double* registers) {
+  V* const out = reinterpret_cast<V*>(registers + step.out * kLanes);
+  const V* const a = reinterpret_cast<const V*>(registers + step.a * kLanes);
+  const V x0 = a[0], x1 = a[1], x2 = a[2], x3 = a[3];
+  const double* k = constants + step.b;
+  V y0 = all(*k), y1 = y0, y2 = y0, y3 = y0;
+  for (const double* const last = k + step.c; k != last;) {
+    const V next = all(*++k);
+    y0 = multiply_add(y0, x0, next);
+    y1 = multiply_add(y1, x1, next);
+    y2 = multiply_add(y2, x2, next);
+    y3 = multiply_add(y3, x3, next);
+  }
+  out[0] = y0;
+  out[1] = y1;
+  out[2] = y2;
+  out[3] = y3;
+}
+
+/// Philox4x32-10 (base/random.h) of eight counters, each word in the low half of 64 bits.
+using U = unsigned long long __attribute__((vector_size(64)));
+inline U all_bits(unsigned long long x) { return U{x, x, x, x, x, x, x, x}; }
+/// Of the low halves.
+inline U multiply_low(U a, U b) {
+#if defined(__AVX512F__)
+  return (U)_mm512_maskz_mul_epu32(0xFF, (__m512i)a, (__m512i)b);
+#else
+#if defined(__AVX2__)
+  using Part = __m256i;
+  const auto product = [](Part x, Part y) { return _mm256_mul_epu32(x, y); };
+#else
+  using Part = __m128i;
+  const auto product = [](Part x, Part y) { return _mm_mul_epu32(x, y); };
+#endif
+  constexpr std::size_t parts = sizeof(U) / sizeof(Part);
+  union Parts {
+    U whole;
+    Part part[parts];
+  };
+  const Parts x{a}, y{b};
+  Parts out;
+  for (std::size_t k = 0; k < parts; ++k) out.part[k] = product(x.part[k], y.part[k]);
+  return out.whole;
+#endif
+}
+
+void uniforms(std::uint64_t key, const std::uint64_t* runs, std::uint64_t draw, double* out) {
+  const U low = all_bits(0xFFFFFFFFULL);
+  for (std::size_t v = 0; v < kVectors; ++v) {
+    U run;
+    __builtin_memcpy(&run, runs + v * kWidth, sizeof run);
+    U w0 = all_bits(draw & 0xFFFFFFFFULL), w1 = all_bits(draw >> 32U);
+    U w2 = run & low, w3 = run >> 32;
+    std::uint32_t k0 = static_cast<std::uint32_t>(key), k1 = static_cast<std::uint32_t>(key >> 32U);
+    for (int round = 0; round < 10; ++round) {
+      const U p0 = multiply_low(w0, all_bits(0xD2511F53ULL));
+      const U p1 = multiply_low(w2, all_bits(0xCD9E8D57ULL));
+      w0 = (p1 >> 32) ^ w1 ^ all_bits(k0);
+      w1 = p1 & low;
+      w2 = (p0 >> 32) ^ w3 ^ all_bits(k1);
+      w3 = p0 & low;
+      k0 += 0x9E3779B9U;
+      k1 += 0xBB67AE85U;
+    }
+    // 53 bits as two whole numbers behind the exponents of 2^52 and 2^84.
+    const U bits = ((w0 << 32) | w1) >> 11;
+    const V high = __builtin_bit_cast(V, (bits >> 32) | all_bits(0x4530000000000000ULL));
+    const V rest = __builtin_bit_cast(V, (bits & low) | all_bits(0x4330000000000000ULL));
+    const V number = (high - all(0x1p84)) + (rest - all(0x1p52));
+    const V value = number * all(0x1p-53);
+    __builtin_memcpy(out + v * kWidth, &value, sizeof value);
+  }
+}
+
 const LaneStep* run(const LaneStep* step, const LaneStep* end, const double* constants,
                     double* registers, double* faults) {
   for (; step != end; ++step) {
@@ -221,6 +296,12 @@ const LaneStep* run(const LaneStep* step, const LaneStep* end, const double* con
              [k](V, V b, V c) { return multiply_add(k, b, c); });
         break;
       }
+      case LaneOp::copy:
+        over([](V a, V, V) { return a; });
+        break;
+      case LaneOp::polynomial:
+        polynomial(*step, constants, registers);
+        break;
       case LaneOp::divide:
         over([](V a, V b, V) { return a / b; });
         break;
@@ -280,6 +361,6 @@ const LaneStep* run(const LaneStep* step, const LaneStep* end, const double* con
 }  // namespace
 
 extern const Variant GAINSMITH_VARIANT;
-const Variant GAINSMITH_VARIANT{GAINSMITH_VARIANT_NAME, run};
+const Variant GAINSMITH_VARIANT{GAINSMITH_VARIANT_NAME, run, uniforms};
 
 }  // namespace gainsmith::lanes

@@ -150,7 +150,7 @@ Tally tally_of(std::uint64_t run, const RunVerdict& verdict) {
 }
 
 /// Runs first, first + 1, ..., last - 1, or those until the campaign is stopped.
-Tally judge_runs(const Setup& setup, const packs::PackSystem* packs, std::uint64_t seed,
+Tally judge_runs(const Setup& setup, const Packs* packs, std::uint64_t seed,
                  std::uint64_t first, std::uint64_t last) {
   PackJudge judge(setup, packs);
   Tally sum;
@@ -174,7 +174,7 @@ Tally judge_runs(const Setup& setup, const packs::PackSystem* packs, std::uint64
 
 /// All runs, in blocks that are handed to the threads and added up in order; those runs that
 /// are done when the campaign is stopped. Packs go on where they decide most of the first block.
-Tally judge_all(const Setup& setup, const packs::PackSystem* packs, std::uint64_t seed,
+Tally judge_all(const Setup& setup, const Packs* packs, std::uint64_t seed,
                 std::uint64_t runs, const CampaignOptions& options) {
   constexpr std::uint64_t first_size = 64;
   const Doing doing("runs", runs);
@@ -182,7 +182,8 @@ Tally judge_all(const Setup& setup, const packs::PackSystem* packs, std::uint64_
   Tally sum;
   if (begun > 0) sum = judge_runs(setup, packs, seed, 0, begun);
   if (2 * sum.careful > begun) packs = nullptr;
-  const std::uint64_t block_size = packs != nullptr ? 256 : 64;
+  // Linear packs put runs of one law together.
+  const std::uint64_t block_size = packs == nullptr ? 64 : packs->linear ? 2048 : 256;
   constexpr std::uint64_t most_blocks = 4096;  // at once, so that memory does not grow with runs
   for (std::uint64_t from = begun; from < runs;) {
     const std::uint64_t to = std::min(runs, from + most_blocks * block_size);
@@ -318,14 +319,14 @@ Report run_campaign(const Setup& setup, const CampaignOptions& options) {
 
   report.confidence = options.confidence;
   report.idle_observers = hybrid::idle_observers(setup.events->system.dynamics);
-  const auto packs = report.asked >= kFewestInPacks ? make_packs(setup) : nullptr;
-  Tally tally = judge_all(setup, packs.get(), report.seed, report.asked, options);
+  const Packs packs = report.asked >= kFewestInPacks ? make_packs(setup) : Packs{};
+  Tally tally = judge_all(setup, packs ? &packs : nullptr, report.seed, report.asked, options);
   report.runs = tally.runs;
   report.horizon = setup.horizon();
   report.integrated = setup.integrated();
   report.verdict = model::CampaignVerdict::undecided;
   if (!tally.run) return report;
-  if (packs != nullptr) {
+  if (packs) {
     const Concluding concluding;
     repeat_worst(setup, report.seed, tally);
   }
@@ -333,7 +334,7 @@ Report run_campaign(const Setup& setup, const CampaignOptions& options) {
   report.undecided = tally.undecided;
   report.unfinished = tally.unfinished;
   report.repeated = tally.repeated;
-  if (packs != nullptr) report.careful = tally.careful;
+  if (packs) report.careful = tally.careful;
   report.open = tally.open;
   report.confirmed = tally.confirmed;
   report.worst_run = *tally.run;
