@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <new>
 #include <optional>
 
@@ -92,7 +93,11 @@ class LaneCode::Maker {
  public:
   Maker(TapeCode tape, LaneCode& code) : tape_(std::move(tape)), code_(code) {}
 
-  void make() {
+  /// `feed_back`: the input that takes the place of the first result.
+  void make(std::optional<std::uint32_t> feed_back) {
+    if (feed_back)
+      for (std::uint32_t k = 0; k < tape_.results.front().size(); ++k)
+        fed_.emplace(tape_.results.front()[k], *feed_back + k);
     first_ = tape_.inputs + static_cast<std::uint32_t>(tape_.constants.size());
     code_.constants_ = tape_.constants;
     code_.registers_ = tape_.inputs;
@@ -174,9 +179,11 @@ class LaneCode::Maker {
     });
   }
 
-  /// A result that nothing uses is there for its fault alone.
+  /// A result that nothing uses is there for its fault alone. One that is fed back is written to the
+  /// input at once, when nothing reads that any more.
   std::uint32_t give(std::uint32_t out, std::size_t k) {
-    at_[out] = fresh();
+    const auto input = fed_.find(out);
+    at_[out] = input != fed_.end() && last_[input->second] <= k ? input->second : fresh();
     if (last_[out] == 0) last_[out] = k;
     return at_[out];
   }
@@ -203,10 +210,43 @@ class LaneCode::Maker {
     made.a = by_constant ? a - tape_.inputs : place(a);
     if (count > 1) made.b = place(b);
     if (count > 2) made.c = place(step.c);
+    if (!code_.steps_.empty() && k > 0) keep_last(k, made);
     release(step, k);
     made.out = give(step.out, k);
     code_.steps_.push_back(made);
     drop(step.out, k);
+  }
+
+  /// Takes an operand from the step before, when nothing else reads it.
+  void keep_last(std::size_t k, LaneStep& made) {
+    LaneStep& before = code_.steps_.back();
+    const std::uint32_t result = tape_.steps[k - 1].out;
+    if (before.op == LaneOp::one_by_one || before.is_partial || last_[result] != k) return;
+    if (at_[result] != before.out) return;
+    switch (made.op) {
+      case LaneOp::add:
+        if ((made.a == before.out) == (made.b == before.out)) return;
+        if (made.a == before.out) made.a = made.b;
+        made.op = LaneOp::add_last;
+        break;
+      case LaneOp::multiply_add:
+        if (made.c == before.out && made.a != before.out && made.b != before.out) {
+          made.op = LaneOp::multiply_add_last;
+        } else if (made.c != before.out && (made.a == before.out) != (made.b == before.out)) {
+          if (made.b == before.out) std::swap(made.a, made.b);
+          made.op = LaneOp::multiply_last_add;
+        } else {
+          return;
+        }
+        break;
+      case LaneOp::multiply_constant_add:
+        if (made.c != before.out || made.b == before.out) return;
+        made.op = LaneOp::multiply_constant_add_last;
+        break;
+      default:
+        return;
+    }
+    before.stores = false;
   }
 
   void drop(std::uint32_t out, std::size_t k) {
@@ -317,6 +357,7 @@ class LaneCode::Maker {
   TapeCode tape_;
   LaneCode& code_;
   std::uint32_t first_ = 0;  ///< that is computed
+  std::map<std::uint32_t, std::uint32_t> fed_;  ///< the inputs of results that are fed back
   std::vector<std::size_t> last_;
   std::vector<std::uint32_t> at_;
   std::vector<std::uint32_t> free_;
@@ -325,8 +366,10 @@ class LaneCode::Maker {
 LaneCode::LaneCode(const numbers::ScalarGraph& graph, const std::vector<std::vector<int>>& results,
                    std::size_t inputs, std::optional<std::uint32_t> feed_back) {
   Maker maker(numbers::tape_code(graph, results, static_cast<int>(inputs)), *this);
-  maker.make();
+  maker.make(feed_back);
   if (feed_back) maker.feed_back(*feed_back);
+  may_fault_ = std::any_of(steps_.begin(), steps_.end(),
+                           [](const LaneStep& step) { return step.is_partial; });
 }
 
 void LaneMachine::Free::operator()(double* registers) const {
@@ -357,6 +400,7 @@ void LaneMachine::run(std::uint32_t active) {
   const LaneStep* const end = step + code_->steps_.size();
   while ((step = run_(step, end, code_->constants_.data(), registers_.get(), faults)) != end)
     run_one_by_one(code_->one_by_one_[(step++)->a], active);
+  if (!code_->may_fault_) return;
   for (std::size_t l = 0; l < kLanes; ++l)
     if (faults[l] != 0 || std::isnan(faults[l])) faults_ |= 1U << l;
 }

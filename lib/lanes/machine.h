@@ -43,6 +43,7 @@ class LaneCode {
   std::vector<std::pair<std::uint32_t, double>> filled_;  ///< registers of constants
   std::vector<std::vector<std::uint32_t>> results_;
   std::size_t registers_ = 0;
+  bool may_fault_ = false;  ///< beside what is done lane by lane
 };
 
 class LaneMachine {

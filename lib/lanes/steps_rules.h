@@ -177,33 +177,47 @@ inline V sine(V x) {
   return out;
 }
 
-template <class Operation>
-inline void each(const LaneStep& step, double* registers, const Operation& operation) {
+/// The result of a step, in vector registers.
+struct Last {
+  V part[kVectors];
+};
+
+inline void store(const LaneStep& step, double* registers, const Last& last) {
+  if (!step.stores) return;
   V* const out = reinterpret_cast<V*>(registers + step.out * kLanes);
+#pragma GCC unroll 4
+  for (std::size_t k = 0; k < kVectors; ++k) out[k] = last.part[k];
+}
+
+/// `operation` of the operands and the last result.
+template <class Operation>
+inline void each(const LaneStep& step, double* registers, Last& last, const Operation& operation) {
   const V* const a = reinterpret_cast<const V*>(registers + step.a * kLanes);
   const V* const b = reinterpret_cast<const V*>(registers + step.b * kLanes);
   const V* const c = reinterpret_cast<const V*>(registers + step.c * kLanes);
-  for (std::size_t k = 0; k < kVectors; ++k) out[k] = operation(a[k], b[k], c[k]);
+#pragma GCC unroll 4
+  for (std::size_t k = 0; k < kVectors; ++k) last.part[k] = operation(a[k], b[k], c[k], last.part[k]);
+  store(step, registers, last);
 }
 
-/// Everything stays in vector registers.
-inline void polynomial(const LaneStep& step, const double* constants, double* registers) {
-  V* const out = reinterpret_cast<V*>(registers + step.out * kLanes);
+inline void polynomial(const LaneStep& step, const double* constants, double* registers,
+                       Last& last) {
   const V* const a = reinterpret_cast<const V*>(registers + step.a * kLanes);
-  const V x0 = a[0], x1 = a[1], x2 = a[2], x3 = a[3];
   const double* k = constants + step.b;
-  V y0 = all(*k), y1 = y0, y2 = y0, y3 = y0;
-  for (const double* const last = k + step.c; k != last;) {
-    const V next = all(*++k);
-    y0 = multiply_add(y0, x0, next);
-    y1 = multiply_add(y1, x1, next);
-    y2 = multiply_add(y2, x2, next);
-    y3 = multiply_add(y3, x3, next);
+  Last x, sum;
+#pragma GCC unroll 4
+  for (std::size_t v = 0; v < kVectors; ++v) {
+    x.part[v] = a[v];
+    sum.part[v] = all(*k);
   }
-  out[0] = y0;
-  out[1] = y1;
-  out[2] = y2;
-  out[3] = y3;
+  for (const double* const end = k + step.c; k != end;) {
+    const V next = all(*++k);
+#pragma GCC unroll 4
+    for (std::size_t v = 0; v < kVectors; ++v)
+      sum.part[v] = multiply_add(sum.part[v], x.part[v], next);
+  }
+  last = sum;
+  store(step, registers, last);
 }
 
 /// Philox4x32-10 (base/random.h) of eight counters, each word in the low half of 64 bits.
@@ -263,88 +277,97 @@ void uniforms(std::uint64_t key, const std::uint64_t* runs, std::uint64_t draw, 
 
 const LaneStep* run(const LaneStep* step, const LaneStep* end, const double* constants,
                     double* registers, double* faults) {
+  Last last{};
   for (; step != end; ++step) {
-    const auto over = [&](const auto& operation) { each(*step, registers, operation); };
+    const auto over = [&](const auto& operation) { each(*step, registers, last, operation); };
+    const auto over_constant = [&](const auto& operation) {
+      const V k = all(constants[step->a]);
+      each({step->op, false, step->stores, step->out, 0, step->b, step->c}, registers, last,
+           [&](V, V b, V c, V before) { return operation(k, b, c, before); });
+    };
     switch (step->op) {
       case LaneOp::add:
-        over([](V a, V b, V) { return a + b; });
+        over([](V a, V b, V, V) { return a + b; });
         break;
-      case LaneOp::add_constant: {
-        const V k = all(constants[step->a]);
-        each({step->op, false, step->out, 0, step->b, 0}, registers,
-             [k](V, V b, V) { return k + b; });
+      case LaneOp::add_constant:
+        over_constant([](V k, V b, V, V) { return k + b; });
         break;
-      }
       case LaneOp::subtract:
-        over([](V a, V b, V) { return a - b; });
+        over([](V a, V b, V, V) { return a - b; });
         break;
       case LaneOp::multiply:
-        over([](V a, V b, V) { return a * b; });
+        over([](V a, V b, V, V) { return a * b; });
         break;
-      case LaneOp::multiply_constant: {
-        const V k = all(constants[step->a]);
-        each({step->op, false, step->out, 0, step->b, 0}, registers,
-             [k](V, V b, V) { return k * b; });
+      case LaneOp::multiply_constant:
+        over_constant([](V k, V b, V, V) { return k * b; });
         break;
-      }
       case LaneOp::multiply_add:
-        over([](V a, V b, V c) { return multiply_add(a, b, c); });
+        over([](V a, V b, V c, V) { return multiply_add(a, b, c); });
         break;
-      case LaneOp::multiply_constant_add: {
-        const V k = all(constants[step->a]);
-        each({step->op, false, step->out, 0, step->b, step->c}, registers,
-             [k](V, V b, V c) { return multiply_add(k, b, c); });
+      case LaneOp::multiply_constant_add:
+        over_constant([](V k, V b, V c, V) { return multiply_add(k, b, c); });
         break;
-      }
+      case LaneOp::add_last:
+        over([](V a, V, V, V before) { return before + a; });
+        break;
+      case LaneOp::multiply_add_last:
+        over([](V a, V b, V, V before) { return multiply_add(a, b, before); });
+        break;
+      case LaneOp::multiply_constant_add_last:
+        over_constant([](V k, V b, V, V before) { return multiply_add(k, b, before); });
+        break;
+      case LaneOp::multiply_last_add:
+        over([](V, V b, V c, V before) { return multiply_add(before, b, c); });
+        break;
       case LaneOp::copy:
-        over([](V a, V, V) { return a; });
+        over([](V a, V, V, V) { return a; });
         break;
       case LaneOp::polynomial:
-        polynomial(*step, constants, registers);
+        polynomial(*step, constants, registers, last);
         break;
       case LaneOp::divide:
-        over([](V a, V b, V) { return a / b; });
+        over([](V a, V b, V, V) { return a / b; });
         break;
       case LaneOp::negate:
-        over([](V a, V, V) { return -a; });
+        over([](V a, V, V, V) { return -a; });
         break;
       case LaneOp::minimum:
-        over([](V a, V b, V) { return b < a ? b : a; });
+        over([](V a, V b, V, V) { return b < a ? b : a; });
         break;
       case LaneOp::maximum:
-        over([](V a, V b, V) { return a < b ? b : a; });
+        over([](V a, V b, V, V) { return a < b ? b : a; });
         break;
       case LaneOp::where_positive:
-        over([](V a, V b, V c) { return a > all(0.0) ? b : c; });
+        over([](V a, V b, V c, V) { return a > all(0.0) ? b : c; });
         break;
       case LaneOp::where_nonnegative:
-        over([](V a, V b, V c) { return a >= all(0.0) ? b : c; });
+        over([](V a, V b, V c, V) { return a >= all(0.0) ? b : c; });
         break;
       case LaneOp::abs:
-        over([](V a, V, V) { return abs_of(a); });
+        over([](V a, V, V, V) { return abs_of(a); });
         break;
       case LaneOp::sign:
-        over([](V a, V, V) {
+        over([](V a, V, V, V) {
           return a > all(0.0) ? all(1.0) : a < all(0.0) ? all(-1.0) : all(0.0);
         });
         break;
       case LaneOp::floor:
-        over([](V a, V, V) { return floor_of(a); });
+        over([](V a, V, V, V) { return floor_of(a); });
         break;
       case LaneOp::sqrt:
-        over([](V a, V, V) { return sqrt_of(a); });
+        over([](V a, V, V, V) { return sqrt_of(a); });
         break;
       case LaneOp::exp:
-        over([](V a, V, V) { return exp_of(a); });
+        over([](V a, V, V, V) { return exp_of(a); });
         break;
       case LaneOp::sin:
-        over([](V a, V, V) { return sine<false>(a); });
+        over([](V a, V, V, V) { return sine<false>(a); });
         break;
       case LaneOp::cos:
-        over([](V a, V, V) { return sine<true>(a); });
+        over([](V a, V, V, V) { return sine<true>(a); });
         break;
       case LaneOp::tanh:
-        over([](V a, V, V) { return tanh_of(a); });
+        over([](V a, V, V, V) { return tanh_of(a); });
         break;
       case LaneOp::one_by_one:
         return step;

@@ -1,5 +1,6 @@
 #include "packs/linear_graph.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -25,6 +26,48 @@ struct Numbers {
 struct Known {
   int value = 0;
   int error = 0;
+};
+
+/// Of a symmetric F: |F_ij| over all lengths, and how far what is computed may be from it. Elements
+/// beside the diagonal are those of both triangles together.
+class Sizes {
+ public:
+  explicit Sizes(std::size_t count) : size_(count, std::vector<double>(count)), error_(size_) {}
+
+  void set(std::size_t i, std::size_t j, double size, double error) {
+    const double share = i == j ? 1 : 0.5;
+    size_[i][j] = size_[j][i] = share * size;
+    error_[i][j] = error_[j][i] = share * error;
+  }
+  /// w with |F_ij| <= w_i w_j: near the roots of the diagonal, which are enough where F >= 0.
+  std::vector<double> weights() const {
+    const std::size_t n = size_.size();
+    double largest = 0;
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j) largest = std::max(largest, size_[i][j]);
+    std::vector<double> w(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const bool zero = std::all_of(size_[i].begin(), size_[i].end(), [](double x) { return x == 0; });
+      w[i] = zero ? 0 : std::max(std::sqrt(size_[i][i]), 1e-8 * std::sqrt(largest));
+    }
+    double excess = 1;
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j)
+        if (size_[i][j] > 0) excess = std::max(excess, size_[i][j] / (w[i] * w[j]));
+    for (double& one : w) one *= std::sqrt(excess) * bounded::kBoundSlack;
+    return w;
+  }
+  /// The errors, as a part of w_i w_j.
+  double part(const std::vector<double>& w) const {
+    double most = 0;
+    for (std::size_t i = 0; i < size_.size(); ++i)
+      for (std::size_t j = 0; j < size_.size(); ++j)
+        if (error_[i][j] > 0) most = std::max(most, error_[i][j] / (w[i] * w[j]));
+    return most;
+  }
+
+ private:
+  std::vector<std::vector<double>> size_, error_;
 };
 
 class Graph {
@@ -79,16 +122,16 @@ class Graph {
   }
 
   /// M v of the functions from `next` on, `rows` times as many as v; what their errors and rounding
-  /// add to that of v; and M, |M|.
+  /// add to that of v, with more rounding `beside`; and M, |M|.
   struct Product {
     Nodes value, added;
     std::vector<Nodes> M;
     std::vector<std::vector<double>> sizes;
   };
   Product product(const LengthTable& table, std::size_t& next, int sigma, std::size_t rows,
-                  const Numbers& v) {
+                  const Numbers& v, double beside = 0) {
     Product made;
-    const double rounding = (static_cast<double>(v.count()) + 4) * kUnitRoundoff;
+    const double rounding = (static_cast<double>(v.count()) + 4) * kUnitRoundoff + beside;
     for (std::size_t i = 0; i < rows; ++i) {
       int value = constant(0), added = constant(kTiny);
       made.M.emplace_back();
@@ -108,57 +151,37 @@ class Graph {
     return made;
   }
 
-  /// The products of sizes and radii that the errors of all forms of v are made of.
-  struct Squares {
-    std::vector<Nodes> sizes, radii;  ///< a_i a_j; r_i a_j + a_i r_j
-  };
-  Squares squares(const Numbers& v) {
-    Squares made;
-    for (std::size_t j = 0; j < v.count(); ++j) {
-      made.sizes.emplace_back();
-      made.radii.emplace_back();
-      for (std::size_t i = 0; i <= j; ++i) {
-        made.sizes.back().push_back(multiply(v.size[i], v.size[j]));
-        const int one = multiply(v.radius[i], v.size[j]);
-        made.radii.back().push_back(i == j ? scaled(2, one)
-                                           : add(multiply(v.size[i], v.radius[j]), one));
-      }
-    }
-    return made;
-  }
-
   /// v'F v with F the functions from `next` on.
-  Known form(const LengthTable& table, std::size_t& next, int sigma, const Numbers& v,
-             const Squares& squares) {
-    const double rounding = (2 * static_cast<double>(v.count()) + 8) * kUnitRoundoff;
-    Known made{constant(0), constant(kTiny)};
+  Known form(const LengthTable& table, std::size_t& next, int sigma, const Numbers& v) {
+    Known made{constant(0), 0};
+    Sizes sizes(v.count());
     for (std::size_t j = 0; j < v.count(); ++j) {
       int sum = constant(0);
       for (std::size_t i = 0; i <= j; ++i, ++next) {
         const LengthTable::Polynomial& function = table.functions[next];
         sum = add(multiply(polynomial(table, next, sigma), v.value[i]), sum);
-        add_error(function.error + rounding * function.size, squares.sizes[j][i], made);
-        add_error(function.size, squares.radii[j][i], made);
+        sizes.set(i, j, function.size, function.error);
       }
       made.value = add(multiply(sum, v.value[j]), made.value);
     }
+    made.error = error(sizes, v);
     return made;
   }
   /// v'Q v with a constant Q.
-  Known form(const Wide& Q, const Numbers& v, const Squares& squares) {
-    const double rounding = (2 * static_cast<double>(v.count()) + 10) * kUnitRoundoff;
-    Known made{constant(0), constant(kTiny)};
+  Known form(const Wide& Q, const Numbers& v) {
+    Known made{constant(0), 0};
+    Sizes sizes(v.count());
     for (std::size_t j = 0; j < v.count(); ++j) {
       int sum = constant(0);
       for (std::size_t i = 0; i <= j; ++i) {
         const auto row = static_cast<Eigen::Index>(i), column = static_cast<Eigen::Index>(j);
         const double q = static_cast<double>(Q(row, column)) * (i == j ? 1 : 2);
         sum = add(scaled(q, v.value[i]), sum);
-        add_error(rounding * std::abs(q), squares.sizes[j][i], made);
-        add_error(std::abs(q), squares.radii[j][i], made);
+        sizes.set(i, j, std::abs(q), 2 * kUnitRoundoff * std::abs(q));
       }
       made.value = add(multiply(sum, v.value[j]), made.value);
     }
+    made.error = error(sizes, v);
     return made;
   }
 
@@ -168,8 +191,17 @@ class Graph {
   }
 
  private:
-  void add_error(double factor, int size, Known& known) {
-    known.error = add(scaled(bounded::kBoundSlack * factor, size), known.error);
+  /// |v'F v - computed| <= A (part A + 2 R), A = sum w_i a_i, R = sum w_i r_i, where |F_ij| <= w_i w_j
+  /// and the errors of F are at most `part` of that.
+  int error(const Sizes& sizes, const Numbers& v) {
+    const std::vector<double> w = sizes.weights();
+    const double rounding = (2 * static_cast<double>(v.count()) + 8) * kUnitRoundoff;
+    int A = constant(0), R = constant(0);
+    for (std::size_t i = 0; i < v.count(); ++i) {
+      A = add(scaled(w[i], v.size[i]), A);
+      R = add(scaled(2 * w[i], v.radius[i]), R);
+    }
+    return add(multiply(add(scaled(sizes.part(w) + rounding, A), R), A), constant(kTiny));
   }
 
   const LinearSystem& system_;
@@ -208,14 +240,12 @@ int row_of(const LinearSystem& system, const Nodes& G, std::size_t i, Graph& gra
   return sum;
 }
 
-/// z with the bounds of its errors.
-Numbers known_z(const LinearSystem& system, const Carried& carried, int root, Nodes& rows,
-                Graph& graph) {
+/// z with the bounds of its errors: root |row of G| + b.
+Numbers known_z(const LinearSystem& system, const Carried& carried, int root, Graph& graph) {
   Numbers z;
   for (std::size_t i = 0; i < system.rank; ++i) {
-    rows.push_back(graph.multiply(root, row_of(system, carried.G, i, graph)));
-    graph.push(carried.z[i],
-               graph.add(graph.scaled(bounded::kBoundSlack, rows.back()), carried.b[i]), z);
+    const int row = row_of(system, carried.G, i, graph);
+    graph.push(carried.z[i], graph.add(graph.multiply(root, row), carried.b[i]), z);
   }
   graph.append_one(z);
   return z;
@@ -241,21 +271,20 @@ void add_cost(const Known& cost, Nodes& claim, Graph& graph) {
 void follow_claims(const LinearSystem& system, const LengthTable& table, std::size_t next,
                    int sigma, const Numbers& v, std::vector<Nodes>& claims, Nodes* values,
                    Graph& graph) {
-  const Graph::Squares squares = graph.squares(v);
   const std::size_t size = v.count() * (v.count() + 1) / 2;
   for (std::size_t c = 0; c < claims.size(); ++c) {
     const bool compared = is_compared(system.model.claims[c]);
     if (values == nullptr && !compared) {
       next += size;
     } else {
-      const Known start = graph.form(table, next, sigma, v, squares);
+      const Known start = graph.form(table, next, sigma, v);
       if (values != nullptr) values->insert(values->end(), {start.value, start.error});
       if (values == nullptr) compare(start, claims[c], graph);
     }
     // It has fallen along the flow.
-    if (compared) keep_least(graph.form(table, next, sigma, v, squares), claims[c], graph);
+    if (compared) keep_least(graph.form(table, next, sigma, v), claims[c], graph);
     if (system.model.claims[c].kind == ClaimKind::cost)
-      add_cost(graph.form(table, next, sigma, v, squares), claims[c], graph);
+      add_cost(graph.form(table, next, sigma, v), claims[c], graph);
   }
 }
 
@@ -283,21 +312,20 @@ lanes::LaneCode step_code(const LinearSystem& system, const LengthTable& table) 
   const int length = graph.input(), root = graph.input();
   Carried carried = carried_inputs(system, graph);
   const int sigma = graph.sigma(table, length);
-  Nodes rows;
-  const Numbers z = known_z(system, carried, root, rows, graph);
+  const Numbers z = known_z(system, carried, root, graph);
+  // Claims first, so that what they read may then be written over.
+  const std::size_t maps = r * z.count();
+  follow_claims(system, table, maps, sigma, z, carried.claims, nullptr, graph);
+  // The rounding of M G is a part of the sizes of z, as that of M z is.
   std::size_t next = 0;
-  const Graph::Product moved = graph.product(table, next, sigma, r, z);
-  // The rounding of M G, beside what M e has.
   const double rounding = 4 * (static_cast<double>(r) + 2) * kUnitRoundoff;
-  Nodes reach;
-  for (std::size_t i = 0; i < r; ++i)
-    reach.push_back(graph.add(graph.scaled(rounding, rows[i]), carried.b[i]));
+  const Graph::Product moved = graph.product(table, next, sigma, r, z, rounding);
   Carried after = carried;
   after.z = moved.value;
   for (std::size_t i = 0; i < r; ++i) {
     after.b[i] = moved.added[i];
     for (std::size_t k = 0; k < r; ++k)
-      after.b[i] = graph.add(graph.scaled(moved.sizes[i][k], reach[k]), after.b[i]);
+      after.b[i] = graph.add(graph.scaled(moved.sizes[i][k], carried.b[k]), after.b[i]);
     for (std::size_t j = 0; j < r; ++j) {
       int sum = graph.constant(0);
       for (std::size_t k = 0; k < r; ++k)
@@ -305,7 +333,6 @@ lanes::LaneCode step_code(const LinearSystem& system, const LengthTable& table) 
       after.G[j * r + i] = sum;
     }
   }
-  follow_claims(system, table, next, sigma, z, after.claims, nullptr, graph);
   return graph.code({all_of(after)}, 2);
 }
 
@@ -360,13 +387,12 @@ lanes::LaneCode gather_code(const LinearSystem& system) {
 /// The value of a claim at the end of a run, with the factors of what is left of the length.
 Known end_value(const LinearSystem& system, std::size_t c, const LengthTable& factors,
                 std::size_t& next, int left, const Numbers& x, Graph& graph) {
-  const Graph::Squares squares = graph.squares(x);
   const int sigma = graph.sigma(factors, left);
   Known sum{graph.constant(0), graph.constant(0)};
   for (const LinearForm& form : system.model.claims[c].value) {
     const LengthTable::Polynomial& function = factors.functions[next];
     const int factor = graph.polynomial(factors, next++, sigma);
-    const Known one = graph.form(form.Q, x, squares);
+    const Known one = graph.form(form.Q, x);
     sum.value = graph.add(graph.multiply(factor, one.value), sum.value);
     const double rounding = 4 * (static_cast<double>(system.model.claims[c].value.size()) + 2) *
                             kUnitRoundoff * function.size;
@@ -381,9 +407,7 @@ lanes::LaneCode last_code(const LinearSystem& system, const LinearTables& tables
   const int rest = graph.input(), length = graph.input(), left = graph.input(),
             root = graph.input();
   Carried carried = carried_inputs(system, graph);
-  Nodes rows;
-  const Numbers z = known_z(system, carried, root, rows, graph);
-  const Graph::Squares squares = graph.squares(z);
+  const Numbers z = known_z(system, carried, root, graph);
   const int sigma = graph.sigma(tables.rest, rest);
   const int whole = graph.sigma(tables.length, length);
   std::size_t next = 0, next_length = 0;
@@ -399,9 +423,9 @@ lanes::LaneCode last_code(const LinearSystem& system, const LinearTables& tables
   graph.append_one(x);
   for (std::size_t c = 0; c < system.claims.size(); ++c) {
     if (system.model.claims[c].kind == ClaimKind::cost)
-      add_cost(graph.form(tables.rest, next, sigma, z, squares), carried.claims[c], graph);
+      add_cost(graph.form(tables.rest, next, sigma, z), carried.claims[c], graph);
     if (is_compared(system.model.claims[c]))
-      compare(graph.form(tables.length, next_length, whole, z, squares), carried.claims[c], graph);
+      compare(graph.form(tables.length, next_length, whole, z), carried.claims[c], graph);
   }
   Nodes values;
   std::size_t factor = 0;

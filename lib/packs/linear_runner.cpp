@@ -184,8 +184,7 @@ class LinearLanes {
     const double root = std::sqrt(static_cast<double>(gathered_));
     for (std::size_t c = 0; c < system_.claims.size(); ++c)
       if (system_.model.claims[c].kind == ClaimKind::cost) add_costs(c);
-    double* const scale = gather_.input(0);
-    for (std::size_t l = 0; l < kLanes; ++l) scale[l] = rescale(l);
+    rescale(gather_.input(0));
     std::fill_n(gather_.input(1), kLanes, root);
     for (std::size_t k = 0; k < system_.carried; ++k)
       std::copy_n(step_.input(kStepCarried + k), kLanes, gather_.input(kGatherCarried + k));
@@ -193,7 +192,7 @@ class LinearLanes {
     open_ |= gather_.faults() & running_;
     for (std::size_t k = 0; k < system_.carried; ++k)
       std::copy_n(gather_.result(0, k), kLanes, step_.input(kStepCarried + k));
-    std::fill_n(step_.input(1), kLanes, root);
+    std::fill_n(step_.input(1), kLanes, root * bounded::kBoundSlack);
   }
 
   void add_costs(std::size_t c) {
@@ -208,21 +207,30 @@ class LinearLanes {
     }
   }
 
-  /// The power of 2 that takes the largest |z| near 1, where it is far from it. Not beside a
+  /// The powers of 2 that take the largest |z| near 1, where it is far from it. Not beside a
   /// constant, which has a unit of its own.
-  double rescale(std::size_t l) {
-    if ((running_ >> l & 1U) == 0) return 1;
-    double most = 0;
-    for (std::size_t i = 0; i < system_.rank; ++i)
-      most = std::max(most, std::abs(step_.input(kStepCarried + system_.z(i))[l]));
+  void rescale(double* scale) {
+    LaneNumbers most{};
+    for (std::size_t i = 0; i < system_.rank; ++i) {
+      const double* const z = step_.input(kStepCarried + system_.z(i));
+      for (std::size_t l = 0; l < kLanes; ++l) most[l] = std::max(most[l], std::abs(z[l]));
+    }
     constexpr double near = 0x1p64, far = 0x1p400;
-    if (!(most <= far)) open_ |= 1U << l;
-    if (most == 0 || (most >= 1 / near && most <= near) || system_.model.constant) return 1;
-    if (most < 1 / far) open_ |= 1U << l;
-    int exponent = 0;
-    std::frexp(most, &exponent);
-    exponent_[l] -= exponent;
-    return std::ldexp(1.0, -exponent);
+    std::uint32_t apart = 0;
+    for (std::size_t l = 0; l < kLanes; ++l)
+      if (!(most[l] >= 1 / near && most[l] <= near)) apart |= 1U << l;
+    std::fill_n(scale, kLanes, 1.0);
+    apart &= running_;
+    for (std::size_t l = 0; apart != 0 && l < kLanes; ++l) {
+      if ((apart >> l & 1U) == 0) continue;
+      if (!(most[l] <= far)) open_ |= 1U << l;
+      if (most[l] == 0 || system_.model.constant) continue;
+      if (most[l] < 1 / far) open_ |= 1U << l;
+      int exponent = 0;
+      std::frexp(most[l], &exponent);
+      exponent_[l] -= exponent;
+      scale[l] = std::ldexp(1.0, -exponent);
+    }
   }
 
   /// Of forms, in the unit of the start.

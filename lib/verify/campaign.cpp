@@ -76,11 +76,12 @@ bool is_worse(const claims::Finding& a, const claims::Finding& b) {
 }
 
 void add(const ClaimTally& later, ClaimTally& sum) {
-  const ClaimTally before = sum;
-  if (is_worse(later.worst, sum.worst)) sum = later;
-  sum.violations = before.violations + later.violations;
-  sum.undecided = before.undecided + later.undecided;
-  sum.floor = std::max(before.floor, later.floor);
+  sum.violations += later.violations;
+  sum.undecided += later.undecided;
+  sum.floor = std::max(sum.floor, later.floor);
+  if (!is_worse(later.worst, sum.worst)) return;
+  sum.run = later.run;
+  sum.worst = later.worst;
 }
 
 /// Adds the outcome of later runs: of equals the earlier run stays.
@@ -90,26 +91,29 @@ void add(const Tally& later, Tally& sum) {
     sum = later;
     return;
   }
-  Tally before = sum;
-  if (is_worse(later, sum)) sum = later;
-  for (std::size_t e = 0; e < before.happened.size(); ++e)
-    sum.happened[e] = before.happened[e] != 0 || later.happened[e] != 0 ? 1 : 0;
-  sum.runs = before.runs + later.runs;
-  sum.violations = before.violations + later.violations;
-  sum.undecided = before.undecided + later.undecided;
-  sum.unfinished = before.unfinished + later.unfinished;
-  sum.careful = before.careful + later.careful;
-  for (std::size_t k = 0; k < sum.open.size(); ++k) sum.open[k] = before.open[k] + later.open[k];
-  sum.first_undecided = before.first_undecided ? before.first_undecided : later.first_undecided;
-  const Tally& first = before.unfinished > 0 ? before : later;
-  sum.unfinished_run = first.unfinished_run;
-  sum.unfinished_termination = first.unfinished_termination;
-  sum.unfinished_message = first.unfinished_message;
-  sum.repeated = before.repeated + later.repeated;
-  for (std::size_t i = 0; i < before.claims.size(); ++i) add(later.claims[i], before.claims[i]);
-  sum.claims = std::move(before.claims);
-  before.confirmed.insert(before.confirmed.end(), later.confirmed.begin(), later.confirmed.end());
-  sum.confirmed = std::move(before.confirmed);
+  if (is_worse(later, sum)) {
+    sum.run = later.run;
+    sum.judgement = later.judgement;
+    sum.score = later.score;
+    sum.termination = later.termination;
+  }
+  if (sum.unfinished == 0 && later.unfinished > 0) {
+    sum.unfinished_run = later.unfinished_run;
+    sum.unfinished_termination = later.unfinished_termination;
+    sum.unfinished_message = later.unfinished_message;
+  }
+  sum.runs += later.runs;
+  sum.violations += later.violations;
+  sum.undecided += later.undecided;
+  sum.unfinished += later.unfinished;
+  sum.repeated += later.repeated;
+  sum.careful += later.careful;
+  for (std::size_t k = 0; k < sum.open.size(); ++k) sum.open[k] += later.open[k];
+  if (!sum.first_undecided) sum.first_undecided = later.first_undecided;
+  for (std::size_t e = 0; e < sum.happened.size(); ++e)
+    sum.happened[e] = sum.happened[e] != 0 || later.happened[e] != 0 ? 1 : 0;
+  for (std::size_t i = 0; i < sum.claims.size(); ++i) add(later.claims[i], sum.claims[i]);
+  sum.confirmed.insert(sum.confirmed.end(), later.confirmed.begin(), later.confirmed.end());
 }
 
 /// Its claim is counted among those that are stated.
