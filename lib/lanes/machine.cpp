@@ -292,8 +292,8 @@ class LaneCode::Maker {
     const TapeCode::Step& step = tape_.steps[k];
     const std::uint32_t before = tape_.steps[k - 1].out;
     const std::uint32_t argument = argument_of(tape_.steps[first]);
-    const bool takes = (step.a == before && step.b == argument) ||
-                       (step.b == before && step.a == argument);
+    const bool takes =
+        (step.a == before && step.b == argument) || (step.b == before && step.a == argument);
     return takes && last_[before] == k;
   }
 
@@ -356,7 +356,7 @@ class LaneCode::Maker {
 
   TapeCode tape_;
   LaneCode& code_;
-  std::uint32_t first_ = 0;  ///< that is computed
+  std::uint32_t first_ = 0;                     ///< that is computed
   std::map<std::uint32_t, std::uint32_t> fed_;  ///< the inputs of results that are fed back
   std::vector<std::size_t> last_;
   std::vector<std::uint32_t> at_;

@@ -196,7 +196,8 @@ inline void each(const LaneStep& step, double* registers, Last& last, const Oper
   const V* const b = reinterpret_cast<const V*>(registers + step.b * kLanes);
   const V* const c = reinterpret_cast<const V*>(registers + step.c * kLanes);
 #pragma GCC unroll 4
-  for (std::size_t k = 0; k < kVectors; ++k) last.part[k] = operation(a[k], b[k], c[k], last.part[k]);
+  for (std::size_t k = 0; k < kVectors; ++k)
+    last.part[k] = operation(a[k], b[k], c[k], last.part[k]);
   store(step, registers, last);
 }
 

@@ -32,7 +32,7 @@ class LaneLengths {
   const hybrid::Scenario* scenario_;
   const hybrid::Law* law_ = nullptr;  ///< none: uniform
   LaneRuns runs_{};
-  std::uint64_t key_ = 0;       ///< of the stream of lengths
+  std::uint64_t key_ = 0;  ///< of the stream of lengths
   std::uint64_t occurrences_ = 0, numbers_ = 0, drawn_ = 0;
   LaneNumbers length_{}, due_{}, first_{};
 };

@@ -12,7 +12,6 @@ namespace {
 
 using Series = std::vector<Decimal100>;
 
-
 double size_of(const Decimal100& x) { return std::abs(static_cast<double>(x)); }
 
 /// cos(pi k/degree), k = 0, ..., 2 degree - 1.
@@ -23,15 +22,35 @@ Series cosines(int degree) {
   return values;
 }
 
+/// The functions at the points cos(pi k/degree); those of half the degree are among them.
+class Points {
+ public:
+  Points(double middle, double scale, const WideFunctions& functions)
+      : middle_(middle), scale_(scale), functions_(functions) {}
+
+  const std::vector<Series>& of(int degree) {
+    const Series cosine = cosines(degree);
+    std::vector<Series> values;
+    for (int k = 0; k <= degree; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      values.push_back(k % 2 == 0 && !values_.empty()
+                           ? std::move(values_[at / 2])
+                           : functions_(Decimal100(middle_) + cosine[at] / Decimal100(scale_)));
+    }
+    values_ = std::move(values);
+    return values_;
+  }
+
+ private:
+  double middle_, scale_;
+  const WideFunctions& functions_;
+  std::vector<Series> values_;
+};
+
 /// The coefficients of Chebyshev polynomials, by function: of the polynomial of this degree through
-/// the points cos(pi k/degree).
-std::vector<Series> interpolated(double middle, double scale, int degree,
-                                 const WideFunctions& functions) {
+/// the points.
+std::vector<Series> interpolated(const std::vector<Series>& values, int degree) {
   const Series cosine = cosines(degree);
-  std::vector<Series> values;
-  for (int k = 0; k <= degree; ++k)
-    values.push_back(
-        functions(Decimal100(middle) + cosine[static_cast<std::size_t>(k)] / Decimal100(scale)));
   std::vector<Series> series(values.front().size(), Series(values.size()));
   for (std::size_t f = 0; f < series.size(); ++f)
     for (int i = 0; i <= degree; ++i) {
@@ -102,8 +121,9 @@ std::optional<WideTable> make_wide_table(double from, double to, const WideFunct
     }
     return table;
   }
-  for (int degree = 24; degree <= kMostLengthDegree; degree *= 2) {
-    std::vector<Series> all = interpolated(table.middle, table.scale, degree, functions);
+  Points points(table.middle, table.scale, functions);
+  for (int degree = kMostLengthDegree / 4; degree <= kMostLengthDegree; degree *= 2) {
+    std::vector<Series> all = interpolated(points.of(degree), degree);
     // What is nothing but rounding of 100 digits is 0.
     double most = 0;
     for (const Series& one : all)

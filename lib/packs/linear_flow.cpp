@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "bounded/tolerances.h"
+#include "numerics/balance.h"
 
 namespace gainsmith::packs {
 
@@ -24,9 +25,31 @@ double largest(const Wide& matrix) {
   return most;
 }
 
-/// Terms one of the other until they are negligible: those of exponentials fall from `falling` on.
+/// Element (i, j) times 2^(left_i + right_j).
+Wide scaled(const Wide& matrix, const std::vector<int>& left, const std::vector<int>& right) {
+  Wide result = matrix;
+  for (Index i = 0; i < matrix.rows(); ++i)
+    for (Index j = 0; j < matrix.cols(); ++j)
+      result(i, j) = ldexp(matrix(i, j),
+                           left[static_cast<std::size_t>(i)] + right[static_cast<std::size_t>(j)]);
+  return result;
+}
+
+std::vector<int> units_of(const Wide& A) {
+  return numerics::balance(numbers::Matrix(
+      A.unaryExpr([](const Decimal100& x) { return std::abs(static_cast<double>(x)); })));
+}
+
+/// D^-1 A D.
+Wide balanced(const Wide& A, const std::vector<int>& units) {
+  std::vector<int> inverse;
+  for (const int one : units) inverse.push_back(-one);
+  return scaled(A, inverse, units);
+}
+
+/// Terms one of the other until they are negligible: those of exponentials of a norm up to 1.
 template <class Next>
-std::vector<Wide> terms_from(Wide first, int falling, const Next& next) {
+std::vector<Wide> terms_from(Wide first, const Next& next) {
   std::vector<Wide> terms{std::move(first)};
   double most = largest(terms.front());
   for (int k = 1;; ++k) {
@@ -34,54 +57,64 @@ std::vector<Wide> terms_from(Wide first, int falling, const Next& next) {
     const double size = largest(term);
     most = std::max(most, size);
     terms.push_back(std::move(term));
-    if (k > falling && size <= kLeftOut * most) return terms;
+    if (k > 2 && size <= kLeftOut * most) return terms;
   }
+}
+
+Wide sum_of(const std::vector<Wide>& terms, const Decimal100& share) {
+  Wide sum = terms.back();
+  for (std::size_t k = terms.size() - 1; k-- > 0;) sum = Wide(sum * share + terms[k]);
+  return sum;
+}
+
+Wide moved(const Wide& E, const Wide& W) {
+  return times<Decimal100>(E.transpose(), times<Decimal100>(W, E));
 }
 
 }  // namespace
 
 double flow_norm(const Wide& A, double length) {
+  const Wide small = balanced(A, units_of(A));
   double norm = 0;
   for (Index j = 0; j < A.cols(); ++j) {
     double sum = 0;
-    for (Index i = 0; i < A.rows(); ++i) sum += std::abs(static_cast<double>(A(i, j)));
+    for (Index i = 0; i < A.rows(); ++i) sum += std::abs(static_cast<double>(small(i, j)));
     norm = std::max(norm, sum);
   }
   return norm * length;
 }
 
-MatrixSeries MatrixSeries::flow(const Wide& A, double longest) {
-  MatrixSeries series;
-  series.unit_ = longest > 0 ? longest : 1;
-  const Wide step = A * Decimal100(series.unit_);
-  const int falling = static_cast<int>(2 * flow_norm(A, series.unit_)) + 2;
-  series.terms_ =
-      terms_from(Wide::Identity(A.rows(), A.cols()), falling, [&](const Wide& term, int k) {
-        return Wide(times<Decimal100>(term, step) / Decimal100(k));
-      });
-  return series;
-}
-
-MatrixSeries MatrixSeries::integral(const Wide& A, const Wide& Q, double longest) {
-  MatrixSeries series;
-  series.unit_ = longest > 0 ? longest : 1;
-  const Wide step = A * Decimal100(series.unit_);
+WideFlow::WideFlow(const Wide& A, const std::vector<Wide>& forms, double longest)
+    : units_(units_of(A)) {
+  for (double norm = flow_norm(A, longest); norm > 0.5; norm /= 2) ++doublings_;
+  unit_ = longest > 0 ? std::ldexp(longest, -doublings_) : 1;
+  const Wide step = balanced(A, units_) * Decimal100(unit_);
   const Wide turned = step.transpose();
-  const int falling = static_cast<int>(4 * flow_norm(A, series.unit_)) + 2;
-  series.terms_ =
-      terms_from(Q * Decimal100(series.unit_), falling, [&](const Wide& term, int k) {
-        return Wide((times<Decimal100>(turned, term) + times<Decimal100>(term, step)) /
-                    Decimal100(k + 1));
-      });
-  series.terms_.insert(series.terms_.begin(), Wide::Zero(A.rows(), A.cols()));
-  return series;
+  flow_ = terms_from(Wide::Identity(A.rows(), A.cols()), [&](const Wide& term, int k) {
+    return Wide(times<Decimal100>(term, step) / Decimal100(k));
+  });
+  for (const Wide& Q : forms)
+    integrals_.push_back(
+        terms_from(scaled(Q, units_, units_) * Decimal100(unit_), [&](const Wide& term, int k) {
+          return Wide((times<Decimal100>(turned, term) + times<Decimal100>(term, step)) /
+                      Decimal100(k + 1));
+        }));
 }
 
-Wide MatrixSeries::operator()(const Decimal100& s) const {
-  const Decimal100 share = s / Decimal100(unit_);
-  Wide sum = terms_.back();
-  for (std::size_t k = terms_.size() - 1; k-- > 0;) sum = Wide(sum * share + terms_[k]);
-  return sum;
+WideFlow::Values WideFlow::operator()(const Decimal100& s) const {
+  const Decimal100 share = ldexp(Decimal100(s / Decimal100(unit_)), -doublings_);
+  Values values{sum_of(flow_, share), {}};
+  for (const std::vector<Wide>& terms : integrals_)
+    values.W.emplace_back(sum_of(terms, share) * share);
+  for (int k = 0; k < doublings_; ++k) {
+    for (Wide& W : values.W) W += moved(values.E, W);
+    values.E = times<Decimal100>(values.E, values.E);
+  }
+  std::vector<int> inverse;
+  for (const int one : units_) inverse.push_back(-one);
+  values.E = scaled(values.E, units_, inverse);
+  for (Wide& W : values.W) W = scaled(W, inverse, inverse);
+  return values;
 }
 
 RankFactors rank_factors(const Wide& matrix) {

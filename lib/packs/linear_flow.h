@@ -1,7 +1,12 @@
 // The flow x' = A x of a length s and integrals of quadratic forms along it, in 100 digits.
 //
-//   E(s) = expm(s A) = sum_k (s^k/k!) A^k
-//   W(s) = int_0^s E(t)' Q E(t) dt = sum_k (s^(k+1)/(k+1)!) F_k,  F_0 = Q, F_(k+1) = A'F_k + F_k A
+//   E(s) = expm(s A),   W(s) = int_0^s E(t)' Q E(t) dt
+//
+// of a short length by their series and of longer ones by doubling,
+//
+//   E(2 s) = E(s)^2,   W(2 s) = W(s) + E(s)' W(s) E(s)
+//
+// in units in which A is small (numerics/balance.h).
 #pragma once
 
 #include <vector>
@@ -14,22 +19,27 @@ namespace gainsmith::packs {
 
 using Wide = numbers::MatrixOf<Decimal100>;
 
-/// A matrix as a power series of the length, of entries that are entire.
-class MatrixSeries {
+class WideFlow {
  public:
-  /// expm(s A) for 0 <= s <= longest; the norm of A times longest is at most kLongestFlow.
-  static MatrixSeries flow(const Wide& A, double longest);
-  /// W(s) for the same lengths.
-  static MatrixSeries integral(const Wide& A, const Wide& Q, double longest);
+  struct Values {
+    Wide E;
+    std::vector<Wide> W;  ///< by form
+  };
 
-  Wide operator()(const Decimal100& s) const;
+  /// For 0 <= s <= longest; flow_norm(A, longest) is at most kLongestFlow.
+  WideFlow(const Wide& A, const std::vector<Wide>& forms, double longest);
+
+  Values operator()(const Decimal100& s) const;
 
  private:
-  double unit_ = 1;          ///< the powers are those of s/unit
-  std::vector<Wide> terms_;  ///< of rising powers
+  std::vector<int> units_;
+  double unit_ = 1;                           ///< series are of s/unit
+  int doublings_ = 0;                         ///< from the series to s
+  std::vector<Wide> flow_;                    ///< of rising powers
+  std::vector<std::vector<Wide>> integrals_;  ///< by form, from power 1 on
 };
 
-/// The 1-norm of A times a length.
+/// The 1-norm of A times a length, in units in which it is small.
 double flow_norm(const Wide& A, double length);
 
 /// A matrix of rank r as B D, with D (r x n) r of its rows and B (n x r).

@@ -47,7 +47,8 @@ class Sizes {
       for (std::size_t j = 0; j < n; ++j) largest = std::max(largest, size_[i][j]);
     std::vector<double> w(n);
     for (std::size_t i = 0; i < n; ++i) {
-      const bool zero = std::all_of(size_[i].begin(), size_[i].end(), [](double x) { return x == 0; });
+      const bool zero =
+          std::all_of(size_[i].begin(), size_[i].end(), [](double x) { return x == 0; });
       w[i] = zero ? 0 : std::max(std::sqrt(size_[i][i]), 1e-8 * std::sqrt(largest));
     }
     double excess = 1;
@@ -141,9 +142,9 @@ class Graph {
         made.M.back().push_back(polynomial(table, next, sigma));
         made.sizes.back().push_back(function.size * bounded::kBoundSlack);
         value = add(multiply(made.M.back().back(), v.value[j]), value);
-        added = add(scaled(bounded::kBoundSlack * (function.error + rounding * function.size),
-                           v.size[j]),
-                    added);
+        added = add(
+            scaled(bounded::kBoundSlack * (function.error + rounding * function.size), v.size[j]),
+            added);
       }
       made.value.push_back(value);
       made.added.push_back(added);

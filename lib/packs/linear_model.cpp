@@ -124,9 +124,8 @@ bool add_parts(const JudgedFunction& function, const LinearModel& linear,
   if (!function.quadratic) return false;
   const StateLayout& layout = linear.coordinates->layout;
   for (const claims::QuadraticPart& part : function.parts) {
-    if (part.factor && std::any_of(layout.slots.begin(), layout.slots.end(), [&](const auto& slot) {
-          return part.factor->uses(slot.name);
-        }))
+    if (part.factor && std::any_of(layout.slots.begin(), layout.slots.end(),
+                                   [&](const auto& slot) { return part.factor->uses(slot.name); }))
       return false;
     const auto Q = form_over(part.matrix, linear.constant);
     if (!Q) return false;

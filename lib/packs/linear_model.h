@@ -36,7 +36,7 @@ struct LinearForm {
 
 struct LinearClaim {
   model::ClaimKind kind = model::ClaimKind::nonincreasing;
-  bool squared = false;                     ///< the value is the root of the forms
+  bool squared = false;  ///< the value is the root of the forms
   std::vector<LinearForm> value;
   std::optional<Wide> flow_cost, jump_cost;  ///< of `cost`
   double factor = 0;                         ///< of `shrinks`, > 0

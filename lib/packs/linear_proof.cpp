@@ -16,7 +16,7 @@ using numbers::times;
 
 /// S of flows as a polynomial in sigma.
 std::vector<Wide> along_flows(const std::vector<FallingTerm>& terms, const Wide& A,
-                         const WideTable& factors) {
+                              const WideTable& factors) {
   std::vector<Wide> S(1, Wide::Zero(A.rows(), A.cols()));
   for (const FallingTerm& term : terms) {
     const Wide along = times<Decimal100>(A.transpose(), term.Q) + times<Decimal100>(term.Q, A);
@@ -24,8 +24,7 @@ std::vector<Wide> along_flows(const std::vector<FallingTerm>& terms, const Wide&
     if (S.size() < g.size()) S.resize(g.size(), Wide::Zero(A.rows(), A.cols()));
     for (std::size_t k = 0; k < g.size(); ++k) {
       S[k] += along * g[k];
-      if (k > 0)
-        S[k - 1] -= term.Q * Decimal100(g[k] * Decimal100(factors.scale) * Decimal100(k));
+      if (k > 0) S[k - 1] -= term.Q * Decimal100(g[k] * Decimal100(factors.scale) * Decimal100(k));
     }
   }
   return S;
@@ -61,8 +60,9 @@ std::vector<Matrix> without_zeros(const std::vector<Wide>& S) {
       kept.push_back(i);
   std::vector<Matrix> result;
   for (const Wide& one : S)
-    result.push_back(
-        Wide(one(kept, kept)).unaryExpr([](const Decimal100& x) { return static_cast<double>(x); }));
+    result.push_back(Wide(one(kept, kept)).unaryExpr([](const Decimal100& x) {
+      return static_cast<double>(x);
+    }));
   return result;
 }
 
@@ -87,7 +87,8 @@ bool is_negative(const std::vector<Matrix>& S) {
   const auto scaled = [&](const Matrix& one) {
     return Matrix(unit.asDiagonal() * ((one + one.transpose()) / 2) * unit.asDiagonal());
   };
-  const Matrix whole = scaled(middle) - kFlowMargin * Matrix::Identity(middle.rows(), middle.cols());
+  const Matrix whole =
+      scaled(middle) - kFlowMargin * Matrix::Identity(middle.rows(), middle.cols());
   const Eigen::LLT<Matrix> factor(whole);
   if (factor.info() != Eigen::Success) return false;
   double sum = 0;
@@ -119,8 +120,8 @@ bool falls_along_flows(const std::vector<FallingTerm>& terms, const Wide& A,
   return is_negative(along_flows(terms, A, factors));
 }
 
-bool falls_at_jumps(const std::vector<FallingTerm>& terms, const Wide& J,
-                    const WideTable& factors, const std::vector<Decimal100>& at_0) {
+bool falls_at_jumps(const std::vector<FallingTerm>& terms, const Wide& J, const WideTable& factors,
+                    const std::vector<Decimal100>& at_0) {
   return is_negative(at_jumps(terms, J, factors, at_0));
 }
 

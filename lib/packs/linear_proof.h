@@ -26,7 +26,7 @@ struct FallingTerm {
 bool falls_along_flows(const std::vector<FallingTerm>& terms, const Wide& A,
                        const WideTable& factors);
 /// `at_0`: the factors at tau = 0.
-bool falls_at_jumps(const std::vector<FallingTerm>& terms, const Wide& J,
-                    const WideTable& factors, const std::vector<Decimal100>& at_0);
+bool falls_at_jumps(const std::vector<FallingTerm>& terms, const Wide& J, const WideTable& factors,
+                    const std::vector<Decimal100>& at_0);
 
 }  // namespace gainsmith::packs

@@ -96,8 +96,7 @@ class LinearLanes {
 
  private:
   // Inputs of the code.
-  static constexpr std::size_t kFirstXi = 1, kStepCarried = 2, kGatherCarried = 2,
-                               kLastCarried = 4;
+  static constexpr std::size_t kFirstXi = 1, kStepCarried = 2, kGatherCarried = 2, kLastCarried = 4;
   static constexpr std::int64_t kNoJumpLimit = bounded::kMostJumps;
 
   void make(std::uint64_t seed, const LaneRuns& runs, std::size_t count) {
@@ -310,7 +309,8 @@ bool LinearLanes::judge_rise(std::size_t c, std::size_t l, PackVerdict::Claim& c
 bool LinearLanes::judge_cost(std::size_t c, std::size_t l, PackVerdict::Claim& claim) const {
   const Known bound = start(c, l);
   const double unit = unit_of(l);
-  Known cost{costs_[c].sum[l] + unit * carried(c, 0, l), costs_[c].error[l] + unit * carried(c, 1, l)};
+  Known cost{costs_[c].sum[l] + unit * carried(c, 0, l),
+             costs_[c].error[l] + unit * carried(c, 1, l)};
   // Sums of what is not negative, one a flow and one a box of flows.
   cost.error += (2 * flows_[l] + 2 * kFlowsOfBox) * kUnitRoundoff * cost.value;
   const double scale = std::abs(bound.value);

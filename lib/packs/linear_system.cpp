@@ -18,7 +18,8 @@ using numbers::times;
 /// The factors of all forms of all claims, as functions of the timer.
 class Factors {
  public:
-  explicit Factors(const LinearModel& model) : zero_(Wide::Zero(model.coordinates->layout.size, 1)) {
+  explicit Factors(const LinearModel& model)
+      : zero_(Wide::Zero(model.coordinates->layout.size, 1)) {
     for (const LinearClaim& claim : model.claims)
       for (const LinearForm& form : claim.value) {
         functions_.emplace_back();
@@ -63,12 +64,7 @@ class Functions {
       : model_(model),
         factors_(model),
         at_0_(factors_(Decimal100(0))),
-        flow_(MatrixSeries::flow(model.A, model.longest())) {
-    for (const LinearClaim& claim : model.claims)
-      integrals_.push_back(claim.flow_cost ? std::optional(MatrixSeries::integral(
-                                                 model.A, *claim.flow_cost, model.longest()))
-                                           : std::nullopt);
-  }
+        flow_(model.A, flow_costs(model), model.longest()) {}
 
   Factors& factors() { return factors_; }
   const std::vector<Decimal100>& at_0() const { return at_0_; }
@@ -76,8 +72,8 @@ class Functions {
   /// Of a flow from x = X z and the jump at its end: M; of each claim F; of what is compared at jumps
   /// F_end; of costs C. In this order.
   std::vector<Decimal100> of_flow(const Wide& X, const Decimal100& s) {
-    const Wide E = flow_(s);
-    const Wide end = times<Decimal100>(E, X);
+    const WideFlow::Values flow = flow_(s);
+    const Wide end = times<Decimal100>(flow.E, X);
     std::vector<Decimal100> values;
     append_rows(times<Decimal100>(model_.D, end), rows(model_.D), values);
     const std::vector<Decimal100> g = factors_(s);
@@ -88,19 +84,20 @@ class Functions {
       k += claim.value.size();
       append_form(moved(X, sum(claim, g, first)), values);
       if (is_compared(claim)) append_form(moved(end, sum(claim, at_0_, first)), values);
-      if (claim.kind == ClaimKind::cost) append_form(cost(c, X, end, s, true), values);
+      if (claim.kind == ClaimKind::cost) append_form(cost(c, X, end, flow, true), values);
     }
     return values;
   }
 
   /// Of a flow from x = X z without a jump: the end of x; of costs C.
   std::vector<Decimal100> of_rest(const Wide& X, const Decimal100& s) {
-    const Wide end = times<Decimal100>(flow_(s), X);
+    const WideFlow::Values flow = flow_(s);
+    const Wide end = times<Decimal100>(flow.E, X);
     std::vector<Decimal100> values;
     append_rows(end, rows(end), values);
     for (std::size_t c = 0; c < model_.claims.size(); ++c)
       if (model_.claims[c].kind == ClaimKind::cost)
-        append_form(cost(c, X, end, s, false), values);
+        append_form(cost(c, X, end, flow, false), values);
     return values;
   }
 
@@ -125,18 +122,27 @@ class Functions {
     for (std::size_t k = 0; k < claim.value.size(); ++k) Q += claim.value[k].Q * g[first + k];
     return Q;
   }
-  Wide cost(std::size_t c, const Wide& X, const Wide& end, const Decimal100& s, bool jump) const {
+  Wide cost(std::size_t c, const Wide& X, const Wide& end, const WideFlow::Values& flow,
+            bool jump) const {
     Wide C = Wide::Zero(X.cols(), X.cols());
-    if (integrals_[c]) C += moved(X, (*integrals_[c])(s));
+    std::size_t k = 0;
+    for (std::size_t before = 0; before < c; ++before)
+      if (model_.claims[before].flow_cost) ++k;
+    if (model_.claims[c].flow_cost) C += moved(X, flow.W[k]);
     if (jump && model_.claims[c].jump_cost) C += moved(end, *model_.claims[c].jump_cost);
     return C;
+  }
+  static std::vector<Wide> flow_costs(const LinearModel& model) {
+    std::vector<Wide> forms;
+    for (const LinearClaim& claim : model.claims)
+      if (claim.flow_cost) forms.push_back(*claim.flow_cost);
+    return forms;
   }
 
   const LinearModel& model_;
   Factors factors_;
   std::vector<Decimal100> at_0_;
-  MatrixSeries flow_;
-  std::vector<std::optional<MatrixSeries>> integrals_;
+  WideFlow flow_;
 };
 
 /// Whether all that must not increase falls along flows; marks what falls at jumps too.
@@ -185,8 +191,8 @@ std::unique_ptr<const LinearSystem> make_linear_system(LinearModel given) {
                            [&](const Decimal100& s) { return functions.of_flow(model.S, s); });
   const auto step = table(model.low, model.high,
                           [&](const Decimal100& s) { return functions.of_flow(model.B, s); });
-  const auto rest = table(0, model.high,
-                          [&](const Decimal100& s) { return functions.of_rest(model.B, s); });
+  const auto rest =
+      table(0, model.high, [&](const Decimal100& s) { return functions.of_rest(model.B, s); });
   const auto length = table(model.low, model.high,
                             [&](const Decimal100& s) { return functions.of_length(model.B, s); });
   const auto left =

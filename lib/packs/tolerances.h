@@ -42,7 +42,7 @@ constexpr double kLengthTail = 1e-25;  ///< of the largest coefficient | the las
         ///< LengthTable.RefusesWhatItDoesNotFollow
 constexpr double kLengthNoise = 1e-70;  ///< of the largest coefficient of all functions | a function
         ///< below is the rounding of 0 | LengthTable.WhatIsRoundingIsNothing
-constexpr double kLongestFlow = 40;  ///< the norm of the matrix times the length | longer flows are
+constexpr double kLongestFlow = 100;  ///< the norm of the matrix times the length | longer flows are
         ///< not run as linear packs | LinearPacks.RunWhatTheyCan
 constexpr double kFlowMargin = 1e-9;  ///< relative | that a value falls along flows is shown in
         ///< double with so much to spare | LinearProof.NeedsMoreThanRounding

@@ -154,8 +154,8 @@ Tally tally_of(std::uint64_t run, const RunVerdict& verdict) {
 }
 
 /// Runs first, first + 1, ..., last - 1, or those until the campaign is stopped.
-Tally judge_runs(const Setup& setup, const Packs* packs, std::uint64_t seed,
-                 std::uint64_t first, std::uint64_t last) {
+Tally judge_runs(const Setup& setup, const Packs* packs, std::uint64_t seed, std::uint64_t first,
+                 std::uint64_t last) {
   PackJudge judge(setup, packs);
   Tally sum;
   try {
@@ -178,8 +178,8 @@ Tally judge_runs(const Setup& setup, const Packs* packs, std::uint64_t seed,
 
 /// All runs, in blocks that are handed to the threads and added up in order; those runs that
 /// are done when the campaign is stopped. Packs go on where they decide most of the first block.
-Tally judge_all(const Setup& setup, const Packs* packs, std::uint64_t seed,
-                std::uint64_t runs, const CampaignOptions& options) {
+Tally judge_all(const Setup& setup, const Packs* packs, std::uint64_t seed, std::uint64_t runs,
+                const CampaignOptions& options) {
   constexpr std::uint64_t first_size = 64;
   const Doing doing("runs", runs);
   const std::uint64_t begun = packs != nullptr ? std::min(runs, first_size) : 0;
@@ -323,7 +323,7 @@ Report run_campaign(const Setup& setup, const CampaignOptions& options) {
 
   report.confidence = options.confidence;
   report.idle_observers = hybrid::idle_observers(setup.events->system.dynamics);
-  const Packs packs = report.asked >= kFewestInPacks ? make_packs(setup) : Packs{};
+  const Packs packs = make_packs(setup, report.asked);
   Tally tally = judge_all(setup, packs ? &packs : nullptr, report.seed, report.asked, options);
   report.runs = tally.runs;
   report.horizon = setup.horizon();

@@ -39,8 +39,9 @@ void require_agreement(std::uint64_t run, Judgement packs, Judgement careful) {
                   run, claims::to_string(packs), claims::to_string(careful)));
 }
 
-Packs make_packs(const Setup& setup) {
+Packs make_packs(const Setup& setup, std::uint64_t runs) {
   Packs made;
+  if (runs < (setup.sampled ? kFewestLinear : kFewestInPacks)) return made;
   const EventSetup& events = setup.judged();
   if (setup.sampled) {
     const SampledSetup& sampled = *setup.sampled;

@@ -28,8 +28,8 @@ struct Packs {
   explicit operator bool() const { return linear || any; }
 };
 
-/// The setup must outlive it.
-Packs make_packs(const Setup& setup);
+/// For so many runs: few are careful. The setup must outlive it.
+Packs make_packs(const Setup& setup, std::uint64_t runs);
 
 class PackJudge {
  public:
