@@ -152,7 +152,7 @@ RankFactors rank_factors(const Wide& matrix) {
   // matrix = X U with U the eliminated pivot rows, and D = (rows of X) U, so B = X (rows of X)^-1:
   // these rows are lower triangular with ones.
   const auto r = static_cast<Index>(rows.size());
-  RankFactors factors{X.leftCols(r), Wide::Zero(r, columns)};
+  RankFactors factors{X.leftCols(r), Wide::Zero(r, columns), rows};
   for (Index k = 0; k < r; ++k) factors.D.row(k) = matrix.row(rows[static_cast<std::size_t>(k)]);
   for (Index k = r; k-- > 0;)
     for (Index j = 0; j < k; ++j) {

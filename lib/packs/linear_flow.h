@@ -45,6 +45,7 @@ double flow_norm(const Wide& A, double length);
 /// A matrix of rank r as B D, with D (r x n) r of its rows and B (n x r).
 struct RankFactors {
   Wide B, D;
+  std::vector<Eigen::Index> rows;  ///< which are D
 };
 RankFactors rank_factors(const Wide& matrix);
 

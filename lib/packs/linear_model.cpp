@@ -1,9 +1,11 @@
 #include "packs/linear_model.h"
 
 #include <algorithm>
+#include <set>
+#include <string>
 #include <utility>
 
-#include "bounded/bounded_system.h"
+#include "bounded/wide_function.h"
 #include "claims/value.h"
 #include "numbers/degree.h"
 #include "packs/tolerances.h"
@@ -18,10 +20,11 @@ using Eigen::Index;
 using hybrid::StateLayout;
 using model::ClaimKind;
 
-/// Whether a program is affine in what moves and does not ask for the timer.
-bool is_affine(const expr::Program& program, const StateLayout& layout) {
-  const auto moves = [&](const std::string& name) { return layout.moves(name); };
-  const auto degrees = numbers::degrees(program, moves);
+/// Whether a program is affine in what `varies` and does not ask for the timer.
+bool is_affine(const expr::Program& program, const StateLayout& layout,
+               const std::set<std::string>& varies) {
+  const auto degrees =
+      numbers::degrees(program, [&](const std::string& name) { return varies.contains(name); });
   return degrees[static_cast<std::size_t>(program.result)] != numbers::kNotAffine &&
          !program.uses(layout.timer);
 }
@@ -51,21 +54,23 @@ bool find_start(LinearModel& linear) {
   const auto m = static_cast<Index>(linear.drawn.size());
   Wide X = Wide::Zero(sampled.layout.size, m + 1);
   Index next = 0;
+  std::set<std::string> varies;  // from run to run
   for (std::size_t k = 0; k < sampled.variable.size(); ++k) {
     const hybrid::StartRule& rule = *linear.scenario->starts[sampled.variable[k]];
     const hybrid::Slot& slot = sampled.layout.slots[k];
     if (rule.kind == model::StartKind::expression) {
-      if (!is_affine(rule.program, sampled.layout)) return false;
+      if (!is_affine(rule.program, sampled.layout, varies)) return false;
       bounded::WideFunction value(rule.program, sampled.layout, coordinates.constants);
       set_rows(slot, value, X, X);
     } else {
       for (int e = 0; e < slot.shape.size(); ++e) X(slot.offset + e, next++) = Decimal100(1);
     }
+    if (!X.block(slot.offset, 0, slot.shape.size(), m).isZero(0)) varies.insert(slot.name);
   }
   Wide S = Wide::Zero(coordinates.layout.size, m + 1);
   for (std::size_t i = 0; i < coordinates.list.size(); ++i) {
     const expr::Program& start = coordinates.list[i].start;
-    if (!is_affine(start, sampled.layout)) return false;
+    if (!is_affine(start, sampled.layout, varies)) return false;
     bounded::WideFunction value(start, sampled.layout, coordinates.constants);
     set_rows(coordinates.layout.slots[i], value, X, S);
   }
@@ -95,27 +100,64 @@ Wide homogeneous(const Wide& M, const Wide& c, bool constant, int last) {
   return whole;
 }
 
-void set_maps(const bounded::WideMap& jump, LinearModel& linear) {
+/// Lengths at which the range of a jump that depends on them is found.
+constexpr int kRangeLengths = 5;
+
+/// x, and the maps of x; false: the jump is of another kind.
+bool set_maps(LinearModel& linear) {
   const Coordinates& coordinates = *linear.coordinates;
-  linear.constant = !coordinates.constant.isZero(0) || !jump.constant.isZero(0) ||
-                    !linear.S.rightCols(1).isZero(0);
-  const bool constant = linear.constant;
-  linear.A = homogeneous(coordinates.linear, coordinates.constant, constant, 0);
-  RankFactors factors = rank_factors(jump.linear);
-  const Index r = factors.D.rows();
-  linear.D = homogeneous(factors.D, Wide::Zero(r, 1), constant, 1);
-  linear.B = homogeneous(factors.B, jump.constant, constant, 1);
   const Index m = linear.S.cols() - 1;
-  linear.S = constant ? homogeneous(linear.S.leftCols(m), linear.S.rightCols(1), true, 1)
-                      : Wide(linear.S.leftCols(m));
+  std::vector<bool> same;
+  for (Index e = 0; e < linear.S.rows(); ++e) same.push_back(linear.S.row(e).head(m).isZero(0));
+  auto made = LinearJump::make(coordinates, linear.S.rightCols(1), same);
+  if (!made) return false;
+  linear.jump = std::make_shared<const LinearJump>(std::move(*made));
+  const LinearJump& jump = *linear.jump;
+  const std::vector<Index>& x = jump.elements();
+  const auto n = static_cast<Index>(x.size());
+  // All lengths together, since x behind a jump is in one range.
+  Wide maps(n, 0);
+  Wide constant = Wide::Zero(n, 1);
+  for (const bool first : {true, false})
+    for (int k = 0; k < (jump.varies() ? kRangeLengths : 1); ++k) {
+      const double low = first ? linear.first_low : linear.low;
+      const double high = first ? linear.first_high : linear.high;
+      const Wide map = jump(Decimal100(low + k * (high - low) / (kRangeLengths - 1)), first);
+      constant = map.rightCols(1);
+      if (jump.varies() && !constant.isZero(0)) return false;
+      Wide more(n, maps.cols() + n);
+      more << maps, map.leftCols(n);
+      maps = std::move(more);
+    }
+  const Wide S = linear.S(x, Eigen::all);
+  const Wide inputs = coordinates.constant(x, Eigen::all);
+  linear.constant = !inputs.isZero(0) || !constant.isZero(0) || !S.rightCols(1).isZero(0);
+  linear.A = homogeneous(coordinates.linear(x, x), inputs, linear.constant, 0);
+  const RankFactors factors = rank_factors(maps);
+  linear.jump_rows = factors.rows;
+  linear.B = homogeneous(factors.B, constant, linear.constant, 1);
+  linear.S =
+      linear.constant ? homogeneous(S.leftCols(m), S.rightCols(1), true, 1) : Wide(S.leftCols(m));
+  return true;
 }
 
-/// The form over x with or without a last coordinate 1. False: it has terms that need it.
-std::optional<Wide> form_over(const Wide& Q, bool constant) {
-  if (constant) return Q;
-  const Index n = Q.rows() - 1;
-  if (!Q.row(n).isZero(0)) return std::nullopt;
-  return Wide(Q.topLeftCorner(n, n));
+/// The form over x alone; none: it needs clocks.
+std::optional<Wide> over_elements(const Wide& Q, const std::vector<Index>& x) {
+  std::vector<Index> kept = x;
+  kept.push_back(Q.rows() - 1);
+  for (Index e = 0; e < Q.rows(); ++e)
+    if (!Q.row(e).isZero(0) && std::find(kept.begin(), kept.end(), e) == kept.end())
+      return std::nullopt;
+  return Wide(Q(kept, kept));
+}
+
+/// The form over x with or without a last coordinate 1. None: it has terms that need more.
+std::optional<Wide> form_over(const Wide& whole, const LinearModel& linear) {
+  const auto Q = over_elements(whole, linear.jump->elements());
+  if (!Q || linear.constant) return Q;
+  const Index n = Q->rows() - 1;
+  if (!Q->row(n).isZero(0)) return std::nullopt;
+  return Wide(Q->topLeftCorner(n, n));
 }
 
 /// The parts of a quadratic function whose factors depend on the timer alone.
@@ -127,7 +169,7 @@ bool add_parts(const JudgedFunction& function, const LinearModel& linear,
     if (part.factor && std::any_of(layout.slots.begin(), layout.slots.end(),
                                    [&](const auto& slot) { return part.factor->uses(slot.name); }))
       return false;
-    const auto Q = form_over(part.matrix, linear.constant);
+    const auto Q = form_over(part.matrix, linear);
     if (!Q) return false;
     forms.push_back({part.factor, *Q});
   }
@@ -161,7 +203,7 @@ std::optional<Wide> cost_form(const JudgedFunction& cost, const LinearModel& lin
   if (!cost.is_form()) return std::nullopt;
   const Index n = linear.A.rows();
   if (cost.parts.empty()) return Wide(Wide::Zero(n, n));
-  const auto Q = form_over(cost.parts.front().matrix, linear.constant);
+  const auto Q = form_over(cost.parts.front().matrix, linear);
   if (!Q || !is_semidefinite(*Q)) return std::nullopt;
   return Q;
 }
@@ -223,6 +265,13 @@ void set_lengths(LinearModel& linear) {
 
 }  // namespace
 
+Wide LinearModel::D(const Decimal100& length, bool first) const {
+  const auto r = static_cast<Index>(jump_rows.size());
+  const Wide map = (*jump)(length, first);
+  const Wide rows = map(jump_rows, Eigen::all).leftCols(map.rows());
+  return homogeneous(rows, Wide::Zero(r, 1), constant, 1);
+}
+
 std::optional<LinearModel> make_linear_model(const bounded::SampledSystem& sampled,
                                              const hybrid::Scenario& scenario,
                                              const Coordinates& coordinates,
@@ -232,10 +281,8 @@ std::optional<LinearModel> make_linear_model(const bounded::SampledSystem& sampl
   linear.sampled = &sampled;
   linear.scenario = &scenario;
   linear.coordinates = &coordinates;
-  const auto jump = bounded::affine_jump(coordinates);
-  if (!jump || !find_start(linear)) return std::nullopt;
-  set_maps(*jump, linear);
   set_lengths(linear);
+  if (!find_start(linear) || !set_maps(linear)) return std::nullopt;
   if (flow_norm(linear.A, linear.longest()) > kLongestFlow) return std::nullopt;
   for (const claims::JudgedClaim& claim : claims)
     if (!add_claim(claim, linear)) return std::nullopt;

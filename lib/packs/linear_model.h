@@ -3,6 +3,7 @@
 //   flow    x' = A x                    jump    x+ = B D x,  D (r x n), B (n x r)
 //   start   x = S xi,  xi what is drawn
 //
+// D may depend on clocks, and so on the length of the flow before (linear_jump.h).//
 // A constant is one more coordinate that stays 1, the last of x and of xi; then the last row of D is
 // (0, ..., 0, 1). Behind a jump x = B z with r numbers z. Claims are quadratic forms with factors of
 // the timer:
@@ -20,6 +21,7 @@
 #include "bounded/sampled_system.h"
 #include "claims/claim_check.h"
 #include "packs/linear_flow.h"
+#include "packs/linear_jump.h"
 
 namespace gainsmith::packs {
 
@@ -53,12 +55,16 @@ struct LinearModel {
   const hybrid::Scenario* scenario = nullptr;
   const bounded::Coordinates* coordinates = nullptr;
   bool constant = false;  ///< whether the last coordinate is 1
-  Wide A, B, D, S;
+  Wide A, B, S;
+  std::shared_ptr<const LinearJump> jump;
+  std::vector<Eigen::Index> jump_rows;  ///< of x, those of D
   std::vector<DrawnElement> drawn;
   std::vector<LinearClaim> claims;
   double low = 0, high = 0;              ///< lengths between jumps
   double first_low = 0, first_high = 0;  ///< up to the first jump
 
+  /// D at the end of a flow; `first`: the one from the start.
+  Wide D(const Decimal100& length, bool first) const;
   double longest() const { return first_high > high ? first_high : high; }
 };
 

@@ -18,11 +18,7 @@ using lanes::kLanes;
 using lanes::LaneMachine;
 using model::ClaimKind;
 
-namespace {
-
-constexpr std::size_t kFlowsOfBox = bounded::kStepsOfBox;
-
-}  // namespace
+namespace {}  // namespace
 
 /// What is drawn, over lanes.
 class LaneStarts {
@@ -103,7 +99,7 @@ class LinearLanes {
     check_stop();
     begin(seed, runs, count);
     for (std::int64_t flows = 1; running_ != 0; ++flows) {
-      if (flows % kFlowsOfBox == 1) {
+      if ((flows - 1) % system_.flows_of_box == 0) {
         check_stop();
         gather();
       }
@@ -173,7 +169,7 @@ class LinearLanes {
       last_.input(3)[l] = step_.input(1)[l];
       for (std::size_t k = 0; k < system_.carried; ++k)
         last_.input(kLastCarried + k)[l] = step_.input(kStepCarried + k)[l];
-      flows_[l] = static_cast<double>(gathered_) * kFlowsOfBox;
+      flows_[l] = flows;
     }
   }
 
@@ -311,8 +307,8 @@ bool LinearLanes::judge_cost(std::size_t c, std::size_t l, PackVerdict::Claim& c
   const double unit = unit_of(l);
   Known cost{costs_[c].sum[l] + unit * carried(c, 0, l),
              costs_[c].error[l] + unit * carried(c, 1, l)};
-  // Sums of what is not negative, one a flow and one a box of flows.
-  cost.error += (2 * flows_[l] + 2 * kFlowsOfBox) * kUnitRoundoff * cost.value;
+  // Sums of what is not negative, at most two a flow.
+  cost.error += (4 * flows_[l] + 8) * kUnitRoundoff * cost.value;
   const double scale = std::abs(bound.value);
   claim.score = (cost.value - bound.value) / scale;
   return compare(cost, bound, claim) && (cost.error + bound.error) / scale <= kScore;

@@ -1,5 +1,6 @@
 #include "packs/linear_system.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -71,19 +72,19 @@ class Functions {
 
   /// Of a flow from x = X z and the jump at its end: M; of each claim F; of what is compared at jumps
   /// F_end; of costs C. In this order.
-  std::vector<Decimal100> of_flow(const Wide& X, const Decimal100& s) {
+  std::vector<Decimal100> of_flow(const Wide& X, const Decimal100& s, bool first) {
     const WideFlow::Values flow = flow_(s);
     const Wide end = times<Decimal100>(flow.E, X);
+    const Wide D = model_.D(s, first);
     std::vector<Decimal100> values;
-    append_rows(times<Decimal100>(model_.D, end), rows(model_.D), values);
+    append_rows(times<Decimal100>(D, end), rows(D), values);
     const std::vector<Decimal100> g = factors_(s);
     std::size_t k = 0;
     for (std::size_t c = 0; c < model_.claims.size(); ++c) {
       const LinearClaim& claim = model_.claims[c];
-      const std::size_t first = k;
+      append_form(moved(X, sum(claim, g, k)), values);
+      if (is_compared(claim)) append_form(moved(end, sum(claim, at_0_, k)), values);
       k += claim.value.size();
-      append_form(moved(X, sum(claim, g, first)), values);
-      if (is_compared(claim)) append_form(moved(end, sum(claim, at_0_, first)), values);
       if (claim.kind == ClaimKind::cost) append_form(cost(c, X, end, flow, true), values);
     }
     return values;
@@ -154,16 +155,42 @@ bool all_fall(LinearModel& model, Functions& functions) {
   const auto along = factors(0, model.longest());
   const auto after = factors(model.low, model.high);
   if (!along || !after) return false;
-  const Wide J = times<Decimal100>(model.B, model.D);
+  const Wide J = times<Decimal100>(model.B, model.D(Decimal100(model.high), false));
   std::size_t k = 0;
   for (LinearClaim& claim : model.claims) {
     std::vector<FallingTerm> terms;
     for (const LinearForm& form : claim.value) terms.push_back({form.Q, k++});
     if (claim.kind != ClaimKind::nonincreasing) continue;
     if (!falls_along_flows(terms, model.A, *along)) return false;
-    claim.falls = falls_at_jumps(terms, J, *after, functions.at_0());
+    claim.falls = !model.jump->varies() && falls_at_jumps(terms, J, *after, functions.at_0());
   }
   return true;
+}
+
+/// How much |M|, its largest elements, makes of an error in one flow: its Perron root.
+double growth_of(const LengthTable& step, std::size_t rank, std::size_t columns) {
+  std::vector<double> error(rank, 1), next(rank);
+  double growth = 0;
+  constexpr int iterations = 60;
+  for (int k = 0; k < iterations; ++k) {
+    for (std::size_t i = 0; i < rank; ++i) {
+      next[i] = 0;
+      for (std::size_t j = 0; j < rank; ++j)
+        next[i] += step.functions[i * columns + j].size * error[j];
+    }
+    growth = rank == 0 ? 0 : *std::max_element(next.begin(), next.end());
+    if (!(growth > 0)) return 0;
+    for (std::size_t i = 0; i < rank; ++i) error[i] = next[i] / growth;
+  }
+  return growth;
+}
+
+/// So many that the box grows by kMostGrowth at most, and kMostFlowsOfBox at most.
+std::int64_t flows_of_box(double growth) {
+  if (growth <= 1) return kMostFlowsOfBox;
+  const double flows = std::log(kMostGrowth) / std::log(growth);
+  return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::min(flows, 1e3)), 1,
+                                  kMostFlowsOfBox);
 }
 
 std::optional<LengthTable> table(double from, double to, const WideFunctions& functions) {
@@ -180,17 +207,19 @@ std::unique_ptr<const LinearSystem> make_linear_system(LinearModel given) {
   LinearModel& model = system->model;
   Functions functions(model);
   if (!all_fall(model, functions)) return nullptr;
-  system->rank = static_cast<std::size_t>(functions.rows(model.D));
+  system->rank = model.jump_rows.size();
   system->carried = system->rank * (system->rank + 2);
   for (const LinearClaim& claim : model.claims) {
     const std::size_t count = is_compared(claim) ? 4 : claim.kind == ClaimKind::cost ? 2 : 0;
     system->claims.push_back({system->carried, count});
     system->carried += count;
   }
-  const auto first = table(model.first_low, model.first_high,
-                           [&](const Decimal100& s) { return functions.of_flow(model.S, s); });
-  const auto step = table(model.low, model.high,
-                          [&](const Decimal100& s) { return functions.of_flow(model.B, s); });
+  const auto first = table(model.first_low, model.first_high, [&](const Decimal100& s) {
+    return functions.of_flow(model.S, s, true);
+  });
+  const auto step = table(model.low, model.high, [&](const Decimal100& s) {
+    return functions.of_flow(model.B, s, false);
+  });
   const auto rest =
       table(0, model.high, [&](const Decimal100& s) { return functions.of_rest(model.B, s); });
   const auto length = table(model.low, model.high,
@@ -198,6 +227,8 @@ std::unique_ptr<const LinearSystem> make_linear_system(LinearModel given) {
   const auto left =
       table(0, model.high, [&](const Decimal100& tau) { return functions.factors()(tau); });
   if (!first || !step || !rest || !length || !left) return nullptr;
+  system->flows_of_box =
+      flows_of_box(growth_of(*step, system->rank, static_cast<std::size_t>(model.B.cols())));
   add_code({*first, *step, *rest, *length, *left}, *system);
   return system;
 }

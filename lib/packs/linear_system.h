@@ -12,7 +12,7 @@
 //   r_i = root |row i of G| + b_i,   G+ = M G,   b+ = |M| b + K (|z| + r) + the rounding of G
 //
 // with root^2 the number of errors that G holds (bounded/error_ellipsoid.h); `gather` makes one more
-// of b, every kFlowsOfBox flows, and scales all by a power of 2. A form has the error that its
+// of b, every few flows, and scales all by a power of 2. A form has the error that its
 // table, its rounding and r make of it.
 //
 // What a lane carries from flow to flow: z, G by columns, b, and of each claim
@@ -42,6 +42,7 @@ struct LinearSystem {
   std::size_t rank = 0;     ///< numbers z
   std::size_t carried = 0;  ///< numbers
   std::vector<CarriedClaim> claims;
+  std::int64_t flows_of_box = 1;  ///< after which b is gathered: fewer where |M| grows faster
 
   /// Inputs and results of the code. carried: as above. values: of each claim its value and error.
   ///

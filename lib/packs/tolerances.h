@@ -46,6 +46,11 @@ constexpr double kLongestFlow = 100;  ///< the norm of the matrix times the leng
         ///< not run as linear packs | LinearPacks.RunWhatTheyCan
 constexpr double kFlowMargin = 1e-9;  ///< relative | that a value falls along flows is shown in
         ///< double with so much to spare | LinearProof.NeedsMoreThanRounding
+constexpr double kMostGrowth = 100;  ///< factor | new errors of linear runs are bounded element by
+        ///< element until that grows their bounds so much |
+        ///< LinearPacks.FollowWhatFallsWhereFlowsMayGrow
+constexpr std::int64_t kMostFlowsOfBox = 8;  ///< flows | and no longer than so many |
+        ///< Systems/LinearPacks.NoErrorIsBeyondItsBound
 constexpr int kMostShortFlows = 3;  ///< flows in a row | more of them within an instant are left to
         ///< the careful run | UnusualRuns.AreLeftOpen
 // clang-format on

@@ -97,6 +97,25 @@ method:
     error: {shrinks: norm(x), to: 0.2}
 campaign: {runs: 160, horizon: 6, initial: {x: {box: [-1, 1]}}, sampling: [sinusoid, golden, {list: [0.3, 0.9, 0.5]}, {constant: 0.45}, extremes]}
 )yaml"},
+                       {"a gain that depends on a clock", R"yaml(problem: p
+method:
+  method: m
+  let: {A: "[0.2, -1.01; 1, 0]", C: "[0.5, -1]"}
+  plant:
+    state: {z: {shape: 2}}
+    output: {y: C*z}
+    flow: {z: A*z}
+  observer:
+    state: {zh: {shape: 2, start: 0}, s: {shape: 1, start: 0.3}}
+    flow: {zh: A*zh, s: 1}
+    jump: {zh: "zh + ([-0.1; -0.6] + [0.15; 0.05]*s)*(y - C*zh)", s: 0}
+  timer: {tau: {reset: [0.5, 2.2]}}
+  claims:
+    falls: {nonincreasing: "(expm(-A*s)*(z - zh))'*[1, 0.1; 0.1, 1]*(expm(-A*s)*(z - zh))"}
+    cost: {cost: {flow: "(z - zh)'*(z - zh)"}, below: 20*(z - zh)'*(z - zh)}
+    error: {shrinks: norm(z - zh), to: 0.2}
+campaign: {runs: 160, horizon: 12, initial: {z: {box: [-2, 3]}}}
+)yaml"},
                        {"a jump that forgets everything", R"yaml(problem: p
 method:
   method: m
@@ -187,15 +206,17 @@ class Beside {
       first_.input(1 + static_cast<std::size_t>(k))[0] = value;
     }
     first_.run();
-    Wide z = model.D * flow_(Decimal100(first_.input(0)[0])).E * model.S * xi;
+    Wide z = model.D(Decimal100(first_.input(0)[0]), true) *
+             flow_(Decimal100(first_.input(0)[0])).E * model.S * xi;
     for (std::size_t k = 0; k < system_.carried; ++k)
       step_.input(2 + k)[0] = first_.result(0, k)[0];
     double most = part(z, 0);
     for (unsigned k = 1; k <= flows; ++k) {
-      if (k % 8 == 1) gather();
+      if ((k - 1) % static_cast<unsigned>(system_.flows_of_box) == 0) gather();
       step_.input(0)[0] = length(k, model.low, model.high);
       step_.run();
-      z = Wide(model.D * flow_(Decimal100(step_.input(0)[0])).E * model.B * z);
+      z = Wide(model.D(Decimal100(step_.input(0)[0]), false) *
+               flow_(Decimal100(step_.input(0)[0])).E * model.B * z);
       most = std::max(most, part(z, root_));
     }
     return most;
@@ -303,6 +324,32 @@ TEST(LinearPacks, FollowADecayOverHundredsOfDecades) {
   const auto verdicts = packs::LinearRunner(*made.packs.linear).run(1, 0, 64);
   EXPECT_TRUE(std::none_of(verdicts.begin(), verdicts.end(),
                            [](const auto& one) { return one.open || one.violated(); }));
+}
+
+/// Most of what a flow may make larger is in other directions.
+TEST(LinearPacks, FollowWhatFallsWhereFlowsMayGrow) {
+  const Made made = make(R"yaml(problem: p
+method:
+  method: m
+  let: {A: "[0.2, -1.01; 1, 0]", C: "[0.5, -1]"}
+  plant:
+    state: {z: {shape: 2}}
+    output: {y: C*z}
+    flow: {z: A*z}
+  observer:
+    state: {zh: {shape: 2, start: 0}, s: {shape: 1, start: 0}}
+    flow: {zh: A*zh, s: 1}
+    jump: {zh: "zh + ([-2.4619; -2.2310] + [1.5430; 0.7715]*s)*(y - C*zh)", s: 0}
+  timer: {tau: {reset: [0.5, 2.9]}}
+  claims: {error: {shrinks: norm(z - zh), to: 0.2}}
+campaign: {runs: 160, horizon: 200, initial: {z: {box: [-2, 3]}}}
+)yaml");
+  ASSERT_NE(made.packs.linear, nullptr);
+  EXPECT_LT(made.packs.linear->flows_of_box, 8);
+  EXPECT_LT(Beside(*made.packs.linear).largest_part(100), 1);
+  const auto verdicts = packs::LinearRunner(*made.packs.linear).run(1, 0, 64);
+  EXPECT_TRUE(
+      std::none_of(verdicts.begin(), verdicts.end(), [](const auto& one) { return one.open; }));
 }
 
 TEST(LinearPacks, RunWhatTheyCan) {
