@@ -109,9 +109,6 @@ set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
     "It designs observers and controllers by matrix inequalities that are
 written as text, proves the inequalities for the numbers that it writes, and
 checks the closed loop in simulated runs.")
-if(GAINSMITH_NATIVE)
-  string(APPEND CPACK_COMPONENT_PROGRAM_DESCRIPTION "\nThis build is tuned for the processor of the machine that made it.")
-endif()
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
     "Archive, header and CMake package of gainsmith: semidefinite programs,
 gains from the text of a problem, gain files.")

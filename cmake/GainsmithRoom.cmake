@@ -30,18 +30,16 @@ function(gainsmith_room name)
   gainsmith_compiled_together(gainsmith_${name})
 endfunction()
 
-# gainsmith_test(NAME SOURCES a_test.cpp ... LINK target ... [TOGETHER])
-#   The test program NAME_test, part of the target `tests`; every TEST in it is a test of its own for ctest. TOGETHER:
-#   sources are compiled in groups; names in them must not collide.
+# gainsmith_test(NAME SOURCES a_test.cpp ... LINK target ...)
+#   The test program NAME_test, part of the target `tests`; every TEST in it is a test of its own for ctest. Sources are
+#   compiled in groups, as those of rooms.
 function(gainsmith_test name)
-  cmake_parse_arguments(T "TOGETHER" "" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(T "" "" "SOURCES;LINK" ${ARGN})
   add_executable(${name}_test ${T_SOURCES})
   target_include_directories(${name}_test PRIVATE "${PROJECT_SOURCE_DIR}/tests")
   target_link_libraries(${name}_test PRIVATE ${T_LINK} GTest::gtest GTest::gmock GTest::gtest_main)
   gainsmith_precompiled(${name}_test tests)
-  if(T_TOGETHER AND GAINSMITH_GROUPS)
-    set_target_properties(${name}_test PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
-  endif()
+  gainsmith_compiled_together(${name}_test)
   add_dependencies(tests ${name}_test)
   gtest_discover_tests(${name}_test TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
                        PROPERTIES TIMEOUT 600)

@@ -18,6 +18,8 @@ add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wconversion)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # GCC 12 reports these inside inlined Eigen and libstdc++ code; clang-tidy and asan watch our own.
   add_compile_options(-Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow -Wno-restrict)
+  # It collects garbage less often: a tenth of the time, for 1.4 GB instead of 1.1 in the largest sources.
+  add_compile_options("SHELL:--param ggc-min-expand=200" "SHELL:--param ggc-min-heapsize=700000")
   if(NOT CMAKE_BUILD_TYPE STREQUAL "Dev" AND CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
     # GCC 12 with -O3 -march=x86-64-v2 moves integers through registers of MMX without the EMMS that must follow. These are
     # the registers of 80-bit numbers, which are nan from then on: Boost.Math computes quantiles in them.
@@ -25,8 +27,8 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   endif()
 endif()
 
-if(GAINSMITH_NATIVE)
-  add_compile_options(-march=native)
+if(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
+  set(GAINSMITH_VARIANTS OFF)
 endif()
 if(GAINSMITH_SANITIZE)
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)

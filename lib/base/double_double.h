@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <limits>
 
+#include "base/isa.h"
+
 namespace gainsmith {
 
 /// hi + lo with |lo| <= ulp(hi)/2. Arithmetic after Dekker (1971), Knuth and Hida, Li, Bailey
@@ -37,11 +39,11 @@ class DoubleDouble {
   friend DoubleDouble operator-(const DoubleDouble& a, const DoubleDouble& b) { return a + (-b); }
   friend DoubleDouble operator*(const DoubleDouble& a, const DoubleDouble& b) {
     const DoubleDouble p = two_product(a.hi_, b.hi_);
-    return fast_two_sum(p.hi_, p.lo_ + std::fma(a.hi_, b.lo_, a.lo_ * b.hi_));
+    return fast_two_sum(p.hi_, p.lo_ + fused_multiply_add(a.hi_, b.lo_, a.lo_ * b.hi_));
   }
   friend DoubleDouble operator*(const DoubleDouble& a, double b) {
     const DoubleDouble p = two_product(a.hi_, b);
-    return fast_two_sum(p.hi_, std::fma(a.lo_, b, p.lo_));
+    return fast_two_sum(p.hi_, fused_multiply_add(a.lo_, b, p.lo_));
   }
   friend DoubleDouble operator*(double a, const DoubleDouble& b) { return b * a; }
   friend DoubleDouble operator/(const DoubleDouble& a, const DoubleDouble& b) {
@@ -104,7 +106,7 @@ class DoubleDouble {
   }
   static DoubleDouble two_product(double a, double b) {
     const double p = a * b;
-    return {p, std::fma(a, b, -p)};
+    return {p, fused_multiply_add(a, b, -p)};
   }
 
   double hi_ = 0;

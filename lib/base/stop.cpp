@@ -5,6 +5,8 @@
 
 namespace gainsmith {
 
+std::atomic<bool> stop_requested = false;
+
 namespace {
 
 thread_local Allowance* allowance = nullptr;

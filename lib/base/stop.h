@@ -25,7 +25,7 @@ struct OutOfAllowance : std::exception {
 };
 
 /// Whether a stop was requested.
-inline std::atomic<bool> stop_requested = false;
+extern std::atomic<bool> stop_requested;
 static_assert(std::atomic<bool>::is_always_lock_free);
 
 /// From now on everything stops. Safe in a signal handler.

@@ -126,7 +126,7 @@ inline double error_of_sum(double x, double y, double sum) {
   return std::abs((x - (sum - part)) + (y - part));
 }
 inline double error_of_product(double x, double y, double product) {
-  return std::abs(std::fma(x, y, -product));
+  return std::abs(fused_multiply_add(x, y, -product));
 }
 
 /// The error of a sum or product in S: that of double where S holds no more, so that whole numbers

@@ -112,8 +112,8 @@ void multiply_pairs(const View<const DoubleDouble>& a, const View<const DoubleDo
                     const View<DoubleDouble>& c, Update update) {
   static thread_local Halves halves;
   halves.take(a);
-  // As many columns as leave registers for the factors: of 32 with AVX-512, else of 16.
-  constexpr int kColumns = kWidth == 8 ? 6 : 4;
+  // As many columns as leave registers for the factors, of 16.
+  constexpr int kColumns = 4;
   Index j = 0;
   for (; j + kColumns <= c.columns; j += kColumns)
     multiply_columns<kColumns>(halves, a.columns, b, c, j, update);

@@ -9,6 +9,7 @@
 #include "sdp/matrix_preconditioner.h"
 #include "sdp/matrix_scaling.h"
 #include "sdp/matrix_schur.h"
+#include "sdp/variant.h"
 
 namespace gainsmith::sdp {
 namespace {
@@ -326,7 +327,7 @@ class MatrixIpm {
 
 }  // namespace
 
-Solution solve(const MatrixProgram& program, const MatrixOptions& options) {
+Solution solve_here(const MatrixProgram& program, const MatrixOptions& options) {
   return MatrixIpm(program, options).solve();
 }
 

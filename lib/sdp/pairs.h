@@ -18,38 +18,59 @@ namespace gainsmith::sdp {
 
 constexpr int kLanes = 8;
 
-/// A vector register of the machine, and a b + c in it with one rounding. The instruction is named:
-/// compilers prefer to fuse element by element where they think that wide registers cost speed.
-#if defined(__AVX512F__)
-constexpr int kWidth = 8;
-using Register = double __attribute__((vector_size(64)));
-inline Register multiply_add(const Register& a, const Register& b, const Register& c) {
-  return _mm512_fmadd_pd(a, b, c);
-}
-#elif defined(__FMA__)
+/// A vector register of the machine, and a b + c in it. The instruction is named: compilers prefer
+/// to fuse element by element where they think that wide registers cost speed. Registers of AVX-512
+/// gain nothing here (docs/decisions/0073-one-program-for-every-machine.md).
+#if defined(__FMA__)
 constexpr int kWidth = 4;
 using Register = double __attribute__((vector_size(32)));
 inline Register multiply_add(const Register& a, const Register& b, const Register& c) {
   return _mm256_fmadd_pd(a, b, c);
 }
+inline double multiply_add(double a, double b, double c) { return std::fma(a, b, c); }
 #else
 constexpr int kWidth = 2;
 using Register = double __attribute__((vector_size(16)));
-inline Register multiply_add(const Register& a, const Register& b, const Register& c) {
-  return Register{std::fma(a[0], b[0], c[0]), std::fma(a[1], b[1], c[1])};
+template <typename V>
+V multiply_add(const V& a, const V& b, const V& c) {
+  return a * b + c;
 }
 #endif
-inline double multiply_add(double a, double b, double c) { return std::fma(a, b, c); }
+
+/// a b - p for p = a b as rounded: no rounding of its own. Without a fused operation from the halves
+/// of a and b (Dekker 1971), for factors below 1e300.
+template <typename V>
+V product_error(const V& a, const V& b, const V& p) {
+#if defined(__FMA__)
+  return multiply_add(a, b, -p);
+#else
+  constexpr double kSplitter = 0x1p27 + 1;
+  const V a_scaled = a * kSplitter, b_scaled = b * kSplitter;
+  const V a_upper = a_scaled - (a_scaled - a), b_upper = b_scaled - (b_scaled - b);
+  const V a_lower = a - a_upper, b_lower = b - b_upper;
+  return ((a_upper * b_upper - p) + a_upper * b_lower + a_lower * b_upper) + a_lower * b_lower;
+#endif
+}
+
+/// sum += a b; returns the error of that. |sum| is above |a b| before and after it.
+inline Register add_to_larger(Register& sum, const Register& a, const Register& b) {
+  const Register before = sum;
+#if defined(__FMA__)
+  sum = multiply_add(a, b, before);
+  return multiply_add(a, b, before - sum);
+#else
+  const Register p = a * b;
+  sum = before + p;
+  return ((before - sum) + p) + product_error(a, b, p);
+#endif
+}
 
 /// The halves of kWidth numbers apart, and together again.
 inline void split_pairs(const DoubleDouble* from, Register& high, Register& low) {
   Register first, second;
   std::memcpy(&first, from, sizeof first);
   std::memcpy(&second, from + kWidth / 2, sizeof second);
-#if defined(__AVX512F__)
-  high = __builtin_shufflevector(first, second, 0, 2, 4, 6, 8, 10, 12, 14);
-  low = __builtin_shufflevector(first, second, 1, 3, 5, 7, 9, 11, 13, 15);
-#elif defined(__FMA__)
+#if defined(__FMA__)
   high = __builtin_shufflevector(first, second, 0, 2, 4, 6);
   low = __builtin_shufflevector(first, second, 1, 3, 5, 7);
 #else
@@ -58,10 +79,7 @@ inline void split_pairs(const DoubleDouble* from, Register& high, Register& low)
 #endif
 }
 inline void join_pairs(const Register& high, const Register& low, DoubleDouble* to) {
-#if defined(__AVX512F__)
-  const Register first = __builtin_shufflevector(high, low, 0, 8, 1, 9, 2, 10, 3, 11);
-  const Register second = __builtin_shufflevector(high, low, 4, 12, 5, 13, 6, 14, 7, 15);
-#elif defined(__FMA__)
+#if defined(__FMA__)
   const Register first = __builtin_shufflevector(high, low, 0, 4, 1, 5);
   const Register second = __builtin_shufflevector(high, low, 2, 6, 3, 7);
 #else
@@ -79,7 +97,7 @@ template <typename V>
 void add_product(V& high, V& low, const V& a_high, const V& a_low, const V& b_high,
                  const V& b_low) {
   const V p = a_high * b_high;
-  V e = multiply_add(a_high, b_high, -p);
+  V e = product_error(a_high, b_high, p);
   e = multiply_add(a_high, b_low, e);
   e = multiply_add(a_low, b_high, e);
   const V s = high + p;
@@ -145,10 +163,9 @@ inline double power_above(double value) {
 }
 
 /// kWidth x count sums for matrix products, at half the operations of PairSums: `high` starts from
-/// a bias of 3 u, u a bound of the sum of |a b|, and so stays in the binade [2 u, 4 u). There s =
-/// high + a b, rounded once, has the errors high - s and a b + (high - s), the former exact. What
-/// is lost is relative to u, the product of the bounds of row and column, not to each sum: 2^-104
-/// times a few.
+/// a bias of 3 u, u a bound of the sum of |a b|, and so stays in the binade [2 u, 4 u), where the
+/// error of adding a b is at hand. What is lost is relative to u, the product of the bounds of row
+/// and column, not to each sum: 2^-104 times a few.
 template <std::size_t count>
 class BiasedSums {
  public:
@@ -167,10 +184,7 @@ class BiasedSums {
 #pragma GCC unroll 8
     for (std::size_t q = 0; q < count; ++q, b += stride) {
       const Register b_high = Register{} + b->hi(), b_low = Register{} + b->lo();
-      const Register sum = multiply_add(high, b_high, high_[q]);
-      Register error = multiply_add(high, b_high, high_[q] - sum);
-      high_[q] = sum;
-      error = multiply_add(high, b_low, error);
+      const Register error = multiply_add(high, b_low, add_to_larger(high_[q], high, b_high));
       low_[q] += multiply_add(low, b_high, error);
     }
   }

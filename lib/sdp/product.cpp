@@ -10,9 +10,7 @@ using Index = Eigen::Index;
 
 /// A tile of C is kRegisters x kColumns vector registers: with the column of A that it is
 /// multiplied by, what the machine has.
-#if defined(__AVX512F__)
-constexpr Index kVector = 8, kRegisters = 3, kColumns = 8;
-#elif defined(__AVX__)
+#if defined(__AVX__)
 constexpr Index kVector = 4, kRegisters = 3, kColumns = 4;
 #else
 constexpr Index kVector = 2, kRegisters = 2, kColumns = 4;

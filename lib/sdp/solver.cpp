@@ -18,6 +18,7 @@
 #include "sdp/nearby.h"
 #include "sdp/presolve.h"
 #include "sdp/report.h"
+#include "sdp/variant.h"
 
 namespace gainsmith::sdp {
 namespace {
@@ -200,8 +201,7 @@ class Ladder {
   /// Decided, or ended from outside.
   bool over() const { return best_.status != Status::undecided || stopped(best_.cause); }
   static bool stopped(Cause cause) {
-    return cause == Cause::iteration_limit || cause == Cause::interrupted ||
-           cause == Cause::enough;
+    return cause == Cause::iteration_limit || cause == Cause::interrupted || cause == Cause::enough;
   }
   std::string reason(const std::string& arithmetic) const {
     return arithmetic + " " + to_string(best_.cause);
@@ -325,7 +325,7 @@ std::string explain(const Solution& solution) {
 
 }  // namespace
 
-Solution solve(const Problem& problem, const Options& options) {
+Solution solve_here(const Problem& problem, const Options& options) {
   const Clock::time_point start = Clock::now();
   const int digits = digits_of(options.precision);
   validate(problem);
@@ -337,9 +337,10 @@ Solution solve(const Problem& problem, const Options& options) {
     const Solution& near = *options.from;
     reduce(problem, presolved, {near.x, near.X.values, near.Y.values}, from->x, from->X, from->Y);
   }
-  Solution solution = presolved.free_descent >= 0
-                          ? free_descent(problem, presolved, options)
-                          : Ladder(problem, presolved, options).climb(digits, from ? &*from : nullptr);
+  Solution solution =
+      presolved.free_descent >= 0
+          ? free_descent(problem, presolved, options)
+          : Ladder(problem, presolved, options).climb(digits, from ? &*from : nullptr);
   solution.message = explain(solution);
   solution.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   return solution;

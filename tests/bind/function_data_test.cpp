@@ -13,7 +13,7 @@ using tests::input_error;
 using tests::YamlProblem;
 
 /// The method stands inline: with the name of its problem that is line 2 to 10.
-const std::string kMethod = R"(problem: p
+const std::string kWithFunctions = R"(problem: p
 method:
   method: m
   data:
@@ -27,7 +27,7 @@ data:
 )";
 
 std::string message(const std::string& data) {
-  return input_error([&] { YamlProblem{kMethod + data}; }).what();
+  return input_error([&] { YamlProblem{kWithFunctions + data}; }).what();
 }
 
 void expect_message(const std::string& data, const std::string& part) {
@@ -35,7 +35,8 @@ void expect_message(const std::string& data, const std::string& part) {
 }
 
 TEST(FunctionData, AreCalledAndTellDimensions) {
-  const YamlProblem problem(kMethod + "  low: [-1, -2]\n  f(z, v): \"[z(2)*v*a; -z(1)^3]\"\n" +
+  const YamlProblem problem(kWithFunctions +
+                            "  low: [-1, -2]\n  f(z, v): \"[z(2)*v*a; -z(1)^3]\"\n" +
                             "  h(x): x(1)^2\n  R: 4\nlet: {a: 5}\n");
   const model::Design& design = *problem.instance.design;
   EXPECT_EQ(design.dimensions.at("p"), 1);
@@ -55,7 +56,7 @@ TEST(FunctionData, AreCalledAndTellDimensions) {
 }
 
 TEST(FunctionData, HaveDefaults) {
-  const YamlProblem problem(kMethod + "  low: [-1, -2, 0]\n  f(x, u): u*x\n  R: I\n");
+  const YamlProblem problem(kWithFunctions + "  low: [-1, -2, 0]\n  f(x, u): u*x\n  R: I\n");
   EXPECT_EQ(problem.instance.design->dimensions.at("p"), 3);
 }
 

@@ -22,7 +22,7 @@ using Kind = model::GainFunction::Kind;
 using tests::input_error;
 
 /// The small method with an unknown function and a gain that is one.
-const std::string kMethod =
+const std::string kWithGainFunction =
     changed(changed(kSmallMethod, "X: n x m", "X: {shape: n x m, of: tau, degree: 1}"),
             "gains: {K: b'*P, A: A}", "gains: {K: b'*P, A: A, G(t): inv(P)*X(t)}");
 
@@ -39,7 +39,7 @@ model::Gains file() {
 }
 
 numbers::Matrix value(const model::Gains& gains, const std::string& text) {
-  const Small small(kSmallProblem, kMethod);
+  const Small small(kSmallProblem, kWithGainFunction);
   const expr::Program program =
       expr::compile(expr::parse({text, "test"}), small.design().names->running);
   return state(small.instance, gains).value(program).value();
@@ -56,7 +56,7 @@ TEST(Stated, AGainIsTheMatrixOfTheFile) {
 }
 
 TEST(Stated, ABasisOfTheFileTakesTheProblemsPlaceAndDataFollowIt) {
-  const std::string method = changed(kMethod, "  T1: scalar",
+  const std::string method = changed(kWithGainFunction, "  T1: scalar",
                                      "  N: {shape: n x k, default: \"null([3, 4])\"}\n  W: {shape: "
                                      "n x k, default: \"2*N\"}\n  T1: scalar");
   const Small small(kSmallProblem, method);
@@ -108,7 +108,7 @@ TEST(Stated, MoreCoefficientsThanTheDegreeAskFor) {
   model::Gains gains = file();
   gains.unknowns.emplace_back("X_2", kFirst);
   gains.functions = {{"X(tau)", "X_0*tau + X_1*(1 - tau) + X_2", {}}};
-  const Small small(kSmallProblem, kMethod);
+  const Small small(kSmallProblem, kWithGainFunction);
   EXPECT_EQ(state(small.instance, gains).unknowns,
             (std::vector<model::UnknownMatrix>{{"P", {2, 2}, model::Structure::symmetric},
                                                {"X_0", {2, 1}},
@@ -126,7 +126,7 @@ TEST(Stated, AFormulaUsesTheCoefficientsAndDataOfTheFile) {
   gains.gain_functions = {{"G", "t", Kind::formula, "X_2*t", {}}};
   EXPECT_TRUE(value(gains, "G(3)").isApprox(3 * kFirst, 1e-15));
 
-  const Small small(kSmallProblem, kMethod);
+  const Small small(kSmallProblem, kWithGainFunction);
   gains.gain_functions[0].formula = "orth([T1 - 0.5; 0; 0; 0])*0 + X(t)";
   EXPECT_NE(tests::input_error([&] { state(small.instance, gains); }).message().find("4 x 0"),
             std::string::npos);
@@ -170,7 +170,7 @@ TEST(Stated, WhatDoesNotFitIsRefused) {
 TEST(Stated, WithoutAPointNothingOfItHasAValue) {
   model::Gains gains;
   gains.functions = {{"X(tau)", "X_0 + X_1*tau", {}}};
-  const Small small(kSmallProblem, kMethod);
+  const Small small(kSmallProblem, kWithGainFunction);
   const model::Stated stated = state(small.instance, gains);
   EXPECT_FALSE(stated.values.contains("X_0"));
   EXPECT_TRUE(stated.bodies.contains("G"));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bind/bind.h"
+#include "claims/case.h"
 #include "io/problem_text.h"
 #include "verify/campaign.h"
 #include "verify/careful_runs.h"
@@ -42,12 +43,6 @@ const std::string kMethod = R"(  data: {a: {shape: scalar, default: 1}}
     flow: {x: -a*x, y: "50*[y(2); -y(1)]", z: 1}
     at: {tick: {q: q + 1}, full: {z: 0.87*z}}
 )";
-
-struct Case {
-  std::string claim;
-  CampaignVerdict verdict;
-};
-void PrintTo(const Case& one, std::ostream* out) { *out << one.claim; }
 
 class ClaimsAlongRuns : public testing::TestWithParam<Case> {};
 

@@ -9,6 +9,7 @@
 
 #include "base/number.h"
 #include "bind/bind.h"
+#include "claims/case.h"
 #include "io/problem_text.h"
 #include "verify/campaign.h"
 #include "verify/expected_run.h"
@@ -43,12 +44,6 @@ CampaignVerdict verdict_of(const std::string& claim, bool integrated) {
   return run_campaign(*make_setup(instance_of("{c: {" + claim + "}}", integrated), {}), options)
       .verdict;
 }
-
-struct Case {
-  std::string claim;
-  CampaignVerdict verdict;
-};
-void PrintTo(const Case& one, std::ostream* out) { *out << one.claim; }
 
 class NarrowClaims : public testing::TestWithParam<Case> {};
 
@@ -116,17 +111,17 @@ INSTANTIATE_TEST_SUITE_P(
 // Differences of large numbers that are elements of vectors: their rounding is no branch.
 INSTANTIATE_TEST_SUITE_P(
     RoundedDifferences, NarrowClaims,
-    testing::Values(
-        Case{"below: \"abs([1000*y - 999.99*y - 0.001, 0](1))\", bound: 100",
-             CampaignVerdict::held},
-        Case{"below: \"abs([1, 0]*[1000*y - 999.99*y - 0.001; x])\", bound: 100",
-             CampaignVerdict::held},
-        Case{"below: \"abs(([1000*y; 1] - [999.99*y + 0.001; 2])'*[1; 0])\", bound: 100",
-             CampaignVerdict::held},
-        Case{"below: \"max(([1000*y; 1] - [999.99*y + 0.001; 2])(1), 0)\", bound: 100",
-             CampaignVerdict::held},
-        Case{"below: \"abs([1000*y - 999.99*y - 0.001, 0](1))\", bound: 0.00899",
-             CampaignVerdict::violated}));
+    testing::Values(Case{"below: \"abs([1000*y - 999.99*y - 0.001, 0](1))\", bound: 100",
+                         CampaignVerdict::held},
+                    Case{"below: \"abs([1, 0]*[1000*y - 999.99*y - 0.001; x])\", bound: 100",
+                         CampaignVerdict::held},
+                    Case{
+                        "below: \"abs(([1000*y; 1] - [999.99*y + 0.001; 2])'*[1; 0])\", bound: 100",
+                        CampaignVerdict::held},
+                    Case{"below: \"max(([1000*y; 1] - [999.99*y + 0.001; 2])(1), 0)\", bound: 100",
+                         CampaignVerdict::held},
+                    Case{"below: \"abs([1000*y - 999.99*y - 0.001, 0](1))\", bound: 0.00899",
+                         CampaignVerdict::violated}));
 
 TEST(NarrowClaims, RandomBandsAreFound) {
   std::mt19937 random(11);

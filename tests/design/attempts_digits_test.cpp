@@ -20,7 +20,7 @@ using testing::Scripted;
 using AttemptKinds = std::vector<AttemptKind>;
 
 /// low < x < high.
-std::string window(const std::string& low, const std::string& high) {
+std::string open_window(const std::string& low, const std::string& high) {
   return "  unknowns: {x: scalar}\n  require: {low: x > " + low + ", high: x < " + high + "}\n";
 }
 
@@ -57,7 +57,7 @@ TEST(Attempts, LargeProgramsAreTriedIn100DigitsWhereMultipliersExcludeThem) {
   const Scripted none(refuting(far, nearly), far);
   EXPECT_EQ(none.tried, (AttemptKinds{AttemptKind::inside, AttemptKind::in_31_digits}));
   // Small programs have the largest margin in 100 digits, after 31.
-  const Case small(window("sqrt(1)", "1.00000001*sqrt(1)"));
+  const Case small(open_window("sqrt(1)", "1.00000001*sqrt(1)"));
   const Scripted last(refuting(small, {1, 1}), small);
   EXPECT_EQ(last.tried, (AttemptKinds{AttemptKind::inside, AttemptKind::in_31_digits,
                                       AttemptKind::in_100_digits}));
@@ -69,7 +69,7 @@ TEST(Attempts, LargeProgramsAreTriedIn100DigitsWhereMultipliersExcludeThem) {
 TEST(Attempts, DigitsWaitForPoints) {
   const Case near(large_window("1.00000001*sqrt(1)"));
   const Case far(large_window("2*sqrt(1)"));
-  const Case small(window("sqrt(1)", "1.00000001*sqrt(1)"));
+  const Case small(open_window("sqrt(1)", "1.00000001*sqrt(1)"));
   const auto tried = [](const Case& of, bool thin) {
     Posed posed = of.posed();
     posed.thin = thin;

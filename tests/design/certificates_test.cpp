@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "design/solve.h"
 #include "design/synthesize.h"
 #include "support/linear_algebra.h"
 #include "support/yaml_problem.h"
@@ -17,21 +18,16 @@
 namespace gainsmith::design {
 namespace {
 
-model::Gains solve(const std::string& text) {
-  const tests::YamlProblem yaml(text);
-  return synthesize(yaml.instance, {});
-}
-
 model::Gains lyapunov(const std::string& A) {
-  return solve(
+  return synthesized(
       "problem: lyapunov\nmethod:\n  method: lyapunov\n  data: {A: n x n}\n  unknowns: {P: "
       "symmetric n}\n  require: {positive: P > 0, stable: He(P*A) < 0}\ndata: {A: " +
       A + "}\n");
 }
 
 model::Gains scalars(const std::string& unknowns, const std::string& require) {
-  return solve("problem: p\nmethod:\n  method: m\n  unknowns: {" + unknowns + "}\n  require: {" +
-               require + "}\n");
+  return synthesized("problem: p\nmethod:\n  method: m\n  unknowns: {" + unknowns +
+                     "}\n  require: {" + require + "}\n");
 }
 
 /// Feasible by the last of 16 digits: multipliers miss by the square of it.
@@ -87,7 +83,7 @@ TEST(CertificatesTest, SmallElementsAreNotOverlooked) {
 TEST(CertificatesTest, AnObjectiveIsAsPreciseInEveryUnit) {
   for (const double unit : {1e-12, 1e-6, 1.0, 1e6, 1e12}) {
     const std::string u = model::printed(unit);
-    const model::Gains gains = solve(
+    const model::Gains gains = synthesized(
         "problem: p\nmethod:\n  method: m\n  unknowns: {x: scalar, y: scalar}\n  require: {a: "
         "\"[x, " +
         u + "; " + u + ", y] > 0\", b: y < " + u + "}\n  minimize: x\n");
@@ -112,9 +108,9 @@ TEST(CertificatesTest, NoSolutionOfLikeSizeIsBelowTheBound) {
       {"a: \"(4e-3)*x >= 1000\", b: \"(1e-2)*x >= 50000\", c: \"(2e-8)*x > -1e-2\", d: y > x",
        "\"(1e-6)*x\"", 5}};
   for (const auto& one : cases) {
-    const model::Gains gains =
-        solve("problem: p\nmethod:\n  method: m\n  unknowns: {x: scalar, y: scalar}\n  require: {" +
-              std::string(one.require) + "}\n  minimize: " + one.minimize + "\n");
+    const model::Gains gains = synthesized(
+        "problem: p\nmethod:\n  method: m\n  unknowns: {x: scalar, y: scalar}\n  require: {" +
+        std::string(one.require) + "}\n  minimize: " + one.minimize + "\n");
     ASSERT_EQ(gains.verdict, model::Verdict::yes) << one.require;
     EXPECT_LE(*gains.objective_lower_bound, one.least) << one.require;
     EXPECT_NEAR(*gains.objective / one.least, 1, 1e-6) << one.require;
@@ -124,8 +120,8 @@ TEST(CertificatesTest, NoSolutionOfLikeSizeIsBelowTheBound) {
 /// A state in other units: the gain has them, the margins stay.
 TEST(CertificatesTest, TheDefaultGainBoundIsInNoUnits) {
   const auto reset = [](int exponent) {
-    return solve("problem: p\nmethod: reset-observer\ndata: {A: [[0, 2^" +
-                 std::to_string(exponent) + "], [0, 0]], C: [1, 0], T1: 0.1, T2: 0.2}\n");
+    return synthesized("problem: p\nmethod: reset-observer\ndata: {A: [[0, 2^" +
+                       std::to_string(exponent) + "], [0, 0]], C: [1, 0], T1: 0.1, T2: 0.2}\n");
   };
   const model::Gains reference = reset(0);
   ASSERT_EQ(reference.verdict, model::Verdict::yes);
@@ -147,8 +143,8 @@ TEST(CertificatesTest, AStatedGainBoundHoldsToTheLastDigit) {
       "> 0, "
       "r: \"He(P*[1, 0; 0, -1] - Y*[1, 0]) < 0\"}\n  gains: {L: inv(P)*Y}\nsynthesis: "
       "{gain_bound: ";
-  EXPECT_EQ(solve(text + "1}\n").verdict, model::Verdict::undecided);
-  EXPECT_EQ(solve(text + "1.01}\n").verdict, model::Verdict::yes);
+  EXPECT_EQ(synthesized(text + "1}\n").verdict, model::Verdict::undecided);
+  EXPECT_EQ(synthesized(text + "1.01}\n").verdict, model::Verdict::yes);
 }
 
 /// The certificate of a plant with one unstable mode has the rank 1, and no other exists.
@@ -182,7 +178,7 @@ TEST(CertificatesTest, SingularCertificatesAreFound) {
 /// at more points in 100 digits; at T2 = 2.5 there are gains.
 TEST(CertificatesTest, HighDegreesAreRefutedAtMorePoints) {
   const auto at = [](const std::string& T2) {
-    return solve(
+    return synthesized(
         "problem: p\nmethod: clock-dependent\ndata: {A: [[0.2, -1.01], [1, 0]], C: "
         "[[0.5, -1]], T1: 0.5, T2: " +
         T2 + "}\nparameters: {degree: 9}\nsynthesis: {effort: full}\n");
@@ -210,7 +206,7 @@ TEST(CertificatesTest, AHomogeneousBoundedRealLemmaIsRefutedByItsScale) {
   const Matrix B = Matrix::NullaryExpr(n, 1, [&] { return in_1024ths(1); });
   const Matrix C = Matrix::NullaryExpr(1, n, [&] { return in_1024ths(1); });
   const double gain = (C * A.partialPivLu().solve(B))(0);
-  const model::Gains gains = solve(
+  const model::Gains gains = synthesized(
       "problem: p\nmethod:\n  method: m\n  data: {A: n x n, B: n x m, C: p x n, g2: scalar}\n"
       "  unknowns: {P: symmetric n, q: scalar}\n"
       "  require: {b: \"[He(P*A) + q*C'*C, P*B; *, -g2*q*I] < 0\"}\ndata:\n  A: " +

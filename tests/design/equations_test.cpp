@@ -45,7 +45,7 @@ TEST(Equations, ThoseOfPassivityHoldExactly) {
 }
 
 /// Elements in 64ths, in [-1, 1].
-numbers::Matrix random_matrix(RandomStream& random, int rows, int columns) {
+numbers::Matrix drawn_matrix(RandomStream& random, int rows, int columns) {
   numbers::Matrix M(rows, columns);
   for (double& x : M.reshaped()) x = std::round(128 * random.uniform() - 64) / 64;
   return M;
@@ -60,12 +60,12 @@ numbers::Matrix in_64ths(const numbers::Matrix& M) {
 TEST(Equations, ThoseOfPassivityHoldExactlyForTenStatesAndTwoInputs) {
   RandomStream random(0xE1, 1);
   constexpr int n = 10;
-  const numbers::Matrix R = random_matrix(random, n, n);
+  const numbers::Matrix R = drawn_matrix(random, n, n);
   const numbers::Matrix I = numbers::Matrix::Identity(n, n);
   const numbers::Matrix P = in_64ths(0.25 * R * R.transpose() + I);
-  const numbers::Matrix S = random_matrix(random, n, n);
+  const numbers::Matrix S = drawn_matrix(random, n, n);
   const numbers::Matrix A = in_64ths(numbers::Cholesky(P).solve(S - S.transpose() - I));
-  const numbers::Matrix B = random_matrix(random, n, 2);
+  const numbers::Matrix B = drawn_matrix(random, n, 2);
   const numbers::Matrix C = B.transpose() * P;
   const std::string method =
       "  data: {A: n x n, B: n x m, C: m x n}\n  unknowns: {P: symmetric n}\n"
@@ -88,7 +88,7 @@ TEST(Equations, ThoseOfPassivityHoldExactlyForTenStatesAndTwoInputs) {
 TEST(Equations, ATraceOfALyapunovMatrixOfFourteenStates) {
   constexpr int n = 14;
   RandomStream random(0xE2, 1);
-  const numbers::Matrix S = random_matrix(random, n, n);
+  const numbers::Matrix S = drawn_matrix(random, n, n);
   const numbers::Matrix A = S - S.transpose() - numbers::Matrix::Identity(n, n);
   const std::string method =
       "  data: {A: n x n}\n  unknowns: {P: symmetric n}\n"

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bind/stated.h"
+#include "design/solve.h"
 #include "design/synthesize.h"
 #include "expr/compile.h"
 #include "expr/evaluate.h"
@@ -15,11 +16,6 @@
 
 namespace gainsmith::design {
 namespace {
-
-model::Gains solve(const std::string& text) {
-  const tests::YamlProblem yaml(text);
-  return synthesize(yaml.instance, {});
-}
 
 /// The reset observer of a rotation, post-sample form: with y = z1 the samples that are pi apart
 /// see the same direction only.
@@ -39,14 +35,14 @@ std::string reset_observer(double T2, const std::string& way) {
 /// No gain contracts at pi, which is no decimal; near it some do, by less than any digits show.
 TEST(ForallTest, ExchangeDoesNotAcceptWhatAGridDoesNotSee) {
   for (const char* way : {"exchange", "auto"})
-    EXPECT_EQ(solve(reset_observer(3.0, way)).verdict, model::Verdict::yes);
-  const model::Gains found = solve(reset_observer(4.0, "exchange"));
+    EXPECT_EQ(synthesized(reset_observer(3.0, way)).verdict, model::Verdict::yes);
+  const model::Gains found = synthesized(reset_observer(4.0, "exchange"));
   EXPECT_EQ(found.verdict, model::Verdict::undecided) << found.solver.message;
   EXPECT_FALSE(found.certificate);
 }
 
 TEST(ForallTest, TheWorstPointIsOnTheWholeInterval) {
-  const model::Gains found = solve(reset_observer(3.0, "exchange"));
+  const model::Gains found = synthesized(reset_observer(3.0, "exchange"));
   ASSERT_EQ(found.verdict, model::Verdict::yes);
   const numbers::Matrix& P = *found.find("P");
   const numbers::Matrix& Z = *found.find("Z");
@@ -90,12 +86,13 @@ std::string detectability(const std::string& interval, double rho, double kappa,
 }
 
 TEST(ForallTest, ContractionFactorsOfConstantGains) {
-  EXPECT_EQ(solve(detectability("[0.1, 1.4]", 0.9662, 1e4, "exchange")).verdict,
+  EXPECT_EQ(synthesized(detectability("[0.1, 1.4]", 0.9662, 1e4, "exchange")).verdict,
             model::Verdict::yes);
-  EXPECT_EQ(solve(detectability("[0.1, 1.4]", 0.9659, 1e4, "exchange")).verdict,
+  EXPECT_EQ(synthesized(detectability("[0.1, 1.4]", 0.9659, 1e4, "exchange")).verdict,
             model::Verdict::no);
-  EXPECT_EQ(solve(detectability("[0.1, 1.4]", 0.9750, 100, "hull")).verdict, model::Verdict::yes);
-  const model::Gains box = solve(detectability("[0.1, 1.4]", 0.97, 100, "hull"));
+  EXPECT_EQ(synthesized(detectability("[0.1, 1.4]", 0.9750, 100, "hull")).verdict,
+            model::Verdict::yes);
+  const model::Gains box = synthesized(detectability("[0.1, 1.4]", 0.97, 100, "hull"));
   EXPECT_EQ(box.verdict, model::Verdict::undecided);
   EXPECT_NE(box.solver.message.find("hull"), std::string::npos);
   EXPECT_EQ(box.certificate.value().about, "hull");
@@ -103,7 +100,7 @@ TEST(ForallTest, ContractionFactorsOfConstantGains) {
 
 TEST(ForallTest, SlicesTightenTheHull) {
   const std::string text = detectability("[0.1, 1.4]", 0.97, 1e4, "{way: hull, slices: 16}");
-  EXPECT_EQ(solve(text).verdict, model::Verdict::yes);
+  EXPECT_EQ(synthesized(text).verdict, model::Verdict::yes);
 }
 
 /// Gains at the vertices of the box of (cos 2 tau, sin 2 tau) reach a contraction that constant
@@ -118,8 +115,8 @@ TEST(ForallTest, GainsAtTheVerticesOfTheBox) {
            "parameters: {kappa: 100, rho: " +
            std::to_string(rho) + "}\nsynthesis: {forall: " + way + "}\n";
   };
-  EXPECT_EQ(solve(text(0.8, "hull")).verdict, model::Verdict::undecided);
-  const model::Gains none = solve(text(0.3, "vertex_gains"));
+  EXPECT_EQ(synthesized(text(0.8, "hull")).verdict, model::Verdict::undecided);
+  const model::Gains none = synthesized(text(0.3, "vertex_gains"));
   EXPECT_EQ(none.verdict, model::Verdict::undecided);
   EXPECT_EQ(none.certificate.value().about, "vertices");
   EXPECT_NE(none.solver.message.find("only sufficient"), std::string::npos);
@@ -165,14 +162,16 @@ TEST(ForallTest, PolytopesAndBoxesAreImposedAtTheirVertices) {
            ") < 0\"}\n"
            "data: {A1: [[0, 1], [-2, -1]], A2: [[0, 1], [-5.8, -1]]}\n";
   };
-  EXPECT_EQ(solve(text("\"A in conv{A1, A2}\"", "A")).verdict, model::Verdict::yes);
-  EXPECT_EQ(solve(text("\"A in conv{A1, A2 - [0, 0; 0.1, 0]}\"", "A")).verdict, model::Verdict::no);
-  EXPECT_EQ(solve(text("[\"k in [0, 1.9]\", \"s in [0, 2]\"]", "[0, 1; -2 - k*s, -1]")).verdict,
-            model::Verdict::yes);
-  EXPECT_EQ(solve(text("[\"k in [0, 2]\", \"s in [0, 2]\"]", "[0, 1; -2 - k*s, -1]")).verdict,
+  EXPECT_EQ(synthesized(text("\"A in conv{A1, A2}\"", "A")).verdict, model::Verdict::yes);
+  EXPECT_EQ(synthesized(text("\"A in conv{A1, A2 - [0, 0; 0.1, 0]}\"", "A")).verdict,
+            model::Verdict::no);
+  EXPECT_EQ(
+      synthesized(text("[\"k in [0, 1.9]\", \"s in [0, 2]\"]", "[0, 1; -2 - k*s, -1]")).verdict,
+      model::Verdict::yes);
+  EXPECT_EQ(synthesized(text("[\"k in [0, 2]\", \"s in [0, 2]\"]", "[0, 1; -2 - k*s, -1]")).verdict,
             model::Verdict::no);
   const std::string square = text("\"A in conv{A1, A2}\"", "A*A");
-  EXPECT_NE(tests::input_error([&] { solve(square); }).message().find("not affine in A"),
+  EXPECT_NE(tests::input_error([&] { synthesized(square); }).message().find("not affine in A"),
             std::string::npos);
 }
 
@@ -180,7 +179,7 @@ TEST(ForallTest, PolytopesAndBoxesAreImposedAtTheirVertices) {
 /// is bounded.
 TEST(ForallTest, AWaveBetweenThePointsIsNotMissed) {
   for (const int k : {48, 96, 144}) {
-    const auto found = solve(
+    const auto found = synthesized(
         "problem: p\nmethod:\n  method: p\n  data: {k: scalar}\n  unknowns: {x: scalar}\n  "
         "require:\n"
         "    below: {forall: \"t in [0, 1]\", that: \"-x < 1 - 0.5*t + cos(2*pi*k*t)\"}\n"
@@ -194,7 +193,7 @@ TEST(ForallTest, AWaveBetweenThePointsIsNotMissed) {
 }
 
 TEST(ForallTest, APoleInTheIntervalIsNoYes) {
-  const auto found = solve(
+  const auto found = synthesized(
       "problem: p\nmethod:\n  method: p\n  unknowns: {x: scalar}\n  require:\n"
       "    above: {forall: \"t in [0, 1]\", that: \"x > 1/(t - 0.3)\"}\n"
       "  minimize: x\nsynthesis: {gain_bound: none, forall: exchange}\n");
@@ -203,7 +202,7 @@ TEST(ForallTest, APoleInTheIntervalIsNoYes) {
 
 /// At t = 0 equality is left, and just beside it nothing: the point on the face shows where.
 TEST(ForallTest, AFaceIsLeftWhereItFailsBetweenThePoints) {
-  const auto found = solve(
+  const auto found = synthesized(
       "problem: p\nmethod:\n  method: p\n  unknowns: {x: scalar}\n  require:\n"
       "    above: {forall: \"t in [0, 1]\", that: \"x >= 1 + 1e-6*(exp(-1e5*t) - exp(-3e5*t))\"}\n"
       "    below: x <= 1\n");
@@ -212,7 +211,7 @@ TEST(ForallTest, AFaceIsLeftWhereItFailsBetweenThePoints) {
 
 /// Dependence that no hull takes: the auto way falls back to exchange.
 TEST(ForallTest, AnyDependenceOnTheVariable) {
-  const auto found = solve(
+  const auto found = synthesized(
       "problem: p\nmethod:\n  method: p\n  unknowns: {x: scalar}\n  require:\n"
       "    above: {forall: \"t in [0.2, 3]\", that: \"x > sqrt(t)/(1 + t^2)\"}\n"
       "  minimize: x\nsynthesis: {gain_bound: none}\n");

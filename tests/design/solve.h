@@ -16,6 +16,12 @@ inline model::Gains solve(const std::string& method, const std::string& data = "
   return synthesize(yaml.instance, {});
 }
 
+/// Of the whole text of a problem.
+inline model::Gains synthesized(const std::string& text) {
+  const tests::YamlProblem yaml(text);
+  return synthesize(yaml.instance, {});
+}
+
 /// Elements in 64ths, in [-1, 1].
 inline numbers::Matrix random_symmetric(RandomStream& random, int n) {
   numbers::Matrix C(n, n);

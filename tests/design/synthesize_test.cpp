@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <random>
 
+#include "design/solve.h"
 #include "support/input_error.h"
 #include "support/linear_algebra.h"
 #include "support/yaml_problem.h"
@@ -12,11 +13,6 @@
 
 namespace gainsmith::design {
 namespace {
-
-model::Gains solve(const std::string& text) {
-  const tests::YamlProblem yaml(text);
-  return synthesize(yaml.instance, {});
-}
 
 /// A certificate that no solution exists, exactly or up to the rounding of 100 digits.
 bool is_certain(const model::CertificateRecord& certificate) {
@@ -35,7 +31,7 @@ std::string lyapunov(const numbers::Matrix& A) {
 TEST(SynthesizeTest, WhatIsNotKnownIsNoNo) {
   for (const char* A : {"-eye(2) + 0.1*pinv([1, 1; 1, 1])", "where(0.1 + 0.2 > 0.3, 1, -1)*eye(2)",
                         "-eye(2) - pinv([1, 2; 2, 4])", "(sign(sin(pi)) - 0.5)*eye(2)"}) {
-    const model::Gains gains = solve(
+    const model::Gains gains = synthesized(
         "problem: stable\nmethod:\n  method: lyapunov\n  data: {A: 2 x 2}\n  unknowns: {P: "
         "symmetric 2}\n  require: {positive: P > 0, stable: He(P*A) < 0}\ndata: {A: \"" +
         std::string(A) + "\"}\n");
@@ -43,7 +39,7 @@ TEST(SynthesizeTest, WhatIsNotKnownIsNoNo) {
   }
   for (const char* least :
        {"(100^60 + 0.5 - 10^120)", "sign(sqrt(2)^2 - 2)", "pinv([1, 2; 2, 4])(1, 1)"}) {
-    const model::Gains gains = solve(
+    const model::Gains gains = synthesized(
         std::string("problem: room\nmethod:\n  method: room\n  unknowns: {x: scalar}\n  require: "
                     "{low: \"x > ") +
         least + "\", high: x < 0.6}\n");
@@ -62,7 +58,7 @@ TEST(SynthesizeTest, LyapunovDecidesStability) {
     const double abscissa = tests::spectral_abscissa(A);
     const double wanted = trial % 2 == 0 ? -0.2 : 0.2;
     A += (wanted - abscissa) * numbers::Matrix::Identity(n, n);
-    const model::Gains found = solve(lyapunov(A));
+    const model::Gains found = synthesized(lyapunov(A));
     EXPECT_EQ(found.verdict, wanted < 0 ? model::Verdict::yes : model::Verdict::no) << A;
     if (found.verdict != model::Verdict::yes) {
       ASSERT_TRUE(found.certificate);
@@ -83,7 +79,7 @@ TEST(SynthesizeTest, LyapunovDecidesStability) {
 TEST(SynthesizeTest, TheStoredMultipliersProveInfeasibility) {
   numbers::Matrix A(2, 2);
   A << 0.1, 1, -1, 0.1;
-  const model::Gains found = solve(lyapunov(A));
+  const model::Gains found = synthesized(lyapunov(A));
   ASSERT_EQ(found.verdict, model::Verdict::no);
   ASSERT_TRUE(found.certificate);
   const auto& multipliers = found.certificate->multipliers;
@@ -100,7 +96,7 @@ TEST(SynthesizeTest, TheStoredMultipliersProveInfeasibility) {
 
 /// H-infinity norm by the bounded-real lemma against a frequency sweep.
 TEST(SynthesizeTest, TheBoundedRealLemmaGivesThePeakGain) {
-  const model::Gains found = solve(
+  const model::Gains found = synthesized(
       "problem: hinf\nmethod:\n  method: bounded-real\n  data: {A: n x n, B: n x m, C: p x n}\n"
       "  unknowns: {P: symmetric n, g: scalar}\n  require:\n    positive: P > 0\n"
       "    gain: \"[He(P*A) + C'*C, P*B; *, -g*I] < 0\"\n  minimize: g\n"
@@ -118,7 +114,7 @@ TEST(SynthesizeTest, TheBoundedRealLemmaGivesThePeakGain) {
 
 /// trace(P) has the infimum 0, which is not attained.
 TEST(SynthesizeTest, AnObjectiveWithoutConstantsHasNoMinimum) {
-  const model::Gains found = solve(
+  const model::Gains found = synthesized(
       "problem: p\nmethod:\n  method: m\n  data: {A: n x n}\n  unknowns: {P: symmetric n}\n"
       "  require: {positive: P > 0, stable: He(P*A) < 0}\n  minimize: trace(P)\n"
       "data: {A: [[-1, 5], [0, -2]]}\n");
@@ -138,8 +134,8 @@ TEST(SynthesizeTest, FeasibilityWithConstantDataIsDecidedBothWays) {
            bound + "}\n";
   };
   // P11 > 5 is needed.
-  EXPECT_EQ(solve(problem("5.5")).verdict, model::Verdict::yes);
-  const model::Gains tight = solve(problem("4.5"));
+  EXPECT_EQ(synthesized(problem("5.5")).verdict, model::Verdict::yes);
+  const model::Gains tight = synthesized(problem("4.5"));
   EXPECT_EQ(tight.verdict, model::Verdict::no);
   ASSERT_TRUE(tight.certificate);
   EXPECT_TRUE(is_certain(*tight.certificate));
@@ -150,10 +146,10 @@ TEST(SynthesizeTest, FeasibilityWithConstantDataIsDecidedBothWays) {
 /// the verdict.
 TEST(SynthesizeTest, ScalarInequalitiesThatHoldWithEqualityAreKept) {
   for (const char* relation : {"g >= 1", "g > 1", "-g <= -1", "3*g >= 3"}) {
-    const model::Gains found =
-        solve(std::string("problem: p\nmethod:\n  method: m\n  data: {a: scalar}\n  unknowns: {g: "
-                          "scalar}\n  require: {bound: ") +
-              relation + "}\n  minimize: a*g\ndata: {a: 2}\n");
+    const model::Gains found = synthesized(
+        std::string("problem: p\nmethod:\n  method: m\n  data: {a: scalar}\n  unknowns: {g: "
+                    "scalar}\n  require: {bound: ") +
+        relation + "}\n  minimize: a*g\ndata: {a: 2}\n");
     EXPECT_EQ(found.verdict, model::Verdict::yes) << relation << ": " << found.solver.message;
     ASSERT_TRUE(found.objective);
     EXPECT_NEAR(*found.objective, 2, 1e-5);
@@ -162,7 +158,7 @@ TEST(SynthesizeTest, ScalarInequalitiesThatHoldWithEqualityAreKept) {
 
 /// u = K x for x' = a x + u, the gain being below -a; `more`: of the problem.
 model::Gains feedback(const std::string& a, const std::string& more = "") {
-  return solve(
+  return synthesized(
       "problem: p\nmethod:\n  method: m\n  data: {A: n x n, B: n x m}\n  unknowns: {P: symmetric "
       "n, "
       "Y: m x n}\n  require: {p: P > 0, s: He(A*P + B*Y) < 0}\n  gains: {K: Y*inv(P)}\n"
@@ -192,7 +188,7 @@ TEST(SynthesizeTest, TheDefaultBoundIsInNoUnits) {
 /// Numbers at the end of the range of double are no certificate and no fault.
 TEST(SynthesizeTest, WhatDoubleCannotBoundExcludesNothing) {
   const auto pair = [](const std::string& require) {
-    return solve(
+    return synthesized(
                "problem: p\nmethod:\n  method: m\n  unknowns: {x: scalar, y: scalar}\n  require: "
                "{" +
                require + "}\n")
@@ -210,7 +206,7 @@ TEST(SynthesizeTest, WhatDoubleCannotBoundExcludesNothing) {
 
 /// The coefficient vanishes where tau is 0.893, which is no double.
 TEST(SynthesizeTest, AKinkAtADecimalIsMet) {
-  const model::Gains found = solve(
+  const model::Gains found = synthesized(
       "problem: kink\nmethod:\n  method: kink\n  data: {A: n x n}\n  unknowns: {P: symmetric n}\n"
       "  require:\n    positive: P > 0\n"
       "    decrease: {forall: \"tau in [0, 1.786]\", that: \"He(P*abs(tau - 0.893)*A) < 0\"}\n"
@@ -220,13 +216,13 @@ TEST(SynthesizeTest, AKinkAtADecimalIsMet) {
 
 /// The size of a solution is no reason: these are far from 1 and stand in units of their own.
 TEST(SynthesizeTest, LargeSolutionsAreFound) {
-  const model::Gains far = solve(
+  const model::Gains far = synthesized(
       "problem: p\nmethod: {method: m, data: {a: scalar}, unknowns: {x: scalar}, require: {a: x >= "
       "1, b: 1e-8*x >= a}}\n"
       "data: {a: 1}\n");
   EXPECT_EQ(far.verdict, model::Verdict::yes) << far.solver.message;
   EXPECT_GE((*far.find("x"))(0, 0), 1e8);
-  const model::Gains found = solve(
+  const model::Gains found = synthesized(
       "problem: p\nmethod: {method: m, data: {A: n x n}, unknowns: {P: symmetric n}, require: {p: "
       "P >= 0, s: He(P*A) + I <= 0},\n"
       "  minimize: trace(P)}\ndata: {A: [[-1e-9, 1], [-1, -1e-9]]}\n");
@@ -240,7 +236,7 @@ TEST(SynthesizeTest, LargeSolutionsAreFound) {
 TEST(SynthesizeTest, AMethodMayHaveNoUnknowns) {
   for (const char* minimize : {"", "  minimize: 3\n"}) {
     for (const double bound : {0.3225, 0.3223}) {
-      const model::Gains found = solve(
+      const model::Gains found = synthesized(
           "problem: peak\nmethod:\n  method: peak\n  data: {bound: scalar}\n  require:\n"
           "    below: {forall: \"tau in [0, 2]\", that: \"exp(-tau)*sin(tau) < bound\"}\n" +
           std::string(minimize) + "data: {bound: " + std::to_string(bound) + "}\n");
@@ -251,7 +247,7 @@ TEST(SynthesizeTest, AMethodMayHaveNoUnknowns) {
 
 TEST(SynthesizeTest, TheZeroSolutionIsRefused) {
   const InputError error = tests::input_error([] {
-    solve(
+    synthesized(
         "problem: p\nmethod: {method: m, data: {A: n x n}, unknowns: {P: symmetric n}, require: "
         "{p: P >= 0, s: He(P*A) <= 0}}\n"
         "data: {A: [[-1, 0], [0, -1]]}\n");
@@ -262,7 +258,7 @@ TEST(SynthesizeTest, TheZeroSolutionIsRefused) {
 /// He(P*A) <= 0 has no interior for an oscillator: only P = p diag(3, 1) satisfies it, which a
 /// certificate must not exclude.
 TEST(SynthesizeTest, WhatHoldsWithoutInteriorIsNotRefuted) {
-  const model::Gains found = solve(
+  const model::Gains found = synthesized(
       "problem: p\nmethod: {method: m, data: {A: n x n}, unknowns: {P: symmetric n}, require: {p: "
       "P > 0, s: He(P*A) <= 0}}\n"
       "data: {A: [[0, 1], [-3, 0]]}\n");
@@ -271,7 +267,7 @@ TEST(SynthesizeTest, WhatHoldsWithoutInteriorIsNotRefuted) {
 }
 
 TEST(SynthesizeTest, AScalarThatCostsNothingMayFillABlock) {
-  const model::Gains found = solve(
+  const model::Gains found = synthesized(
       "problem: p\nmethod: {method: m, data: {A: n x n}, unknowns: {P: symmetric n, g: scalar}, "
       "require: {p: P > A, s: g > 1},\n"
       "  minimize: trace(P)}\ndata: {A: [[1, 1], [1, 3]]}\n");
@@ -282,7 +278,7 @@ TEST(SynthesizeTest, AScalarThatCostsNothingMayFillABlock) {
 
 TEST(SynthesizeTest, FunctionsOfTauBeyondDoubleAreRefused) {
   const InputError error = tests::input_error([] {
-    solve(
+    synthesized(
         "problem: p\nmethod:\n  method: m\n  data: {A: n x n}\n  unknowns: {P: symmetric n}\n  "
         "require:\n"
         "    p: {forall: \"tau in [0, 10]\", that: exp(1000*tau)*P > A}\n  minimize: "
@@ -292,7 +288,7 @@ TEST(SynthesizeTest, FunctionsOfTauBeyondDoubleAreRefused) {
 }
 
 TEST(SynthesizeTest, OfAnUnboundedObjectiveAPointIsGiven) {
-  const model::Gains found = solve(
+  const model::Gains found = synthesized(
       "problem: p\nmethod:\n  method: m\n  data: {A: n x n}\n  unknowns: {P: symmetric n}\n"
       "  require: {top: P < A}\n  minimize: trace(P)\ndata: {A: [[1, 0], [0, 1]]}\n");
   EXPECT_EQ(found.verdict, model::Verdict::yes);
@@ -303,7 +299,7 @@ TEST(SynthesizeTest, OfAnUnboundedObjectiveAPointIsGiven) {
 /// Multiplying the weights scales the solution and nothing else.
 TEST(SynthesizeTest, GainsDoNotDependOnTheUnitsOfTheCost) {
   const auto gain = [](const std::string& weight) {
-    const model::Gains found = solve(
+    const model::Gains found = synthesized(
         "problem: p\nmethod: sampled-data-hybrid\n"
         "data: {A: [[0.2, -1.01], [1, 0]], C: [[0.5, -1]], T1: 0.5, T2: 0.7, QF: " +
         weight + "*I, QJ: 0.01*" + weight + "*I}\nparameters: {delta: 0.03, a1: 100, a2: 1}\n");
@@ -340,8 +336,8 @@ TEST(SynthesizeTest, TheSameProblemGivesTheSameBits) {
       "problem: p\nmethod: output-predictor\ndata: {A: [[0.2, -1.01], [1, 0]], C: [[0.5, -1]], T1: "
       "0.5, T2: 0.6, QF: I}\n"
       "parameters: {a1: 1}\n";
-  const model::Gains first = solve(text);
-  const model::Gains second = solve(text);
+  const model::Gains first = synthesized(text);
+  const model::Gains second = synthesized(text);
   EXPECT_EQ(first.verdict, model::Verdict::yes);
   ASSERT_EQ(first.gains.size(), second.gains.size());
   for (std::size_t i = 0; i < first.gains.size(); ++i)
@@ -352,10 +348,11 @@ TEST(SynthesizeTest, TheSameProblemGivesTheSameBits) {
 TEST(SynthesizeTest, MethodsWorkForSeveralOutputs) {
   for (const char* method :
        {"sampled-data-hybrid", "sampled-data-hybrid-from-t1", "output-predictor"}) {
-    const model::Gains found = solve(std::string("problem: p\nmethod: ") + method +
-                                     "\ndata: {A: [[0, 1, 0], [-1, -0.1, 0.3], [0, 0.2, -0.5]], C: "
-                                     "[[1, 0, 0], [0, 0, 1]], T1: 0.1, T2: 0.3, QF: I}\n"
-                                     "parameters: {a1: 1}\n");
+    const model::Gains found =
+        synthesized(std::string("problem: p\nmethod: ") + method +
+                    "\ndata: {A: [[0, 1, 0], [-1, -0.1, 0.3], [0, 0.2, -0.5]], C: "
+                    "[[1, 0, 0], [0, 0, 1]], T1: 0.1, T2: 0.3, QF: I}\n"
+                    "parameters: {a1: 1}\n");
     EXPECT_EQ(found.verdict, model::Verdict::yes) << method << ": " << found.solver.message;
     ASSERT_NE(found.find("H"), nullptr) << method;
     EXPECT_EQ(found.find("H")->rows(), 2);
@@ -364,7 +361,7 @@ TEST(SynthesizeTest, MethodsWorkForSeveralOutputs) {
 
 TEST(SynthesizeTest, AnalysisOfGoodGainsSucceedsAndOfBadOnesGivesThemBack) {
   const auto analyse = [](const std::string& L) {
-    return solve(
+    return synthesized(
         "problem: p\nmethod: zero-order-hold\n"
         "data: {A: [[-1, 0.2], [0, -2]], C: [[1, 0]], T1: 0.1, T2: 0.2, L: " +
         L + "}\nparameters: {delta: 0.5, eta: 0.1}\n");
@@ -381,10 +378,10 @@ TEST(SynthesizeTest, AnalysisOfGoodGainsSucceedsAndOfBadOnesGivesThemBack) {
 TEST(SynthesizeTest, UnitsDoNotMatter) {
   for (const char* A : {"[[-1, 300], [0, -1]]", "[[-1, 32000], [0, -1]]",
                         "[[-1, 1e8], [-1e-8, -1]]", "[[-1, 1e7, 0], [0, -1, 1e7], [0, 0, -1]]"}) {
-    const model::Gains found =
-        solve(std::string("problem: p\nmethod:\n  method: m\n  data: {A: n x n}\n  unknowns: {P: "
-                          "symmetric n}\n  require: {pos: P > 0, l: He(P*A) < 0}\ndata: {A: ") +
-              A + "}\n");
+    const model::Gains found = synthesized(
+        std::string("problem: p\nmethod:\n  method: m\n  data: {A: n x n}\n  unknowns: {P: "
+                    "symmetric n}\n  require: {pos: P > 0, l: He(P*A) < 0}\ndata: {A: ") +
+        A + "}\n");
     ASSERT_EQ(found.verdict, model::Verdict::yes) << A << ": " << found.solver.message;
     for (const model::Margin& margin : found.margins) EXPECT_GT(margin.reached, 0.01) << A;
   }

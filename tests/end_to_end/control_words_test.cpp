@@ -53,12 +53,6 @@ TEST(ControlWordsTest, ARegulatorByFormulaShowsItsPoles) {
   EXPECT_EQ(gainsmith({"verify", problem}).exit, 0);
 }
 
-std::string with(std::string text, const std::string& old, const std::string& fresh) {
-  const std::size_t at = text.find(old);
-  EXPECT_NE(at, std::string::npos) << old;
-  return text.replace(at, old.size(), fresh);
-}
-
 TEST(ControlWordsTest, WithoutAStabilisingSolutionTheModeIsNamed) {
   const Folder folder;
   const std::string text = with(kRegulator, "[[0, 1], [0, 0]]", "[[2, 0], [0, 0]]");
@@ -162,15 +156,6 @@ data:
   A: ["[0, -pi/2; pi/2, 0]", "log(2)*eye(2)", "[0, -pi/2; pi/2, 0]"]
 campaign: {runs: 1, horizon: 2.5}
 )yaml";
-
-std::vector<double> last_row(const std::string& csv) {
-  const std::size_t begin = csv.find_last_of('\n', csv.size() - 2) + 1;
-  std::istringstream row(csv.substr(begin));
-  std::vector<double> numbers;
-  for (std::string field; std::getline(row, field, ',');)
-    numbers.push_back(field.empty() ? 0 : std::stod(field));
-  return numbers;
-}
 
 TEST(ControlWordsTest, AModePicksAMemberOfAFamily) {
   const Folder folder;

@@ -31,16 +31,6 @@ std::string tangent(const std::string& campaign) {
          "  run: [{at: {t: 1.5}, value: x - 14.101419947171719, is: 0, absolute: 1e-6}]\n";
 }
 
-/// The numbers of the last row of `simulate`.
-std::vector<double> last_row(const std::string& csv) {
-  const std::size_t begin = csv.find_last_of('\n', csv.size() - 2) + 1;
-  std::istringstream row(csv.substr(begin));
-  std::vector<double> numbers;
-  for (std::string field; std::getline(row, field, ',');)
-    numbers.push_back(field.empty() ? 0 : std::stod(field));
-  return numbers;
-}
-
 struct Simulated {
   double x = 0, z = 0;  ///< their errors
   std::ptrdiff_t rows = 0;
@@ -51,7 +41,8 @@ Simulated simulated(const std::string& campaign) {
   const Outcome outcome =
       gainsmith({"simulate", folder.file("tangent.yaml", tangent(campaign)), "--judge"});
   EXPECT_EQ(outcome.exit, 0) << outcome.err;
-  EXPECT_NE((outcome.out + outcome.err).find("judged: the run satisfies the texts"), std::string::npos)
+  EXPECT_NE((outcome.out + outcome.err).find("judged: the run satisfies the texts"),
+            std::string::npos)
       << outcome.err;
   const std::vector<double> last = last_row(outcome.out);
   return {std::abs(last[3] - std::tan(1.5)), std::abs(1e6 * last[4] - std::tan(1.5)),

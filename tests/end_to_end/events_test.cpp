@@ -159,11 +159,6 @@ TEST(Events, ExpectedFiguresAreCompared) {
       << outcome.out << outcome.err;
 }
 
-/// A text with something else in the place of a part of it.
-std::string with(std::string text, const std::string& old, const std::string& fresh) {
-  return text.replace(text.find(old), old.size(), fresh);
-}
-
 TEST(Events, CheckRefusesWhatRunsRefuse) {
   const Folder folder;
   const Outcome late =

@@ -47,14 +47,14 @@ TEST_P(Init, WritesTheMethodsTextWhereItIsToBeChanged) {
             checked("named.yaml", gainsmith({"init", GetParam()}).out));
 }
 
-std::string test_name(const ::testing::TestParamInfo<std::string>& method) {
+std::string method_name(const ::testing::TestParamInfo<std::string>& method) {
   std::string name = method.param;
   for (char& c : name)
     if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
   return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, Init, ::testing::ValuesIn(method_names()), test_name);
+INSTANTIATE_TEST_SUITE_P(Methods, Init, ::testing::ValuesIn(method_names()), method_name);
 
 TEST(Init, AnUnknownMethodIsNamed) {
   const Outcome outcome = gainsmith({"init", "lqt"});

@@ -1,5 +1,6 @@
 #include "end_to_end/program.h"
 
+#include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -78,6 +79,21 @@ std::string without_timings(const std::string& text) {
   auto document = nlohmann::ordered_json::parse(text);
   document.erase("timings");
   return document.dump();
+}
+
+std::string with(std::string text, const std::string& old, const std::string& fresh) {
+  const std::size_t at = text.find(old);
+  EXPECT_NE(at, std::string::npos) << old;
+  return at == std::string::npos ? text : text.replace(at, old.size(), fresh);
+}
+
+std::vector<double> last_row(const std::string& csv) {
+  const std::size_t begin = csv.find_last_of('\n', csv.size() - 2) + 1;
+  std::istringstream row(csv.substr(begin));
+  std::vector<double> numbers;
+  for (std::string field; std::getline(row, field, ',');)
+    numbers.push_back(field.empty() ? 0 : std::stod(field));
+  return numbers;
 }
 
 }  // namespace gainsmith::tests

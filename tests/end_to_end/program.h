@@ -45,6 +45,12 @@ std::string problem(const std::string& name);
 
 std::string text_of(const std::string& path);
 
+/// A text with something else in the place of a part of it.
+std::string with(std::string text, const std::string& old, const std::string& fresh);
+
+/// The numbers of the last row that `simulate` prints.
+std::vector<double> last_row(const std::string& csv);
+
 /// Whether a text has a part.
 inline bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;

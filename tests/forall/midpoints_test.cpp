@@ -10,20 +10,10 @@
 namespace gainsmith::forall {
 namespace {
 
+using testing::imposed_at;
 using testing::interval;
 using testing::number;
-
-Imposed imposed_at(const std::vector<double>& times) {
-  Imposed imposed;
-  for (const double tau : times) imposed.points.push_back(extended({}, "tau", tau));
-  return imposed;
-}
-
-std::vector<double> times_of(const std::vector<Point>& points) {
-  std::vector<double> times;
-  for (const Point& point : points) times.push_back(point.values.at("tau")(0, 0));
-  return times;
-}
+using testing::times_of;
 
 TEST(MidpointsTest, WideGapsHaveTheirMiddle) {
   const Domain domain = {interval("tau", 0, 10)};

@@ -8,6 +8,7 @@
 #include "expr/compile.h"
 #include "expr/parser.h"
 #include "forall/domain.h"
+#include "forall/plan.h"
 #include "numbers/real.h"
 
 namespace gainsmith::forall::testing {
@@ -51,6 +52,19 @@ inline expr::Program program(const std::string& text, const Domain& domain,
   for (const Variable& variable : domain) scope.symbols[variable.name] = {variable.shape};
   for (const auto& [name, value] : known) scope.symbols[name] = {numbers::shape_of(value)};
   return expr::compile(expr::parse({text, "test"}), scope);
+}
+
+/// Points of the variable tau.
+inline Imposed imposed_at(const std::vector<double>& times) {
+  Imposed imposed;
+  for (const double tau : times) imposed.points.push_back(extended({}, "tau", tau));
+  return imposed;
+}
+
+inline std::vector<double> times_of(const std::vector<Point>& points) {
+  std::vector<double> times;
+  for (const Point& point : points) times.push_back(point.values.at("tau")(0, 0));
+  return times;
 }
 
 }  // namespace gainsmith::forall::testing

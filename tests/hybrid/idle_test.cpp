@@ -9,7 +9,7 @@ namespace gainsmith::hybrid {
 namespace {
 
 using tests::EventProblem;
-using Kind = model::Dynamics::NoiseKind;
+using NoiseKind = model::Dynamics::NoiseKind;
 using Names = std::vector<std::string>;
 
 /// A clock of one length, a plant that moves.
@@ -27,13 +27,13 @@ std::optional<std::uint64_t> runs_of(const EventProblem& problem) {
 TEST(DifferentRuns, AreOneWhereNothingIsDrawn) {
   EXPECT_EQ(runs_of(still()), 1U);
   EXPECT_EQ(runs_of(still().every("other", "1", "1", "0.5")), 1U);
-  EXPECT_EQ(runs_of(still().noise("w", Kind::normal, {"0"})), 1U);
-  EXPECT_EQ(runs_of(still().noise("w", Kind::uniform, {"2", "2"})), 1U);
+  EXPECT_EQ(runs_of(still().noise("w", NoiseKind::normal, {"0"})), 1U);
+  EXPECT_EQ(runs_of(still().noise("w", NoiseKind::uniform, {"2", "2"})), 1U);
 }
 
 TEST(DifferentRuns, HaveNoNumberWhereSomethingIsDrawn) {
-  EXPECT_FALSE(runs_of(still().noise("w", Kind::normal, {"0.1"})));
-  EXPECT_FALSE(runs_of(still().noise("w", Kind::uniform, {"1", "2"})));
+  EXPECT_FALSE(runs_of(still().noise("w", NoiseKind::normal, {"0.1"})));
+  EXPECT_FALSE(runs_of(still().noise("w", NoiseKind::uniform, {"1", "2"})));
   EXPECT_FALSE(runs_of(still().every("other", "1", "2")));
   EXPECT_FALSE(runs_of(still().lost(0.1)));
 }

@@ -12,7 +12,7 @@
 namespace gainsmith::hybrid {
 namespace {
 
-using Kind = model::LawKind;
+using model::LawKind;
 using tests::TextProblem;
 
 TextProblem plant() {
@@ -39,7 +39,7 @@ std::string error_of(TextProblem& problem) {
 
 TEST(Law, ConstantAndListGiveTheirValues) {
   TextProblem problem = plant();
-  problem.law(Kind::constant, {"T1 + 0.1"}).law(Kind::list, {"0.5", "0.75", "T2"});
+  problem.law(LawKind::constant, {"T1 + 0.1"}).law(LawKind::list, {"0.5", "0.75", "T2"});
   const auto made = laws(problem);
   RandomStream random(1, 0);
   EXPECT_EQ(made[0].reset_value(7, 3, random), 0.6);
@@ -50,7 +50,7 @@ TEST(Law, ConstantAndListGiveTheirValues) {
 
 TEST(Law, SinusoidIsThatOfThePapersFigureInUnitsOfTheTimer) {
   TextProblem problem = plant();
-  problem.law(Kind::sinusoid);
+  problem.law(LawKind::sinusoid);
   RandomStream random(1, 0);
   for (const double t : {0.0, 1.0, 4.7, 100.0})
     EXPECT_NEAR(laws(problem)[0].reset_value(0, t, random), 0.3 * std::sin(t / 1.1) + 0.8, 1e-15);
@@ -58,7 +58,7 @@ TEST(Law, SinusoidIsThatOfThePapersFigureInUnitsOfTheTimer) {
 
 TEST(Law, RandomLawsStayInTheRangeAndCoverIt) {
   TextProblem problem = plant();
-  problem.law(Kind::uniform).law(Kind::extremes);
+  problem.law(LawKind::uniform).law(LawKind::extremes);
   const auto made = laws(problem);
   RandomStream random(3, 4);
   double sum = 0;
@@ -81,19 +81,19 @@ TEST(Law, WithoutAnyThereAreFive) {
   TextProblem problem = plant();
   const auto made = laws(problem);
   ASSERT_EQ(made.size(), 5U);
-  EXPECT_EQ(made[0].kind, Kind::uniform);
-  EXPECT_EQ(made[1].kind, Kind::extremes);
-  EXPECT_EQ(made[2].kind, Kind::sinusoid);
+  EXPECT_EQ(made[0].kind, LawKind::uniform);
+  EXPECT_EQ(made[1].kind, LawKind::extremes);
+  EXPECT_EQ(made[2].kind, LawKind::sinusoid);
   EXPECT_EQ(made[3].values, std::vector{0.5});
   EXPECT_EQ(made[4].values, std::vector{1.1});
 }
 
 TEST(Law, WhatIsOutsideByRoundingAloneIsInside) {
   TextProblem inside = plant();  // lengths in [0.5, 1.1]
-  inside.law(Kind::list, {"0.5*(1 - 1e-13)", "1.1*(1 + 1e-13)"});
+  inside.law(LawKind::list, {"0.5*(1 - 1e-13)", "1.1*(1 + 1e-13)"});
   EXPECT_EQ(laws(inside)[0].values, (std::vector{0.5, 1.1}));
   TextProblem outside = plant();
-  outside.law(Kind::constant, {"1.1*(1 + 1e-10)"});
+  outside.law(LawKind::constant, {"1.1*(1 + 1e-10)"});
   EXPECT_NE(error_of(outside).find("is outside"), std::string::npos);
 }
 
@@ -107,18 +107,18 @@ TextProblem plant_with_gain() {
 TEST(Law, ValuesOutsideTheTimersRangeAreRefusedAtTheirPlace) {
   for (const char* value : {"0.4", "0.4 + g"}) {
     TextProblem low = plant_with_gain();
-    low.law(Kind::constant, {value});
+    low.law(LawKind::constant, {value});
     EXPECT_NE(error_of(low).find("test.yaml:1:1: the sampling interval 0.4 is outside"),
               std::string::npos)
         << error_of(low);
   }
   for (const char* value : {"1.2", "1.2 - g"}) {
     TextProblem high = plant_with_gain();
-    high.law(Kind::list, {"0.5", value});
+    high.law(LawKind::list, {"0.5", value});
     EXPECT_NE(error_of(high).find("1.2"), std::string::npos);
   }
   TextProblem empty = plant();
-  empty.law(Kind::list);
+  empty.law(LawKind::list);
   EXPECT_NE(error_of(empty).find("at least one interval"), std::string::npos);
 }
 

@@ -35,8 +35,6 @@ campaign: {horizon: 10, initial: {x: {ellipsoid: {center: [1, 0], matrix: Q}}}}
 uncertain: {m: {vertices: [1, 2, 3]}}
 )";
 
-model::DesignPtr bound(const std::string& text) { return bind::bind(read_problem(text)).design; }
-
 TEST(Claims, BoundsTimesAndEventsAreBound) {
   const model::DesignPtr design = bound(kBall);
   ASSERT_EQ(design->claims.size(), 2U);
@@ -88,8 +86,7 @@ TEST(Claims, MistakesAreNamedAtTheirPlace) {
       {"after: 5", "after: t", 18, 52, "'t' changes along a run"},
       {"rate(V)", "rate(x*x')", 18, 25, "rate(v) is of a number or a column, not x*x'"},
       {"rate(V)", "rate(rate(V))", 18, 20, "what holds a jacobian or a rate has none"},
-      {"-m]\"}\n    at", "-rate(m)]\"}\n    at", 10, 24,
-       "it is for signals, claims and figures"},
+      {"-m]\"}\n    at", "-rate(m)]\"}\n    at", 10, 24, "it is for signals, claims and figures"},
       {"{center: [1, 0], matrix: Q}", "{center: [1, 0]}", 19, 50, "matrix"},
       {"center: [1, 0]", "centre: [1, 0]", 19, 51, "did you mean 'center'?"},
       {"center: [1, 0]", "center: [1, 0, 0]", 19, 59, "wrong shape"},

@@ -34,8 +34,6 @@ method:
 campaign: {horizon: 1, initial: {A: 7}}
 )";
 
-model::DesignPtr bound(const std::string& text) { return bind::bind(read_problem(text)).design; }
-
 std::vector<std::string> inputs_of(const expr::Program& program) {
   std::vector<std::string> names;
   for (const expr::Input& input : program.inputs) names.push_back(input.name);

@@ -41,8 +41,6 @@ method:
 campaign: {horizon: 10, sampling: {sample: golden}}
 )";
 
-model::DesignPtr bound(const std::string& text) { return bind::bind(read_problem(text)).design; }
-
 TEST(Dynamics, ComponentsEventsAndSignalsAreBound) {
   const model::DesignPtr design = bound(kPendulum);
   ASSERT_TRUE(design->dynamics);

@@ -6,6 +6,7 @@
 #include <ostream>
 #include <string>
 
+#include "bind/bind.h"
 #include "io/problem_yaml.h"
 #include "methods/methods.h"
 #include "support/input_error.h"
@@ -86,6 +87,10 @@ inline const MethodLibrary& library() {
 
 inline model::Problem read_problem(const std::string& text) {
   return parse_problem(text, "p.yaml", library());
+}
+
+inline model::DesignPtr bound(const std::string& text) {
+  return bind::bind(read_problem(text)).design;
 }
 
 /// `text` with its first `from` replaced by `to`.

@@ -11,16 +11,11 @@ namespace gainsmith::judge {
 namespace {
 
 using Eigen::VectorXd;
+using tests::column_of;
 using tests::DynamicsText;
 using tests::has_fault;
 using tests::ReferenceRun;
 using tests::to_text;
-
-VectorXd column(std::initializer_list<double> values) {
-  VectorXd result(static_cast<Eigen::Index>(values.size()));
-  std::copy(values.begin(), values.end(), result.begin());
-  return result;
-}
 
 /// A plant with an observer that sees noisy samples, of which some are lost. Variables: x, n, xh,
 /// w, count(sample), since(sample), sample.left.
@@ -74,7 +69,7 @@ struct Sampled {
   }
   /// Samples after `first` and then after each length; a flow to the horizon at the end.
   hybrid::Trajectory run(const std::vector<Sample>& samples, double last = 0.05) const {
-    VectorXd start = column({1, 0, 0, 0.02, 0, 0, first});
+    VectorXd start = column_of({1, 0, 0, 0.02, 0, 0, first});
     if (!has_left()) start.conservativeResize(6);
     double horizon = first;
     for (const Sample& sample : samples) horizon += sample.length;
@@ -180,8 +175,8 @@ TEST(JudgedNoise, ChangesAtItsTimesAlone) {
   const model::Dynamics dynamics = text.dynamics();
   const auto judged = [&](double at, bool one_piece) {
     hybrid::FlowPiece piece;
-    const auto first = [](double t) { return column({2 * t, 2}); };
-    const auto second = [at](double t) { return column({2 * at - (t - at), -1}); };
+    const auto first = [](double t) { return column_of({2 * t, 2}); };
+    const auto second = [at](double t) { return column_of({2 * at - (t - at), -1}); };
     piece.start = first(0);
     piece.steps = {tests::dense_step(0, at, first), tests::dense_step(at, 0.4, second)};
     piece.end = second(0.4);
@@ -220,7 +215,7 @@ struct Clocks {
   /// Jumps at times; event 0 is slow, 1 fast.
   std::vector<Fault> judged(const std::vector<std::pair<double, std::size_t>>& jumps,
                             double horizon) const {
-    ReferenceRun run(column({1}), horizon);
+    ReferenceRun run(column_of({1}), horizon);
     const auto flow_to = [&](double t) {
       const VectorXd x = run.x();
       if (t > run.t())
@@ -273,16 +268,16 @@ TEST(JudgedOrder, GivenTimes) {
   text.state("x", 1, "1", "0").at("log", {"[0; 0.3; 1]", "0.7"}).reacts("log", {{"x", "0"}});
   const model::Dynamics dynamics = text.dynamics();
   const auto judged = [&](const std::vector<double>& times) {
-    ReferenceRun run(column({0}), 0.9);
+    ReferenceRun run(column_of({0}), 0.9);
     const auto flow_to = [&](double t) {
       const double from = run.t();
       if (t > from)
         run.flow(
-            t, [from](double s) { return column({s - from}); }, 1);
+            t, [from](double s) { return column_of({s - from}); }, 1);
     };
     for (const double t : times) {
       flow_to(t);
-      run.jump(0, column({0}));
+      run.jump(0, column_of({0}));
     }
     flow_to(0.9);
     return check_trajectory(run.end(), dynamics, text.stated());

@@ -11,16 +11,11 @@ namespace gainsmith::judge {
 namespace {
 
 using Eigen::VectorXd;
+using tests::column_of;
 using tests::DynamicsText;
 using tests::has_fault;
 using tests::ReferenceRun;
 using tests::to_text;
-
-VectorXd column(std::initializer_list<double> values) {
-  VectorXd result(static_cast<Eigen::Index>(values.size()));
-  std::copy(values.begin(), values.end(), result.begin());
-  return result;
-}
 
 /// The faults of one flow of the text from 0 to `to` along `values` that ends so.
 std::vector<Fault> judged(const DynamicsText& text, const ReferenceRun::Values& values, double to,
@@ -36,7 +31,7 @@ constexpr const char* kCause = "the end is not that of its cause: ";
 TEST(JudgedEnds, LeftMeansOutside) {
   DynamicsText text;
   text.state("x", 1, "1", "0").flow_set("x <= 2", "x is large");
-  const auto flow = [](double t) { return column({t}); };
+  const auto flow = [](double t) { return column_of({t}); };
   EXPECT_TRUE(judged(text, flow, 2, hybrid::Ending::left).empty());
   EXPECT_TRUE(has_fault(judged(text, flow, 1.5, hybrid::Ending::left), 1, kCause));
   EXPECT_TRUE(has_fault(judged(text, flow, 2.1, hybrid::Ending::left), 0,
@@ -46,7 +41,7 @@ TEST(JudgedEnds, LeftMeansOutside) {
 TEST(JudgedEnds, EscapedMeansLargeOrAtOnce) {
   DynamicsText text;
   text.state("x", 1, "x^2", "1");
-  const auto flow = [](double t) { return column({1 / (1 - t)}); };
+  const auto flow = [](double t) { return column_of({1 / (1 - t)}); };
   // The last step halves the rest again and again, so that polynomials follow.
   const model::Dynamics dynamics = text.dynamics();
   ReferenceRun run(flow(0), 10);
@@ -57,14 +52,14 @@ TEST(JudgedEnds, EscapedMeansLargeOrAtOnce) {
   EXPECT_TRUE(has_fault(judged(text, flow, 0.5, hybrid::Ending::escaped), 1, kCause));
   DynamicsText slow;
   slow.state("x", 1, "x", "1");
-  const auto grown = [](double t) { return column({std::exp(t)}); };
+  const auto grown = [](double t) { return column_of({std::exp(t)}); };
   EXPECT_TRUE(has_fault(judged(slow, grown, 7, hybrid::Ending::escaped, 16), 1, kCause));
 }
 
 TEST(JudgedEnds, UndefinedMeansWithoutAValue) {
   DynamicsText text;
   text.state("x", 1, "-1", "1").state("y", 1, "x*sqrt(x)", "0");
-  const auto flow = [](double t) { return column({1 - t, 0.4 * (1 - std::pow(1 - t, 2.5))}); };
+  const auto flow = [](double t) { return column_of({1 - t, 0.4 * (1 - std::pow(1 - t, 2.5))}); };
   const auto faults = judged(text, flow, 1 - 1e-12, hybrid::Ending::undefined, 1);
   EXPECT_FALSE(has_fault(faults, 1, kCause)) << to_text(faults);
   EXPECT_TRUE(has_fault(judged(text, flow, 0.5, hybrid::Ending::undefined), 1, kCause));
@@ -73,7 +68,7 @@ TEST(JudgedEnds, UndefinedMeansWithoutAValue) {
 TEST(JudgedEnds, SlidingMeansAnotherRateAtOnce) {
   DynamicsText text;
   text.state("x", 1, "where(x > 0, -1, 1)", "1");
-  const auto flow = [](double t) { return column({1 - t}); };
+  const auto flow = [](double t) { return column_of({1 - t}); };
   EXPECT_TRUE(judged(text, flow, 1, hybrid::Ending::sliding).empty());
   EXPECT_TRUE(has_fault(judged(text, flow, 0.5, hybrid::Ending::sliding), 1, kCause));
 }
@@ -82,8 +77,8 @@ TEST(JudgedEnds, AMessageIsGiven) {
   DynamicsText text;
   text.state("x", 1, "1", "0");
   const model::Dynamics dynamics = text.dynamics();
-  ReferenceRun run(column({0}), 10);
-  run.flow(1, [](double t) { return column({t}); });
+  ReferenceRun run(column_of({0}), 10);
+  run.flow(1, [](double t) { return column_of({t}); });
   EXPECT_TRUE(
       check_trajectory(run.end(hybrid::Ending::interrupted, "stopped"), dynamics, text.stated())
           .empty());
@@ -96,8 +91,8 @@ TEST(JudgedEnds, StuckMeansManyJumps) {
   DynamicsText text;
   text.state("x", 1, "1", "0").when("on", "x >= 0").reacts("on", {{"x", "x + 1"}});
   const model::Dynamics dynamics = text.dynamics();
-  ReferenceRun run(column({0}), 10);
-  for (int k = 1; k <= 20; ++k) run.jump(0, column({static_cast<double>(k)}));
+  ReferenceRun run(column_of({0}), 10);
+  for (int k = 1; k <= 20; ++k) run.jump(0, column_of({static_cast<double>(k)}));
   Question question;
   question.least_chain = 20;
   const hybrid::Trajectory trajectory = run.end(hybrid::Ending::stuck, "on is still due");
@@ -109,7 +104,7 @@ TEST(JudgedEnds, PassesMeanALoopThatDoesNotEnd) {
   DynamicsText text;
   text.state("x", 1, "1", "0").when("out", "x >= 1");
   text.repeats("out", {{"x", "x + 1"}}, "x <= 0", "3");
-  const auto flow = [](double t) { return column({t}); };
+  const auto flow = [](double t) { return column_of({t}); };
   EXPECT_TRUE(judged(text, flow, 1, hybrid::Ending::passes).empty());
   DynamicsText other;
   other.state("x", 1, "1", "0").when("out", "x >= 1");
@@ -128,16 +123,16 @@ struct Zeno {
     text.state("x", 2, "[x(2); -2]", "[1; 0]")
         .when("impact", "x(1) <= 0 and x(2) < 0")
         .reacts("impact", {{"x", "[0; -0.5*x(2)]"}});
-    ReferenceRun run(column({1, 0}), 10);
+    ReferenceRun run(column_of({1, 0}), 10);
     for (int k = 0; k < impacts; ++k) {
       const double from = run.t();
       const VectorXd x = run.x();
       const double length = k == 0 ? 1 : x(1);
       run.flow(from + length, [=](double t) {
         const double s = t - from;
-        return column({t == from + length ? 0 : x(0) + s * x(1) - s * s, x(1) - 2 * s});
+        return column_of({t == from + length ? 0 : x(0) + s * x(1) - s * s, x(1) - 2 * s});
       });
-      run.jump(0, column({0, -0.5 * run.x()(1)}));
+      run.jump(0, column_of({0, -0.5 * run.x()(1)}));
     }
     rest = 2 * run.x()(1);  // flights of v, v/2, v/4, ...
     trajectory = run.end(hybrid::Ending::zeno, "impacts accumulate");

@@ -11,16 +11,11 @@ namespace gainsmith::judge {
 namespace {
 
 using Eigen::VectorXd;
+using tests::column_of;
 using tests::DynamicsText;
 using tests::has_fault;
 using tests::ReferenceRun;
 using tests::to_text;
-
-VectorXd column(std::initializer_list<double> values) {
-  VectorXd result(static_cast<Eigen::Index>(values.size()));
-  std::copy(values.begin(), values.end(), result.begin());
-  return result;
-}
 
 /// T' = 30 q - T with hysteresis, a counter of T rising through 21, and a component that is frozen
 /// while the heater is on. Variables: T, q, c, z.
@@ -70,7 +65,7 @@ struct Thermostat {
     std::vector<std::size_t> events;
   };
   std::vector<Fault> judged(const std::vector<Leg>& legs) const {
-    ReferenceRun run(column({20, 1, 0, 0}), 0);
+    ReferenceRun run(column_of({20, 1, 0, 0}), 0);
     for (const Leg& leg : legs) {
       flow(run, leg.to);
       for (const std::size_t event : leg.events) jump(run, event);
@@ -114,8 +109,8 @@ TEST(JudgedThermostat, FindsASwitchThatIsTooLateOrMissing) {
 
 TEST(JudgedThermostat, FindsAFrozenComponentThatFlows) {
   const Thermostat thermostat;
-  ReferenceRun run(column({20, 1, 0, 0}), 0.05);
-  run.flow(0.05, [](double t) { return column({30 - 10 * std::exp(-t), 1, 0, t}); });
+  ReferenceRun run(column_of({20, 1, 0, 0}), 0.05);
+  run.flow(0.05, [](double t) { return column_of({30 - 10 * std::exp(-t), 1, 0, t}); });
   EXPECT_TRUE(has_fault(check_trajectory(run.end(), thermostat.dynamics, thermostat.text.stated()),
                         0, "flows, but rests: z"));
 }
@@ -127,11 +122,11 @@ TEST(JudgedCrossings, AreCrossedByJumpsOfOthersToo) {
   text.state("n", 1, "", "0").reacts("kick", {{"x", "x + 2"}}).reacts("up", {{"n", "n + 1"}});
   const model::Dynamics dynamics = text.dynamics();
   const auto judged = [&](int times) {
-    ReferenceRun run(column({-1, 0}), 1);
-    run.flow(0.5, [](double t) { return column({t - 1, 0}); }).jump(0, column({1.5, 0}));
-    for (int k = 1; k <= times; ++k) run.jump(1, column({1.5, static_cast<double>(k)}));
+    ReferenceRun run(column_of({-1, 0}), 1);
+    run.flow(0.5, [](double t) { return column_of({t - 1, 0}); }).jump(0, column_of({1.5, 0}));
+    for (int k = 1; k <= times; ++k) run.jump(1, column_of({1.5, static_cast<double>(k)}));
     const double n = times;
-    run.flow(1, [n](double t) { return column({t + 1, n}); });
+    run.flow(1, [n](double t) { return column_of({t + 1, n}); });
     return check_trajectory(run.end(), dynamics, text.stated());
   };
   EXPECT_TRUE(judged(1).empty()) << to_text(judged(1));
@@ -148,28 +143,30 @@ TEST(JudgedCrossings, ComeWhereZeroIsLeft) {
   // Jumps at the start, and half a second later.
   const auto judged = [&](int first, int second, std::size_t event = 1) {
     double n = 0;
-    ReferenceRun run(column({0, 0}), 1);
+    ReferenceRun run(column_of({0, 0}), 1);
     const auto flow = [&](double until, double zero) {
-      run.flow(until, [=](double t) { return column({t - zero, n}); });
+      run.flow(until, [=](double t) { return column_of({t - zero, n}); });
     };
     const auto jumps = [&](int times) {
       for (int k = 0; k < times; ++k) {
         n += event == 1 ? 1 : 0;
-        run.jump(event, column({run.x()(0), n}));
+        run.jump(event, column_of({run.x()(0), n}));
       }
     };
     flow(1e-20, 0);
     jumps(first);
     flow(0.5, 0);
-    run.jump(0, column({0, n}));
+    run.jump(0, column_of({0, n}));
     flow(0.5 + 1e-15, 0.5);
     jumps(second);
     flow(1, 0.5);
     return check_trajectory(run.end(), dynamics, text.stated());
   };
   EXPECT_TRUE(judged(1, 1).empty()) << to_text(judged(1, 1));
-  EXPECT_TRUE(has_fault(judged(0, 1), 1, "crosses zero inside a flow: up")) << to_text(judged(0, 1));
-  EXPECT_TRUE(has_fault(judged(1, 0), 5, "crosses zero inside a flow: up")) << to_text(judged(1, 0));
+  EXPECT_TRUE(has_fault(judged(0, 1), 1, "crosses zero inside a flow: up"))
+      << to_text(judged(0, 1));
+  EXPECT_TRUE(has_fault(judged(1, 0), 5, "crosses zero inside a flow: up"))
+      << to_text(judged(1, 0));
   EXPECT_TRUE(has_fault(judged(2, 1), 2, "jumps, but is not due: up"));
   EXPECT_TRUE(has_fault(judged(1, 1, 2), 1, "jumps, but is not due: down"));
 }
@@ -182,9 +179,9 @@ TEST(JudgedCrossings, PairsInsideOneStepAreFound) {
       .rises("blip", "cos(7*x) - 0.99999");
   text.falls("dip", "cos(7*x) + 0.99999").crosses("touch", "cos(3*x) + 1");
   const model::Dynamics dynamics = text.dynamics();
-  ReferenceRun run(column({0.1}), 1.2);
+  ReferenceRun run(column_of({0.1}), 1.2);
   run.flow(
-      1.2, [](double t) { return column({0.1 + t}); }, 2);
+      1.2, [](double t) { return column_of({0.1 + t}); }, 2);
   Question question;
   question.starts.push_back({0, numbers::Matrix{{0}}, numbers::Matrix{{1}}});
   const auto faults = check_trajectory(run.end(), dynamics, text.stated(), question);
@@ -203,18 +200,18 @@ TEST(JudgedLoops, AreRepeatedUntilTheirCondition) {
   text.signal("p", "passes(outside)");
   const model::Dynamics dynamics = text.dynamics();
   const auto judged = [&](double after, double passes) {
-    ReferenceRun run(column({0, 0}), 1.2);
+    ReferenceRun run(column_of({0, 0}), 1.2);
     run.flow(
            1,
            [](double t) {
-             return column({t, 0});
+             return column_of({t, 0});
            },
            2)
-        .jump(0, column({after, passes}));
+        .jump(0, column_of({after, passes}));
     run.flow(
         1.2,
         [=](double t) {
-          return column({after + t - 1, passes});
+          return column_of({after + t - 1, passes});
         },
         2);
     return check_trajectory(run.end(), dynamics, text.stated());
@@ -234,20 +231,20 @@ TEST(JudgedLoops, MapsSeeTheirOwnComponentChanged) {
   text.observer("b").state("b1", 1, "", "0").reacts("step", {{"b1", "a1 + 100*x"}});
   const model::Dynamics dynamics = text.dynamics();
   const auto judged = [&](const VectorXd& after) {
-    ReferenceRun run(column({0, 1, 2, 0}), 1);
+    ReferenceRun run(column_of({0, 1, 2, 0}), 1);
     run.flow(
            1,
            [](double t) {
-             return column({t, 1, 2, 0});
+             return column_of({t, 1, 2, 0});
            },
            2)
         .jump(0, after);
     return check_trajectory(run.end(), dynamics, text.stated());
   };
-  EXPECT_TRUE(judged(column({11, 3, 1, 101})).empty());
-  EXPECT_TRUE(has_fault(judged(column({11, 13, 1, 101})), 1, "another value: a1"));
-  EXPECT_TRUE(has_fault(judged(column({11, 2, 1, 101})), 1, "another value: a1"));
-  EXPECT_TRUE(has_fault(judged(column({11, 3, 1, 103})), 1, "another value: b1"));
+  EXPECT_TRUE(judged(column_of({11, 3, 1, 101})).empty());
+  EXPECT_TRUE(has_fault(judged(column_of({11, 13, 1, 101})), 1, "another value: a1"));
+  EXPECT_TRUE(has_fault(judged(column_of({11, 2, 1, 101})), 1, "another value: a1"));
+  EXPECT_TRUE(has_fault(judged(column_of({11, 3, 1, 103})), 1, "another value: b1"));
 }
 
 }  // namespace

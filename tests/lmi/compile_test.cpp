@@ -11,15 +11,15 @@
 namespace gainsmith::lmi {
 namespace {
 
-std::string problem_with(const std::string& require, const std::string& more = "") {
+std::string requiring(const std::string& require, const std::string& more = "") {
   return "problem: p\nmethod:\n  method: m\n  data: {A: n x n, T: scalar}\n  unknowns: {P: "
          "symmetric n, Y: n x n}\n" +
          more + "  require:\n" + require + "data: {A: [[0, 1], [-2, -3]], T: 2}\n";
 }
 
 TEST(CompileTest, AnIntervalBecomesTheVerticesOfItsAtoms) {
-  const tests::YamlProblem yaml(problem_with(
-      "    flow: {forall: \"tau in [0, T]\", that: \"He(P*A) + exp(0.5*tau)*P < 0\"}\n"));
+  const tests::YamlProblem yaml(
+      requiring("    flow: {forall: \"tau in [0, T]\", that: \"He(P*A) + exp(0.5*tau)*P < 0\"}\n"));
   const Lmi lmi = compile(Inequalities(yaml.instance));
   ASSERT_EQ(lmi.blocks.size(), 2U);
   EXPECT_EQ(lmi.blocks[0].point, "tau = 0");
@@ -127,8 +127,8 @@ TEST(CompileTest, AnUnknownFunctionIsItsPolynomial) {
 
 TEST(CompileTest, TwoAtomsMakeFourVertices) {
   const tests::YamlProblem yaml(
-      problem_with("    wave: {forall: \"tau in [0, T]\", that: \"sin(2*tau)*P + "
-                   "cos(2*tau)*He(P*A) <= 5*I\"}\n") +
+      requiring("    wave: {forall: \"tau in [0, T]\", that: \"sin(2*tau)*P + "
+                "cos(2*tau)*He(P*A) <= 5*I\"}\n") +
       "synthesis: {forall: hull}\n");
   const Lmi lmi = compile(Inequalities(yaml.instance));
   ASSERT_EQ(lmi.blocks.size(), 4U);
@@ -140,14 +140,14 @@ TEST(CompileTest, TwoAtomsMakeFourVertices) {
 
 TEST(CompileTest, SlicesCutTheInterval) {
   const tests::YamlProblem yaml(
-      problem_with("    wave: {forall: \"tau in [0, T]\", that: \"sin(2*tau)*P + "
-                   "cos(2*tau)*He(P*A) <= 5*I\"}\n") +
+      requiring("    wave: {forall: \"tau in [0, T]\", that: \"sin(2*tau)*P + "
+                "cos(2*tau)*He(P*A) <= 5*I\"}\n") +
       "synthesis: {forall: {way: hull, slices: 3}}\n");
   EXPECT_EQ(compile(Inequalities(yaml.instance)).blocks.size(), 12U);
 }
 
 TEST(CompileTest, FunctionsOfDifferentVariablesAreExactAtTheirVertices) {
-  const tests::YamlProblem yaml(problem_with(
+  const tests::YamlProblem yaml(requiring(
       "    box: {forall: [\"tau in [0, T]\", \"k in [1, 3]\"], that: \"k*exp(tau)*P + k*Y*A + "
       "(k*Y*A)' > 0\"}\n"));
   forall::Plan plan = forall::make_plan(*yaml.instance.design);
@@ -159,7 +159,7 @@ TEST(CompileTest, FunctionsOfDifferentVariablesAreExactAtTheirVertices) {
 }
 
 TEST(CompileTest, APolytopeHasItsVertices) {
-  const tests::YamlProblem yaml(problem_with(
+  const tests::YamlProblem yaml(requiring(
       "    stable: {forall: \"B in conv{A, 2*A, [0, 1; 1, 0]}\", that: \"He(P*B) < 0\"}\n"));
   const Lmi lmi = compile(Inequalities(yaml.instance));
   ASSERT_EQ(lmi.blocks.size(), 3U);
@@ -170,7 +170,7 @@ TEST(CompileTest, APolytopeHasItsVertices) {
 }
 
 TEST(CompileTest, SeveralFunctionsMakeAnExchange) {
-  const tests::YamlProblem yaml(problem_with(
+  const tests::YamlProblem yaml(requiring(
       "    wave: {forall: \"tau in [0, T]\", that: \"sin(2*tau)*P + cos(2*tau)*He(P*A) <= "
       "5*I\"}\n"));
   forall::Plan plan = forall::make_plan(*yaml.instance.design);
@@ -182,7 +182,7 @@ TEST(CompileTest, SeveralFunctionsMakeAnExchange) {
 
 TEST(CompileTest, FiniteSetsAndChains) {
   const tests::YamlProblem yaml(
-      problem_with("    chain: {forall: \"s in {1, 2, T + 1}\", that: \"I <= P <= s*I\"}\n"));
+      requiring("    chain: {forall: \"s in {1, 2, T + 1}\", that: \"I <= P <= s*I\"}\n"));
   const Lmi lmi = compile(Inequalities(yaml.instance));
   ASSERT_EQ(lmi.blocks.size(), 6U);
   EXPECT_EQ(lmi.blocks[0].name, "chain.1");
@@ -193,14 +193,14 @@ TEST(CompileTest, FiniteSetsAndChains) {
 }
 
 TEST(CompileTest, AFiniteSetTakesAnyFunction) {
-  const tests::YamlProblem yaml(problem_with(
+  const tests::YamlProblem yaml(requiring(
       "    sampled: {forall: \"tau in {0.5, 1}\", that: \"expm(A*tau)'*P*expm(A*tau) < P\"}\n"));
   EXPECT_EQ(compile(Inequalities(yaml.instance)).blocks.size(), 2U);
 }
 
 TEST(CompileTest, ObjectivesKeepTheirConstant) {
   const tests::YamlProblem yaml(
-      problem_with("    positive: P > I\n  minimize: 2*trace(P) - 3 + Y(2,1)\n"));
+      requiring("    positive: P > I\n  minimize: 2*trace(P) - 3 + Y(2,1)\n"));
   const Lmi lmi = compile(Inequalities(yaml.instance));
   ASSERT_TRUE(lmi.has_objective);
   EXPECT_EQ(lmi.objective_constant, -3);
@@ -208,14 +208,14 @@ TEST(CompileTest, ObjectivesKeepTheirConstant) {
 }
 
 TEST(CompileTest, HomogeneousMeansNoConstantTerm) {
-  const tests::YamlProblem cone(problem_with("    positive: P > 0\n    stable: He(P*A) < 0\n"));
+  const tests::YamlProblem cone(requiring("    positive: P > 0\n    stable: He(P*A) < 0\n"));
   EXPECT_TRUE(is_homogeneous(compile(Inequalities(cone.instance)).blocks));
-  const tests::YamlProblem affine(problem_with("    positive: P > I\n"));
+  const tests::YamlProblem affine(requiring("    positive: P > I\n"));
   EXPECT_FALSE(is_homogeneous(compile(Inequalities(affine.instance)).blocks));
 }
 
 TEST(CompileTest, WhatIsNotSymmetricIsRefused) {
-  const tests::YamlProblem yaml(problem_with("    wrong: P*A < 0\n"));
+  const tests::YamlProblem yaml(requiring("    wrong: P*A < 0\n"));
   const InputError error = tests::input_error([&] { compile(Inequalities(yaml.instance)); });
   EXPECT_EQ(error.place().line, 7);
   EXPECT_NE(error.message().find("not symmetric"), std::string::npos);
@@ -225,7 +225,7 @@ TEST(CompileTest, AnUnknownThatMustBeSymmetricIsRefusedWhereItIsDeclared) {
   for (const char* require :
        {"    it: Y > 0\n", "    it: A'*Y + Y*A < 0\n", "    it: \"[P, A; *, Y] > 0\"\n",
         "    it: {forall: \"tau in [0, T]\", that: \"P + tau*Y > 0\"}\n"}) {
-    const tests::YamlProblem yaml(problem_with(require));
+    const tests::YamlProblem yaml(requiring(require));
     const InputError error = tests::input_error([&] { compile(Inequalities(yaml.instance)); });
     EXPECT_EQ(error.place().line, 5) << require;
     EXPECT_EQ(error.place().column, 30) << require;
@@ -239,7 +239,7 @@ TEST(CompileTest, AnUnknownThatMustBeSymmetricIsRefusedWhereItIsDeclared) {
 /// Y*A is not symmetric for a symmetric Y either.
 TEST(CompileTest, NoUnknownIsAtFaultWhereSymmetryDoesNotHelp) {
   for (const char* require : {"    it: Y*A < 0\n", "    it: Y + P*A < 0\n"}) {
-    const tests::YamlProblem yaml(problem_with(require));
+    const tests::YamlProblem yaml(requiring(require));
     const InputError error = tests::input_error([&] { compile(Inequalities(yaml.instance)); });
     EXPECT_EQ(error.place().line, 7) << require;
     EXPECT_NE(error.message().find("not symmetric"), std::string::npos) << error.message();
@@ -257,7 +257,7 @@ TEST(CompileTest, DataTooLargeForDoubleAreRefused) {
 }
 
 TEST(CompileTest, WhatHasNoRowsIsRefused) {
-  const tests::YamlProblem yaml(problem_with("    empty: P(1:0, 1:0) > 0\n"));
+  const tests::YamlProblem yaml(requiring("    empty: P(1:0, 1:0) > 0\n"));
   const InputError error = tests::input_error([&] { compile(Inequalities(yaml.instance)); });
   EXPECT_EQ(error.place().line, 7);
   EXPECT_NE(error.message().find("'empty' has no rows"), std::string::npos) << error.message();
@@ -265,7 +265,7 @@ TEST(CompileTest, WhatHasNoRowsIsRefused) {
 
 TEST(CompileTest, AnEmptyIntervalIsRefused) {
   const tests::YamlProblem yaml(
-      problem_with("    flow: {forall: \"tau in [T, 1]\", that: \"exp(tau)*P > 0\"}\n"));
+      requiring("    flow: {forall: \"tau in [T, 1]\", that: \"exp(tau)*P > 0\"}\n"));
   EXPECT_NE(
       tests::input_error([&] { compile(Inequalities(yaml.instance)); }).message().find("empty"),
       std::string::npos);

@@ -9,7 +9,7 @@
 namespace gainsmith::lmi {
 namespace {
 
-std::string problem_with(const std::string& minimize, const std::string& extra = "") {
+std::string minimizing(const std::string& minimize, const std::string& extra = "") {
   return "problem: p\nmethod:\n  method: m\n  data: {A: n x n}\n"
          "  unknowns: {P: symmetric n, g: scalar, h: scalar}\n"
          "  require:\n    positive: P > I\n    bound: \"[P, A; *, g*I] > 0\"\n    below: \"[P, A; "
@@ -18,7 +18,7 @@ std::string problem_with(const std::string& minimize, const std::string& extra =
 }
 
 TEST(ReleaseTest, ScalarsWithoutAPriceAreReleasedWithTheirRows) {
-  const tests::YamlProblem yaml(problem_with("trace(P)"));
+  const tests::YamlProblem yaml(minimizing("trace(P)"));
   const Lmi lmi = compile(Inequalities(yaml.instance));
   const FreeVariables free_variables = find_free_variables(lmi, {}, true);
   ASSERT_EQ(free_variables.list.size(), 2U);
@@ -30,9 +30,9 @@ TEST(ReleaseTest, ScalarsWithoutAPriceAreReleasedWithTheirRows) {
 }
 
 TEST(ReleaseTest, APriceOrAnotherUseKeepsThem) {
-  const tests::YamlProblem priced(problem_with("trace(P) + g - h"));
+  const tests::YamlProblem priced(minimizing("trace(P) + g - h"));
   EXPECT_TRUE(find_free_variables(compile(Inequalities(priced.instance)), {}, true).list.empty());
-  const tests::YamlProblem capped(problem_with("trace(P) - h", "    cap: g <= 100\n"));
+  const tests::YamlProblem capped(minimizing("trace(P) - h", "    cap: g <= 100\n"));
   EXPECT_TRUE(find_free_variables(compile(Inequalities(capped.instance)), {}, true).list.empty());
 }
 
@@ -49,7 +49,7 @@ TEST(ReleaseTest, NoBlockLosesAllItsRowsToSeveralScalars) {
 
 /// A price is none where the objective does not count.
 TEST(ReleaseTest, WithoutTheObjectiveAPricedScalarIsFreeToo) {
-  const tests::YamlProblem priced(problem_with("trace(P) + g - h"));
+  const tests::YamlProblem priced(minimizing("trace(P) + g - h"));
   const Lmi lmi = compile(Inequalities(priced.instance));
   const FreeVariables free_variables = find_free_variables(lmi, {}, false);
   EXPECT_TRUE(free_variables.contains(4));
@@ -61,7 +61,7 @@ TEST(ReleaseTest, WithoutTheObjectiveAPricedScalarIsFreeToo) {
 }
 
 TEST(ReleaseTest, RestoredScalarsSatisfyTheWholeBlocks) {
-  const tests::YamlProblem yaml(problem_with("trace(P)"));
+  const tests::YamlProblem yaml(minimizing("trace(P)"));
   const Lmi lmi = compile(Inequalities(yaml.instance));
   const FreeVariables free_variables = find_free_variables(lmi, {}, true);
   std::vector<const Block*> blocks;

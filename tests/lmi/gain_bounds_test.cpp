@@ -12,7 +12,7 @@
 namespace gainsmith::lmi {
 namespace {
 
-std::string problem_with(const std::string& gains) {
+std::string with_gains(const std::string& gains) {
   return "problem: p\nmethod:\n  method: m\n  data: {A: n x n, C: p x n}\n"
          "  unknowns: {P: symmetric n, Q: symmetric p, Y: n x p, Z: p x n, K: p x n}\n"
          "  require: {positive: P > 0}\n  gains: {" +
@@ -28,7 +28,7 @@ std::vector<std::string> names(const GainBounds& bounds) {
 }
 
 TEST(GainBoundsTest, EveryProductWithAnInverseIsFoundOnce) {
-  const tests::YamlProblem yaml(problem_with(
+  const tests::YamlProblem yaml(with_gains(
       "L: inv(P)*Y, M: 3*inv(P)*Y, H: inv(Q)*(Z*A + Z) - C*inv(P)*Y*C, G: Z*inv(P), K: K"));
   const GainBounds bounds = gain_bounds(Inequalities(yaml.instance), 100);
   EXPECT_EQ(names(bounds), (std::vector<std::string>{"inv(P)*Y", "inv(Q)*(Z*A + Z)", "inv(P)*Y*C",
@@ -51,7 +51,7 @@ TEST(GainBoundsTest, ScalarsAreBoundedAlike) {
 /// What two gains share keeps the smaller bound; gains that are not named have none.
 TEST(GainBoundsTest, GainsMayHaveBoundsOfTheirOwn) {
   const tests::YamlProblem yaml(
-      problem_with("L: inv(P)*Y, M: inv(P)*Y - K', G: Z*inv(P), N: inv(Q)*Z") +
+      with_gains("L: inv(P)*Y, M: inv(P)*Y - K', G: Z*inv(P), N: inv(Q)*Z") +
       "synthesis: {gain_bound: {L: 200, M: 5, G: 0.1}}\n");
   const GainBounds bounds = gain_bounds(Inequalities(yaml.instance), 200);
   EXPECT_EQ(names(bounds), (std::vector<std::string>{"inv(P)*Y", "inv(P)*Y", "Z*inv(P)"}));
@@ -65,7 +65,7 @@ TEST(GainBoundsTest, GainsMayHaveBoundsOfTheirOwn) {
 }
 
 TEST(GainBoundsTest, TheWholeProductAndAffineGainsAreBounded) {
-  const tests::YamlProblem yaml(problem_with("L: inv(P)*C'*Q*2, M: 2*K + K, N: inv(P)*Y*inv(Q)"));
+  const tests::YamlProblem yaml(with_gains("L: inv(P)*C'*Q*2, M: 2*K + K, N: inv(P)*Y*inv(Q)"));
   const GainBounds bounds = gain_bounds(Inequalities(yaml.instance), 100);
   EXPECT_EQ(names(bounds),
             (std::vector<std::string>{"inv(P)*C'*Q*2", "(2*K + K)", "inv(P)*Y", "Y*inv(Q)"}));
@@ -132,19 +132,19 @@ TEST(GainBoundsTest, CallsMayStandInDefinitions) {
 }
 
 TEST(GainBoundsTest, AnEmptyGainNeedsNoBound) {
-  const tests::YamlProblem yaml(problem_with("L: \"inv(P)*Y*zeros(p, 0)\""));
+  const tests::YamlProblem yaml(with_gains("L: \"inv(P)*Y*zeros(p, 0)\""));
   EXPECT_TRUE(gain_bounds(Inequalities(yaml.instance), 100).list.empty());
 }
 
 TEST(GainBoundsTest, NoBoundNoBlocks) {
-  const tests::YamlProblem yaml(problem_with("L: inv(P)*Y"));
+  const tests::YamlProblem yaml(with_gains("L: inv(P)*Y"));
   EXPECT_TRUE(gain_bounds(Inequalities(yaml.instance), std::nullopt).blocks.empty());
 }
 
 /// Random unknowns: the blocks are positive for some s exactly when the measure that is reported is
 /// below beta, and the measure is never below the gain's norm.
 TEST(GainBoundsTest, BlocksSayTheSameAsTheMeasure) {
-  const tests::YamlProblem yaml(problem_with("L: inv(P)*Y"));
+  const tests::YamlProblem yaml(with_gains("L: inv(P)*Y"));
   const Inequalities inequalities(yaml.instance);
   const Unknowns& unknowns = inequalities.unknowns;
   const double beta = 3;

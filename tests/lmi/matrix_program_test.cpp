@@ -20,7 +20,7 @@ constexpr const char* kPlant =
     "  C: [[1, 0, 2e3], [0, 0.3, 1]]\n  a: 0.3\n";
 
 /// A method of one's own with this plant.
-std::string problem_with(const std::string& rest) {
+std::string of_plant(const std::string& rest) {
   return "problem: p\nmethod:\n  method: m\n"
          "  data: {A: n x n, B: n x m, C: p x n, a: scalar}\n" +
          rest + "data:\n" + kPlant;
@@ -33,47 +33,45 @@ struct Named {
 
 const std::vector<Named>& problems() {
   static const std::vector<Named> list = {
-      {"lyapunov", problem_with("  unknowns: {P: symmetric n}\n  require: {positive: P > 0, "
-                                "decrease: He(P*A) + a*P < 0}\n")},
-      {"written_out", problem_with("  unknowns: {P: symmetric n}\n  require: {positive: P > I, "
-                                   "decrease: A'*P + a*P + P*A + 0.1*eye(3) < 0}\n")},
-      {"observer",
-       problem_with("  unknowns: {P: symmetric n, Y: n x p}\n  require: {positive: P > 0, "
-                    "decrease: He(P*A - Y*C) + a*P < 0}\n  gains: {L: inv(P)*Y}\n")},
+      {"lyapunov", of_plant("  unknowns: {P: symmetric n}\n  require: {positive: P > 0, "
+                            "decrease: He(P*A) + a*P < 0}\n")},
+      {"written_out", of_plant("  unknowns: {P: symmetric n}\n  require: {positive: P > I, "
+                               "decrease: A'*P + a*P + P*A + 0.1*eye(3) < 0}\n")},
+      {"observer", of_plant("  unknowns: {P: symmetric n, Y: n x p}\n  require: {positive: P > 0, "
+                            "decrease: He(P*A - Y*C) + a*P < 0}\n  gains: {L: inv(P)*Y}\n")},
       {"stated_bound",
-       problem_with("  unknowns: {P: symmetric n, Y: n x p}\n  require: {positive: P > I, "
-                    "decrease: He(P*A - Y*C) + a*P < 0}\n  minimize: trace(P)\n"
-                    "  gains: {L: inv(P)*Y}\n") +
+       of_plant("  unknowns: {P: symmetric n, Y: n x p}\n  require: {positive: P > I, "
+                "decrease: He(P*A - Y*C) + a*P < 0}\n  minimize: trace(P)\n"
+                "  gains: {L: inv(P)*Y}\n") +
            "synthesis: {gain_bound: 30}\n"},
       {"feedback",
-       problem_with("  unknowns: {Q: symmetric n, R: m x n}\n  require: {positive: Q > 0, "
-                    "decrease: \"A*Q + B*R + (A*Q + B*R)' < -a*Q\"}\n  gains: {K: R*inv(Q)}\n")},
+       of_plant("  unknowns: {Q: symmetric n, R: m x n}\n  require: {positive: Q > 0, "
+                "decrease: \"A*Q + B*R + (A*Q + B*R)' < -a*Q\"}\n  gains: {K: R*inv(Q)}\n")},
       {"bounded_real",
-       problem_with("  unknowns: {P: symmetric n, g: scalar}\n  require:\n    positive: P > 0\n"
-                    "    gain: \"[He(P*A) + C'*C, P*B; *, -g*I] < 0\"\n  minimize: g\n")},
-      {"discrete", problem_with("  unknowns: {P: symmetric n}\n  require: {positive: P > 0, "
-                                "decrease: A'*P*A - P/2 < 3*P}\n")},
+       of_plant("  unknowns: {P: symmetric n, g: scalar}\n  require:\n    positive: P > 0\n"
+                "    gain: \"[He(P*A) + C'*C, P*B; *, -g*I] < 0\"\n  minimize: g\n")},
+      {"discrete", of_plant("  unknowns: {P: symmetric n}\n  require: {positive: P > 0, "
+                            "decrease: A'*P*A - P/2 < 3*P}\n")},
       {"congruence",
-       problem_with("  unknowns: {P: symmetric n, X: 3 x 3}\n  require:\n"
-                    "    positive: \"B'*(P + He(X))*B > 0\"\n"
-                    "    part: \"[P(1:2, 1:2), B'*P; *, expm(A)'*P*expm(A) - 0.01*P] > 0\"\n")},
-      {"mixed", problem_with("  unknowns: {P: symmetric n, D: diagonal n, Y: n x p, g: scalar}\n"
-                             "  require:\n    positive: \"P + D > g*I\"\n"
-                             "    decrease: He(P*A - Y*C) + D < 0\n    bound: g > 1\n"
-                             "  minimize: trace(P*B*B') + 3*Y(1, 2) + g\n")},
+       of_plant("  unknowns: {P: symmetric n, X: 3 x 3}\n  require:\n"
+                "    positive: \"B'*(P + He(X))*B > 0\"\n"
+                "    part: \"[P(1:2, 1:2), B'*P; *, expm(A)'*P*expm(A) - 0.01*P] > 0\"\n")},
+      {"mixed", of_plant("  unknowns: {P: symmetric n, D: diagonal n, Y: n x p, g: scalar}\n"
+                         "  require:\n    positive: \"P + D > g*I\"\n"
+                         "    decrease: He(P*A - Y*C) + D < 0\n    bound: g > 1\n"
+                         "  minimize: trace(P*B*B') + 3*Y(1, 2) + g\n")},
       {"interval",
-       problem_with("  unknowns: {P: symmetric n, Y: n x p}\n  require:\n    positive: P > 0\n"
-                    "    all: {forall: \"tau in [0, 0.4]\", that: \"(1 + tau)*He(P*A - Y*C) + "
-                    "exp(a*tau)*P < tau*eye(3)\"}\n")},
+       of_plant("  unknowns: {P: symmetric n, Y: n x p}\n  require:\n    positive: P > 0\n"
+                "    all: {forall: \"tau in [0, 0.4]\", that: \"(1 + tau)*He(P*A - Y*C) + "
+                "exp(a*tau)*P < tau*eye(3)\"}\n")},
       {"polytope",
-       problem_with("  unknowns: {P: symmetric n}\n  require:\n    positive: P > 0\n"
-                    "    all: {forall: \"F in conv{A, A - eye(3), 1.5*A}\", that: He(P*F) < 0}\n")},
+       of_plant("  unknowns: {P: symmetric n}\n  require:\n    positive: P > 0\n"
+                "    all: {forall: \"F in conv{A, A - eye(3), 1.5*A}\", that: He(P*F) < 0}\n")},
       {"functions",
-       problem_with(
-           "  unknowns: {P: {shape: symmetric n, of: tau, degree: 2}, Y: n x p}\n  require:\n"
-           "    positive: {forall: \"tau in [0, 1]\", that: P(tau) > 0}\n"
-           "    all: {forall: \"tau in [0, 1]\", that: \"He(P(tau)*A + tau*P(0) - "
-           "Y*C) < 0\"}\n")},
+       of_plant("  unknowns: {P: {shape: symmetric n, of: tau, degree: 2}, Y: n x p}\n  require:\n"
+                "    positive: {forall: \"tau in [0, 1]\", that: P(tau) > 0}\n"
+                "    all: {forall: \"tau in [0, 1]\", that: \"He(P(tau)*A + tau*P(0) - "
+                "Y*C) < 0\"}\n")},
       {"sampled_data_hybrid",
        "problem: p\nmethod: sampled-data-hybrid\ndata:\n  A: [[-1, 0.7, 0], [-2, -3, 0.5], "
        "[0.25, 0.3, -0.9]]\n  C: [[1, 0, 2], [0, 0.3, 1]]\n  T1: 0.05\n  T2: 0.1\n  QF: I\n  QJ: "
@@ -124,8 +122,8 @@ Matrix slack(const sdp::MatrixProgram& program, std::size_t k, const std::vector
 }
 
 /// sum x_i F_i - F_0 of one block, and the sum of the sizes of its terms.
-std::pair<Matrix, double> slack(const sdp::Problem& problem, int block,
-                                const std::vector<double>& x) {
+std::pair<Matrix, double> slack_and_sizes(const sdp::Problem& problem, int block,
+                                          const std::vector<double>& x) {
   const int size = problem.blocks[static_cast<std::size_t>(block)].size;
   Matrix result = Matrix::Zero(size, size);
   double sizes = 0;
@@ -156,7 +154,7 @@ class MatrixProgramTest : public ::testing::TestWithParam<Named> {
       const std::vector<double> y = balanced_variables(formulation, *program, x);
       std::size_t dense = 0, row = 0;
       for (std::size_t b = 0; b < problem.blocks.size(); ++b) {
-        const auto [expected, sizes] = slack(problem, static_cast<int>(b), y);
+        const auto [expected, sizes] = slack_and_sizes(problem, static_cast<int>(b), y);
         Matrix found(1, 1);
         if (problem.blocks[b].diagonal) {
           ASSERT_LT(row, program->rows.size());
@@ -272,8 +270,7 @@ INSTANTIATE_TEST_SUITE_P(Problems, MatrixProgramTest, ::testing::ValuesIn(proble
 TEST(MatrixProgram, ProductsAreAsFewAsTheyCanBe) {
   const auto count = [](const std::string& that) {
     const Posed posed(
-        problem_with("  unknowns: {P: symmetric n, Y: n x p}\n  require: {it: \"" + that + "\"}\n"),
-        1);
+        of_plant("  unknowns: {P: symmetric n, Y: n x p}\n  require: {it: \"" + that + "\"}\n"), 1);
     return posed.lmi.blocks[0].products->size();
   };
   tests::expect_counts(count, {{"P > 0", 1},
@@ -286,8 +283,7 @@ TEST(MatrixProgram, ProductsAreAsFewAsTheyCanBe) {
 
 TEST(MatrixProgram, NoneWhereAMatrixStandsByItsScalars) {
   const auto program = [](const std::string& require) {
-    const Posed posed(problem_with("  unknowns: {P: symmetric n}\n  require: {" + require + "}\n"),
-                      1);
+    const Posed posed(of_plant("  unknowns: {P: symmetric n}\n  require: {" + require + "}\n"), 1);
     return matrix_program(posed.lmi, {}, formulate_interior(posed.lmi, {}, {}), {});
   };
   EXPECT_FALSE(program("it: P + trace(P)*eye(3) > 0"));
@@ -298,19 +294,18 @@ TEST(MatrixProgram, NoneWhereAMatrixStandsByItsScalars) {
 
 /// The sum is symmetric, what stands in products alone is not.
 TEST(MatrixProgram, TermsAndProductsAreSymmetricTogether) {
-  const Posed posed(problem_with("  unknowns: {P: symmetric n}\n  require: {it: "
-                                 "\"P*A + (P*A)'.*ones(3, 3) < 0\"}\n"),
+  const Posed posed(of_plant("  unknowns: {P: symmetric n}\n  require: {it: "
+                             "\"P*A + (P*A)'.*ones(3, 3) < 0\"}\n"),
                     1);
   EXPECT_FALSE(posed.lmi.blocks[0].products);
-  const Posed other(problem_with("  unknowns: {P: symmetric n}\n  require: {it: He(P*A) < 0}\n"),
-                    1);
+  const Posed other(of_plant("  unknowns: {P: symmetric n}\n  require: {it: He(P*A) < 0}\n"), 1);
   std::vector<double> x = {1, 0.3, -0.2, 2, 0.5, 3};
   EXPECT_LT((posed.lmi.blocks[0].value(x) - other.lmi.blocks[0].value(x)).norm(), 1e-14);
 }
 
 TEST(MatrixProgram, NoneWhereScalarsAreFree) {
-  const Posed posed(problem_with("  unknowns: {P: symmetric n, Y: n x p, g: scalar}\n  require:\n"
-                                 "    it: \"[P, P*B; *, g*eye(2)] > 0\"\n"),
+  const Posed posed(of_plant("  unknowns: {P: symmetric n, Y: n x p, g: scalar}\n  require:\n"
+                             "    it: \"[P, P*B; *, g*eye(2)] > 0\"\n"),
                     1);
   const Formulation formulation = formulate_interior(posed.lmi, {}, {});
   ASSERT_FALSE(formulation.free_variables.list.empty());
@@ -319,8 +314,8 @@ TEST(MatrixProgram, NoneWhereScalarsAreFree) {
 
 TEST(MatrixProgram, AnAsymmetricSumIsRefused) {
   for (const char* that : {"P*A < 0", "P*A + A'*P + Y*C < 0"})
-    EXPECT_THROW(Posed(problem_with("  unknowns: {P: symmetric n, Y: n x p}\n  require: {it: \"" +
-                                    std::string(that) + "\"}\n"),
+    EXPECT_THROW(Posed(of_plant("  unknowns: {P: symmetric n, Y: n x p}\n  require: {it: \"" +
+                                std::string(that) + "\"}\n"),
                        1),
                  InputError)
         << that;

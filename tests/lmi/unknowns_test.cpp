@@ -8,7 +8,7 @@
 namespace gainsmith::lmi {
 namespace {
 
-constexpr const char* kProblem = R"(
+constexpr const char* kUnknowns = R"(
 problem: packing
 method:
   method: packing
@@ -19,7 +19,7 @@ data: {A: [[1, 2, 3], [4, 5, 6], [7, 8, 9]], C: [[1, 0, 0], [0, 1, 0]]}
 )";
 
 TEST(UnknownsTest, PackingIsTheDocumentedOne) {
-  const tests::YamlProblem yaml(kProblem);
+  const tests::YamlProblem yaml(kUnknowns);
   const Unknowns unknowns = Inequalities(yaml.instance).unknowns;
   ASSERT_EQ(unknowns.size(), 6 + 6 + 3 + 1);
   std::vector<double> x;
@@ -36,7 +36,7 @@ TEST(UnknownsTest, PackingIsTheDocumentedOne) {
 }
 
 TEST(UnknownsTest, ScalarsHaveNames) {
-  const tests::YamlProblem yaml(kProblem);
+  const tests::YamlProblem yaml(kUnknowns);
   const Unknowns unknowns = Inequalities(yaml.instance).unknowns;
   EXPECT_EQ(unknowns.scalar_name(2), "P(2,1)");
   EXPECT_EQ(unknowns.scalar_name(10), "Y(1,2)");

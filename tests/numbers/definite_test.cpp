@@ -15,7 +15,7 @@ Enclosed<S> within(const Matrix& mid, double radius = 0) {
   return {mid.cast<S>(), Matrix::Constant(mid.rows(), mid.cols(), radius)};
 }
 
-class Random {
+class RandomMatrices {
  public:
   Matrix matrix(int rows, int cols) {
     return Matrix::NullaryExpr(rows, cols, [&] { return normal_(generator_); });
@@ -34,7 +34,7 @@ TYPED_TEST_SUITE(DefiniteOf, Scalars);
 
 /// Q diag(least, ...) Q' with other eigenvalues in [0.5, 1.5], in units over 12 decades.
 TYPED_TEST(DefiniteOf, RandomMatricesOfAKnownSmallestEigenvalue) {
-  Random random;
+  RandomMatrices random;
   for (int trial = 0; trial < 40; ++trial) {
     const int n = 1 + trial % 7;
     for (const double least : {1e-2, 1e-6, 1e-11, -1e-11, -1e-6, -1e-2}) {
@@ -105,7 +105,7 @@ TYPED_TEST(DefiniteOf, TouchingZeroIsNotPositiveAndNotNegative) {
 }
 
 TEST(Definite, MarginIsTheSameInAllUnits) {
-  Random random;
+  RandomMatrices random;
   for (int trial = 0; trial < 30; ++trial) {
     const int n = 1 + trial % 6;
     const Matrix X = random.matrix(n, n);

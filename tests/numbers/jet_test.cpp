@@ -17,7 +17,7 @@ namespace {
 
 using Wide = MatrixOf<Decimal100>;
 
-expr::Program program(const std::string& text) {
+expr::Program program_in_t(const std::string& text) {
   expr::Scope scope;
   scope.symbols["t"] = {};
   return expr::compile(expr::parse({text, "test"}), scope);
@@ -42,7 +42,7 @@ void expect_inside(const Enclosed<double>& enclosure, const Wide& exact, const s
 void expect_enclosed(const std::string& text, double low, double high, bool smooth = true) {
   std::mt19937 generator(3);
   std::uniform_real_distribution<double> unit(0, 1);
-  const expr::Program f = program(text);
+  const expr::Program f = program_in_t(text);
   for (const double part : {1.0, 0.3, 1e-3, 1e-9}) {
     const double a = low + (high - low) * (1 - part) * unit(generator);
     const double b = std::min(high, a + part * (high - low));
@@ -143,7 +143,7 @@ TEST(Jet, KinksAndCusps) {
 
 /// The bend of an exponential over a short piece is not far above the true one.
 TEST(Jet, BendsAreTight) {
-  const expr::Program f = program("expm([0, 1; -1, 0]*t)");
+  const expr::Program f = program_in_t("expm([0, 1; -1, 0]*t)");
   expr::Evaluator<JetAlgebra> evaluator(f);
   const Jet variable = variable_jet(20, 20.1);
   evaluator.set("t", variable);

@@ -13,9 +13,9 @@ namespace gainsmith::numbers {
 namespace {
 
 /// Texts over x of three elements, the time t and the constant A.
-class Texts {
+class TapeOf {
  public:
-  explicit Texts(std::initializer_list<std::string> texts) {
+  explicit TapeOf(std::initializer_list<std::string> texts) {
     constants_["A"] = (Matrix(3, 3) << 0, 1, 0, -2, -1, 0, 0, 0, 3).finished();
     expr::Scope scope;
     scope.symbols["A"] = {{3, 3}, true};
@@ -59,19 +59,19 @@ class Texts {
 Vector point(double a, double b, double c) { return (Vector(3) << a, b, c).finished(); }
 
 TEST(Tape, WhatSeveralResultsShareIsComputedOnce) {
-  const std::size_t one = Texts({"exp(x(1))*sin(x(2))"}).operations();
-  EXPECT_EQ(Texts({"exp(x(1))*sin(x(2))", "sin(x(2))*exp(x(1))"}).operations(), one);
-  EXPECT_EQ(Texts({"exp(x(1))*sin(x(2))", "exp(x(1))*sin(x(2)) + x(3)"}).operations(), one + 1);
+  const std::size_t one = TapeOf({"exp(x(1))*sin(x(2))"}).operations();
+  EXPECT_EQ(TapeOf({"exp(x(1))*sin(x(2))", "sin(x(2))*exp(x(1))"}).operations(), one);
+  EXPECT_EQ(TapeOf({"exp(x(1))*sin(x(2))", "exp(x(1))*sin(x(2)) + x(3)"}).operations(), one + 1);
 }
 
 TEST(Tape, ZerosAndOnesOfAMatrixCostNothing) {
   // x(2); -2 x(1) - x(2); 3 x(3)
-  EXPECT_LE(Texts({"A*x"}).operations(), 3U);
-  EXPECT_EQ(Texts({"eye(3)*x + zeros(3, 1)"}).operations(), 0U);
+  EXPECT_LE(TapeOf({"A*x"}).operations(), 3U);
+  EXPECT_EQ(TapeOf({"eye(3)*x + zeros(3, 1)"}).operations(), 0U);
 }
 
 TEST(Tape, ADerivativeIsAFormula) {
-  const Texts texts({"jacobian([x(1)*x(2); x(3)^2; sin(x(1))], x)"});
+  const TapeOf texts({"jacobian([x(1)*x(2); x(3)^2; sin(x(1))], x)"});
   StackedFunctions functions = texts.functions();
   ASSERT_TRUE(functions.run(point(2, 3, 5)));
   Matrix expected(3, 3);
@@ -81,10 +81,10 @@ TEST(Tape, ADerivativeIsAFormula) {
 }
 
 TEST(Tape, AFlowMapIsThatOfReal) {
-  const Texts texts({"flow_map([x(2); -sin(x(1)); 0.1*x(1)], x, 0.8)",
-                     "flow_map([x(2); -9.8 - abs(x(2))*x(2); t], x, -x(3)/10)",
-                     "flow_map([sign(x(2)); 0.3 - x(2); max(x(1), t)], x, 2)",
-                     "flow_map(A*x, x, 0)", "flow_map(ones(3, 1), x, t)"});
+  const TapeOf texts({"flow_map([x(2); -sin(x(1)); 0.1*x(1)], x, 0.8)",
+                      "flow_map([x(2); -9.8 - abs(x(2))*x(2); t], x, -x(3)/10)",
+                      "flow_map([sign(x(2)); 0.3 - x(2); max(x(1), t)], x, 2)",
+                      "flow_map(A*x, x, 0)", "flow_map(ones(3, 1), x, t)"});
   StackedFunctions functions = texts.functions();
   for (const Vector& x : {point(1, -0.2, 3), point(-2, 4, 0.5), point(1, -0.2, 3)})
     for (const double t : {0.4, -1.0}) {
@@ -95,7 +95,7 @@ TEST(Tape, AFlowMapIsThatOfReal) {
 }
 
 TEST(Tape, AFlowMapThatEscapesNamesItsPlace) {
-  const Texts texts({"flow_map([x(1)^2; 0; 0], x, 3)"});
+  const TapeOf texts({"flow_map([x(1)^2; 0; 0], x, 3)"});
   StackedFunctions functions = texts.functions();
   EXPECT_TRUE(functions.run(point(0.3, 0, 0)));
   EXPECT_FALSE(functions.run(point(1, 0, 0)));
@@ -103,7 +103,7 @@ TEST(Tape, AFlowMapThatEscapesNamesItsPlace) {
 }
 
 TEST(Tape, WhereSomethingHasNoValueItsPlaceIsNamed) {
-  const Texts texts({"x(1)", "log(x(2))", "1/x(3)"});
+  const TapeOf texts({"x(1)", "log(x(2))", "1/x(3)"});
   StackedFunctions functions = texts.functions();
   EXPECT_FALSE(functions.run(point(1, -1, 1)));
   EXPECT_EQ(functions.at(0, point(1, -1, 1))(0), 1);
@@ -113,7 +113,7 @@ TEST(Tape, WhereSomethingHasNoValueItsPlaceIsNamed) {
 }
 
 TEST(Tape, AZeroHidesNoFault) {
-  const Texts texts({"0*log(x(1)) + 0*inv([x(2), 1; 1, x(2)])(1, 1)"});
+  const TapeOf texts({"0*log(x(1)) + 0*inv([x(2), 1; 1, x(2)])(1, 1)"});
   StackedFunctions functions = texts.functions();
   EXPECT_TRUE(functions.run(point(1, 2, 0)));
   EXPECT_FALSE(functions.run(point(-1, 2, 0)));
@@ -121,7 +121,7 @@ TEST(Tape, AZeroHidesNoFault) {
 }
 
 TEST(Tape, TheInverseOfASmallMatrixIsThatOfReal) {
-  const Texts texts({"inv([x(1), 1, 0; 1e6, x(2), 1; 0, 1, 1e-6*x(3)])"});
+  const TapeOf texts({"inv([x(1), 1, 0; 1e6, x(2), 1; 0, 1, 1e-6*x(3)])"});
   StackedFunctions functions = texts.functions();
   for (const Vector& x : {point(2, 3, 5), point(0, 1, -2), point(-1e3, 7, 1e4)}) {
     ASSERT_TRUE(functions.run(x));

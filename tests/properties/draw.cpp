@@ -71,4 +71,11 @@ Coordinates Draw::coordinates(int n) {
   return {sheared.T * scaled.T, scaled.inverse * sheared.inverse};
 }
 
+ExactMatrix symmetric(Draw& draw, int n) {
+  ExactMatrix F(n, n);
+  for (int i = 0; i < n; ++i)
+    for (int j = i; j < n; ++j) F(i, j) = F(j, i) = draw.between(-5, 5);
+  return F;
+}
+
 }  // namespace gainsmith::tests::properties

@@ -62,4 +62,7 @@ class Draw {
   int closeness_;  ///< 0 far, 1 near, 2 within 1e-6
 };
 
+/// A symmetric matrix of whole numbers in [-5, 5].
+ExactMatrix symmetric(Draw& draw, int n);
+
 }  // namespace gainsmith::tests::properties

@@ -32,6 +32,9 @@ const std::vector<Family>& edge_families();
 /// `only` is empty, of edge_families() for "edges", of both for "all".
 const Family& family_of(std::uint64_t seed, std::uint64_t index, const std::string& only = {});
 
+/// That tests take.
+constexpr std::uint64_t kSeed = 0xC1C1C1;
+
 /// Case `index` of a seed.
 Case make_case(std::uint64_t seed, std::uint64_t index, const std::string& only = {},
                std::optional<OtherUnits> others = {});

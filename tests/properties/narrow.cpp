@@ -56,13 +56,6 @@ ExactMatrix congruent(const Coordinates& to, const ExactMatrix& M) {
   return to.T.transpose() * M * to.T;
 }
 
-ExactMatrix symmetric(Draw& draw, int n) {
-  ExactMatrix F(n, n);
-  for (int i = 0; i < n; ++i)
-    for (int j = i; j < n; ++j) F(i, j) = F(j, i) = draw.between(-5, 5);
-  return F;
-}
-
 /// diag of 1 to 5.
 ExactMatrix positive(Draw& draw, int n) {
   std::vector<Exact> d;

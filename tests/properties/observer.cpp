@@ -12,14 +12,14 @@ namespace gainsmith::tests::properties {
 
 namespace {
 
-struct Plant {
+struct HiddenPlant {
   ExactMatrix A, C;
 };
 
 /// `hidden`: A2.
-Plant planted(Draw& draw, const ExactMatrix& hidden, int seen) {
+HiddenPlant planted(Draw& draw, const ExactMatrix& hidden, int seen) {
   const int n = seen + hidden.rows();
-  Plant plant{ExactMatrix(n, n), ExactMatrix(1, n)};
+  HiddenPlant plant{ExactMatrix(n, n), ExactMatrix(1, n)};
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < seen && (j <= i || i >= seen); ++j)
       plant.A(i, j) = draw.hundredths(-200, 200);
@@ -31,13 +31,13 @@ Plant planted(Draw& draw, const ExactMatrix& hidden, int seen) {
   return plant;
 }
 
-Plant moved(Draw& draw, const Plant& plant, const Exact& rate) {
+HiddenPlant moved(Draw& draw, const HiddenPlant& plant, const Exact& rate) {
   const Coordinates to = draw.coordinates(plant.A.rows());
   const Exact output = draw.unit();
   return {rate * similar(to, plant.A), output * (plant.C * to.T)};
 }
 
-std::string data(const Plant& plant, bool dual) {
+std::string data(const HiddenPlant& plant, bool dual) {
   return dual ? "data:\n  A: " + yaml(plant.A.transpose()) + "\n  B: " + yaml(plant.C.transpose()) +
                     "\n"
               : "data:\n  A: " + yaml(plant.A) + "\n  C: " + yaml(plant.C) + "\n";
@@ -48,7 +48,7 @@ Case observer(Draw& draw) {
   const Exact rate = draw.unit();
   const int seen = draw.between(1, 3);
   const ExactMatrix A2 = continuous_spectrum(draw, hidden, -draw.distance(true));
-  const Plant plant = moved(draw, planted(draw, A2, seen), rate);
+  const HiddenPlant plant = moved(draw, planted(draw, A2, seen), rate);
   const bool dual = draw.chance(0.3);
   return {"observer",
           (dual ? "method:\n  method: state-feedback\n  data: {A: n x n, B: n x m}\n"
@@ -65,7 +65,7 @@ Case discrete_observer(Draw& draw) {
   const int hidden = draw.between(1, 2);
   const int seen = draw.between(1, 3);
   const ExactMatrix A2 = discrete_spectrum(draw, hidden, 1 - draw.small_distance(true));
-  const Plant plant = moved(draw, planted(draw, A2, seen), 1);
+  const HiddenPlant plant = moved(draw, planted(draw, A2, seen), 1);
   return {"discrete-observer",
           "method:\n  method: discrete-observer\n  data: {A: n x n, C: p x n}\n"
           "  unknowns: {P: symmetric n, Y: n x p}\n  require:\n    positive: P > 0\n"

@@ -29,13 +29,6 @@ Whole unimodular(Draw& draw, int n) {
   return result;
 }
 
-ExactMatrix symmetric(Draw& draw, int n) {
-  ExactMatrix F(n, n);
-  for (int i = 0; i < n; ++i)
-    for (int j = i; j < n; ++j) F(i, j) = F(j, i) = draw.between(-5, 5);
-  return F;
-}
-
 /// M diag(d) M' with d from 1 to 5 in [first, last), 0 elsewhere.
 ExactMatrix semidefinite(Draw& draw, const ExactMatrix& M, int first, int last) {
   std::vector<Exact> d(static_cast<std::size_t>(M.rows()));

@@ -61,14 +61,15 @@ Case held_gain(Draw& draw) {
       draw.is_yes(), draw.is_easy()};
 }
 
-struct Plant {
+struct SampledPlant {
   ExactMatrix A, C;
 };
 
 /// A1 with real parts below -slack - 0.2, all of it seen in the first row of C or in all rows.
-Plant with_hidden_mode(Draw& draw, const Exact& mode, int seen, const Exact& slack, int outputs) {
+SampledPlant with_hidden_mode(Draw& draw, const Exact& mode, int seen, const Exact& slack,
+                              int outputs) {
   const ExactMatrix A1 = continuous_spectrum(draw, seen, -slack - draw.hundredths(20, 200), slack);
-  Plant plant{ExactMatrix(seen + 1, seen + 1), ExactMatrix(outputs, seen + 1)};
+  SampledPlant plant{ExactMatrix(seen + 1, seen + 1), ExactMatrix(outputs, seen + 1)};
   for (int i = 0; i < seen; ++i) {
     for (int j = 0; j < seen; ++j) plant.A(i, j) = A1(i, j);
     plant.A(seen, i) = draw.between(-2, 2);
@@ -78,8 +79,8 @@ Plant with_hidden_mode(Draw& draw, const Exact& mode, int seen, const Exact& sla
   return plant;
 }
 
-Case built_in(Draw& draw, const std::string& name, const std::string& method, const Plant& plant,
-              const Exact& delta) {
+Case built_in(Draw& draw, const std::string& name, const std::string& method,
+              const SampledPlant& plant, const Exact& delta) {
   const Exact second = draw.unit();
   const Coordinates to = draw.coordinates(plant.A.rows());
   const Exact first = draw.hundredths(1, 50);

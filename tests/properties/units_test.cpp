@@ -12,8 +12,7 @@
 namespace gainsmith::tests::properties {
 namespace {
 
-constexpr std::uint64_t kSeed = 0xC1C1C1;
-constexpr std::uint64_t kCases = 12;
+constexpr std::uint64_t kCasesInUnits = 12;
 
 model::Gains solved(const std::string& family, std::uint64_t index,
                     std::optional<OtherUnits> others) {
@@ -24,7 +23,7 @@ model::Gains solved(const std::string& family, std::uint64_t index,
 class UnitsTest : public testing::TestWithParam<std::string> {};
 
 TEST_P(UnitsTest, PowersOfTwoChangeNoDigit) {
-  for (std::uint64_t index = 0; index < kCases; ++index) {
+  for (std::uint64_t index = 0; index < kCasesInUnits; ++index) {
     if (!make_case(kSeed, index, GetParam()).easy) continue;
     const model::Gains one = solved(GetParam(), index, {});
     const model::Gains other = solved(GetParam(), index, OtherUnits{7, true});
@@ -41,7 +40,7 @@ TEST_P(UnitsTest, PowersOfTwoChangeNoDigit) {
 }
 
 TEST_P(UnitsTest, OtherFactorsChangeNoVerdict) {
-  for (std::uint64_t index = 0; index < kCases; ++index) {
+  for (std::uint64_t index = 0; index < kCasesInUnits; ++index) {
     if (!make_case(kSeed, index, GetParam()).easy) continue;
     EXPECT_EQ(solved(GetParam(), index, {}).verdict,
               solved(GetParam(), index, OtherUnits{7, false}).verdict)

@@ -9,7 +9,6 @@
 namespace gainsmith::tests::properties {
 namespace {
 
-constexpr std::uint64_t kSeed = 0xC1C1C1;
 constexpr std::uint64_t kCases = 240;
 constexpr std::uint64_t kEdgeCases = 60;
 

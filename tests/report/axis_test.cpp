@@ -6,12 +6,10 @@
 
 #include "base/number.h"
 #include "base/random.h"
+#include "report/extremes.h"
 
 namespace gainsmith::report {
 namespace {
-
-constexpr double largest = std::numeric_limits<double>::max();
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 Extent extent(std::initializer_list<double> values) {
   Extent all;

@@ -1,4 +1,5 @@
 #include "report/band.h"
+#include "report/extremes.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +8,6 @@
 
 namespace gainsmith::report {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// 100 x 100 pixels for times from 0 to 10 and values from 0 to 1.
 std::string shape(const Band& band) {

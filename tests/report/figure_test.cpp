@@ -9,14 +9,11 @@
 
 #include "base/number.h"
 #include "base/random.h"
+#include "report/extremes.h"
 #include "report/xml.h"
 
 namespace gainsmith::report {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr double largest = std::numeric_limits<double>::max();
 
 /// A decaying oscillation and its estimate that jumps towards it `jumps` times.
 std::vector<Curve> state_and_estimate(std::size_t jumps) {
@@ -37,7 +34,7 @@ std::vector<Curve> state_and_estimate(std::size_t jumps) {
   return {state, estimate};
 }
 
-Curve curve(std::vector<double> t, std::vector<double> value) {
+Curve plain(std::vector<double> t, std::vector<double> value) {
   return {"c", std::move(t), std::move(value), {}, false, 0};
 }
 
@@ -46,12 +43,12 @@ std::vector<Figure> odd_figures() {
       {}, {"only a title", "t", {}}, {"a & b < c", "\"t\" > 0", {{"<panel>", "&", false, {}}}}};
   for (const bool logarithmic : {false, true})
     for (const Curve& shown :
-         {curve({}, {}), curve({1}, {2}), curve({nan}, {nan}), curve({0, 1}, {infinite, -infinite}),
-          curve({0, 1}, {0, 0}), curve({0, 1}, {5, 5}), curve({0, 1}, {-1, -2}),
-          curve({0, 1}, {-largest, largest}), curve({0, 1}, {5e-324, largest}),
-          curve({-largest, largest}, {1, 2}), curve({0, 5e-324}, {5e-324, 1e-323}),
-          curve({1e9, 1e9 + 1e-6}, {1e9, 1e9 + 1e-6}),
-          curve({0, infinite, 2, nan, 4}, {1, 1, nan, 1, 3}), curve({3, 3, 3}, {1, 2, 3})})
+         {plain({}, {}), plain({1}, {2}), plain({nan}, {nan}), plain({0, 1}, {infinite, -infinite}),
+          plain({0, 1}, {0, 0}), plain({0, 1}, {5, 5}), plain({0, 1}, {-1, -2}),
+          plain({0, 1}, {-largest, largest}), plain({0, 1}, {5e-324, largest}),
+          plain({-largest, largest}, {1, 2}), plain({0, 5e-324}, {5e-324, 1e-323}),
+          plain({1e9, 1e9 + 1e-6}, {1e9, 1e9 + 1e-6}),
+          plain({0, infinite, 2, nan, 4}, {1, 1, nan, 1, 3}), plain({3, 3, 3}, {1, 2, 3})})
       figures.push_back(
           {"odd",
            "t",
@@ -68,11 +65,6 @@ std::vector<test::Element> elements(const Figure& figure) {
 std::size_t count(const std::vector<test::Element>& all, const std::string& name) {
   return static_cast<std::size_t>(std::count_if(
       all.begin(), all.end(), [&](const test::Element& e) { return e.name == name; }));
-}
-
-bool has_text(const std::vector<test::Element>& all, const std::string& text) {
-  return std::any_of(all.begin(), all.end(),
-                     [&](const test::Element& e) { return e.name == "text" && e.text == text; });
 }
 
 TEST(Figure, IsWellFormedWhateverItShows) {
@@ -162,13 +154,13 @@ TEST(Figure, PanelsStandOneBelowTheOtherOverOneTimeAxis) {
 
 TEST(Figure, EmptyPanelsSaySo) {
   EXPECT_TRUE(has_text(elements({"", "", {{"p", "", false, {}}}}), "no data"));
-  EXPECT_TRUE(has_text(elements({"", "", {{"p", "", true, {curve({0, 1}, {0, -1})}}}}), "no data"));
-  EXPECT_FALSE(has_text(elements({"", "", {{"p", "", false, {curve({0}, {0})}}}}), "no data"));
+  EXPECT_TRUE(has_text(elements({"", "", {{"p", "", true, {plain({0, 1}, {0, -1})}}}}), "no data"));
+  EXPECT_FALSE(has_text(elements({"", "", {{"p", "", false, {plain({0}, {0})}}}}), "no data"));
 }
 
 TEST(Figure, DenseCurvesStaySmall) {
   RandomStream draw(1, 0);
-  Curve noise = curve({}, {});
+  Curve noise = plain({}, {});
   for (int k = 0; k < 500000; ++k) {
     noise.t.push_back(k * 1e-3);
     noise.value.push_back(draw.uniform());
@@ -179,7 +171,7 @@ TEST(Figure, DenseCurvesStaySmall) {
 }
 
 TEST(Figure, ACurveWithMoreTimesThanValuesIsAFault) {
-  EXPECT_THROW(svg({"", "", {{"", "", false, {curve({0, 1}, {0})}}}}), std::logic_error);
+  EXPECT_THROW(svg({"", "", {{"", "", false, {plain({0, 1}, {0})}}}}), std::logic_error);
 }
 
 TEST(Figure, EstimatesThatAgreeAreAllSeen) {
@@ -199,7 +191,7 @@ TEST(Figure, EstimatesThatAgreeAreAllSeen) {
 }
 
 TEST(Figure, LimitsAreNoEstimates) {
-  Curve claim = curve({0, 1}, {1, 2}), limit = curve({0, 1}, {3, 3});
+  Curve claim = plain({0, 1}, {1, 2}), limit = plain({0, 1}, {3, 3});
   limit.limit = true;
   limit.label.clear();
   std::vector<test::Element> lines;
@@ -211,7 +203,7 @@ TEST(Figure, LimitsAreNoEstimates) {
 }
 
 TEST(Figure, MarksStandAtTheirValuesWithRoomAtTheEnds) {
-  Curve tried = curve({1, 10, 100}, {0, 1, 0});
+  Curve tried = plain({1, 10, 100}, {0, 1, 0});
   tried.mark = Mark::cross;
   tried.label.clear();
   tried.joined = false;
@@ -235,7 +227,7 @@ TEST(Figure, MarksStandAtTheirValuesWithRoomAtTheEnds) {
 }
 
 TEST(Figure, BandsGrowTheAxisByTheExtentOfTheCurvesAtMost) {
-  Panel panel{"", "", false, {curve({0, 1}, {0, 1})}};
+  Panel panel{"", "", false, {plain({0, 1}, {0, 1})}};
   panel.bands.push_back({"2 sigma", {0, 1}, {-1000, -0.1}, {1000, 1.1}, {}, 1});
   const auto all = elements({"", "t", {panel}});
   EXPECT_TRUE(has_text(all, "2 sigma"));
@@ -248,9 +240,9 @@ TEST(Figure, BandsGrowTheAxisByTheExtentOfTheCurvesAtMost) {
 }
 
 TEST(Figure, PlanesHaveAnAxisOfTheirOwn) {
-  Panel plane{"x2 over x1", "x2", false, {curve({5, 9, 7}, {0, 1, 2})}};
+  Panel plane{"x2 over x1", "x2", false, {plain({5, 9, 7}, {0, 1, 2})}};
   plane.across = "x1";
-  const auto all = elements({"", "t", {{"", "", false, {curve({0, 1}, {0, 1})}}, plane}});
+  const auto all = elements({"", "t", {{"", "", false, {plain({0, 1}, {0, 1})}}, plane}});
   for (const char* text : {"t", "x1", "x2", "x2 over x1", "9"})
     EXPECT_TRUE(has_text(all, text)) << text;
   EXPECT_EQ(count(all, "circle"), 2);  // where it begins and ends

@@ -43,11 +43,6 @@ std::ptrdiff_t with_fill(const std::vector<test::Element>& all, const std::strin
   });
 }
 
-bool has_text(const std::vector<test::Element>& all, const std::string& text) {
-  return std::any_of(all.begin(), all.end(),
-                     [&](const test::Element& e) { return e.name == "text" && e.text == text; });
-}
-
 TEST(Map, NeighboursOfOneColourAreOneRectangle) {
   const auto all = elements(figure(8, 3, 5, false));
   EXPECT_EQ(with_fill(all, "#8fd0b6"), 3);

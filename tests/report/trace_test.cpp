@@ -7,12 +7,10 @@
 #include <limits>
 
 #include "base/random.h"
+#include "report/extremes.h"
 
 namespace gainsmith::report {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// 100 x 100 pixels for times from 0 to 10 and values from 0 to 1.
 Trace traced(const Curve& curve) {

@@ -1,5 +1,6 @@
 #include "report/xml.h"
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <cstdint>
@@ -126,6 +127,11 @@ std::optional<std::vector<Element>> read_xml(std::string_view text) {
   } catch (const Malformed&) {
     return std::nullopt;
   }
+}
+
+bool has_text(const std::vector<Element>& all, const std::string& text) {
+  return std::any_of(all.begin(), all.end(),
+                     [&](const Element& e) { return e.name == "text" && e.text == text; });
 }
 
 }  // namespace gainsmith::test

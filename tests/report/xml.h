@@ -20,4 +20,7 @@ struct Element {
 /// UTF-8.
 std::optional<std::vector<Element>> read_xml(std::string_view text);
 
+/// Whether an element of the name `text` has this text.
+bool has_text(const std::vector<Element>& all, const std::string& text);
+
 }  // namespace gainsmith::test

@@ -16,29 +16,29 @@
 namespace gainsmith::sdp {
 namespace {
 
-using Dense = Eigen::MatrixXd;
+using Doubles = Eigen::MatrixXd;
 
-Dense normal(std::mt19937& random, Eigen::Index rows, Eigen::Index columns) {
+Doubles normal(std::mt19937& random, Eigen::Index rows, Eigen::Index columns) {
   std::normal_distribution<double> distribution;
-  return Dense::NullaryExpr(rows, columns, [&] { return distribution(random); });
+  return Doubles::NullaryExpr(rows, columns, [&] { return distribution(random); });
 }
 
-DenseMatrix stored(const Dense& M) {
+DenseMatrix stored(const Doubles& M) {
   return {static_cast<int>(M.rows()), static_cast<int>(M.cols()), {M.data(), M.data() + M.size()}};
 }
 
 /// A random matrix whose spectral abscissa is `to`.
-Dense shifted(Dense A, double to) {
+Doubles shifted(Doubles A, double to) {
   A.diagonal().array() += to - A.eigenvalues().real().maxCoeff();
   return A;
 }
 
 /// Largest s with P >= s I, He(V F) >= s I and a bound on the sum of the traces; V = P where there
 /// are no outputs, else He(P F1 + Y C).
-MatrixProgram margin_program(const Dense& F, const Dense& C) {
+MatrixProgram margin_program(const Doubles& F, const Doubles& C) {
   const auto n = static_cast<int>(F.rows()), p = static_cast<int>(C.rows());
   const int m = n * (n + 1) / 2, s = m + n * p;
-  const Dense I = Dense::Identity(n, n);
+  const Doubles I = Doubles::Identity(n, n);
   MatrixProgram program;
   program.c.assign(static_cast<std::size_t>(s) + 1, 0);
   program.c.back() = -1;
@@ -67,7 +67,7 @@ MatrixProgram mixed_program(std::mt19937& random) {
   MatrixProgram program;
   program.c.assign(6 + 6 + 2, 1);
   program.unknowns = {{0, 3, 3, true}, {6, 3, 2, false}};
-  Dense selection = Dense::Zero(5, 3);
+  Doubles selection = Doubles::Zero(5, 3);
   selection(1, 0) = 1;
   selection(4, 1) = -2;
   program.blocks.push_back({5,
@@ -111,9 +111,9 @@ Problem expanded(const MatrixProgram& program) {
 Blocks<double> random_symmetric(const Layout& layout, std::mt19937& random, bool positive) {
   Blocks<double> Q(layout);
   for (int b = 0; b < layout.blocks(); ++b) {
-    const Dense M = normal(random, Q.dense(b).rows(), Q.dense(b).cols());
-    Q.dense(b) = positive ? Dense(M * M.transpose() + Dense::Identity(M.rows(), M.cols()))
-                          : Dense(M + M.transpose());
+    const Doubles M = normal(random, Q.dense(b).rows(), Q.dense(b).cols());
+    Q.dense(b) = positive ? Doubles(M * M.transpose() + Doubles::Identity(M.rows(), M.cols()))
+                          : Doubles(M + M.transpose());
   }
   for (double& element : Q.linear()) element = 1 + std::abs(normal(random, 1, 1)(0, 0));
   return Q;
@@ -166,12 +166,12 @@ TEST(MatrixScaling, TakesOnePointToTheOther) {
   const Blocks<double> S = random_symmetric(layout, random, true);
   Scaling scaling(layout);
   Blocks<double> R = X;
-  for (int b = 0; b < 2; ++b) R.dense(b) = Dense(X.dense(b).llt().matrixL());
+  for (int b = 0; b < 2; ++b) R.dense(b) = Doubles(X.dense(b).llt().matrixL());
   ASSERT_TRUE(scaling.prepare(R, S));
   Blocks<double> image(layout);
   scaling.inward(S, image);
   for (int b = 0; b < 2; ++b) {
-    const Dense W = scaling.W().dense(b), D = scaling.d(b).asDiagonal();
+    const Doubles W = scaling.W().dense(b), D = scaling.d(b).asDiagonal();
     EXPECT_LT((W * S.dense(b) * W - X.dense(b)).norm(), 1e-11 * X.dense(b).norm());
     EXPECT_LT((image.dense(b) - D).norm(), 1e-11 * D.norm());
   }
@@ -192,7 +192,7 @@ TEST(MatrixScaling, TakesOnePointToTheOther) {
 
 TEST(MatrixPreconditioner, IsTheInverseForOneBlockOfOneMatrix) {
   std::mt19937 random(4);
-  const Dense I = Dense::Identity(6, 6);
+  const Doubles I = Doubles::Identity(6, 6);
   MatrixProgram program;
   program.c.assign(21, 0);
   program.unknowns = {{0, 6, 6, true}};
@@ -242,8 +242,8 @@ TEST(MatrixSchur, TheFactorIsThatOfTheOperator) {
 TEST(MatrixSolver, FindsAPointInside) {
   for (const int n : {4, 12, 25}) {
     std::mt19937 random(static_cast<unsigned>(n));
-    const Dense A = shifted(0.3 * normal(random, n, n), -0.1);
-    const MatrixProgram program = margin_program(-A, Dense(0, n));
+    const Doubles A = shifted(0.3 * normal(random, n, n), -0.1);
+    const MatrixProgram program = margin_program(-A, Doubles(0, n));
     MatrixOptions options;
     options.start.assign(program.c.size(), 0);
     options.start.back() = -1;
@@ -251,10 +251,10 @@ TEST(MatrixSolver, FindsAPointInside) {
     const Solution found = solve(program, options);
     ASSERT_EQ(found.cause, Cause::enough) << n;
     const MatrixOperator L(program);
-    const Dense P = L.unpack(0, Eigen::Map<const Vector<double>>(
-                                    found.x.data(), static_cast<Eigen::Index>(found.x.size())));
+    const Doubles P = L.unpack(0, Eigen::Map<const Vector<double>>(
+                                      found.x.data(), static_cast<Eigen::Index>(found.x.size())));
     EXPECT_GT(P.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), 0);
-    const Dense decrease = -(P * A + A.transpose() * P);
+    const Doubles decrease = -(P * A + A.transpose() * P);
     EXPECT_GT(decrease.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), 0);
   }
 }
@@ -262,7 +262,7 @@ TEST(MatrixSolver, FindsAPointInside) {
 TEST(MatrixSolver, FindsAnObserver) {
   std::mt19937 random(7);
   const int n = 16;
-  const Dense A = shifted(0.3 * normal(random, n, n), 0.3), C = normal(random, 4, n);
+  const Doubles A = shifted(0.3 * normal(random, n, n), 0.3), C = normal(random, 4, n);
   const MatrixProgram program = margin_program(-A, C);
   MatrixOptions options;
   options.start.assign(program.c.size(), 0);
@@ -276,7 +276,7 @@ TEST(MatrixSolver, TheLargestMarginIsThatOfTheOrdinarySolver) {
   // a).
   const int n = 8;
   for (const double a : {0.1, 0.5, 3.0}) {
-    const MatrixProgram program = margin_program(a * Dense::Identity(n, n), Dense(0, n));
+    const MatrixProgram program = margin_program(a * Doubles::Identity(n, n), Doubles(0, n));
     MatrixOptions options;
     options.start.assign(program.c.size(), 0);
     options.start.back() = -1;
@@ -291,7 +291,7 @@ TEST(MatrixSolver, AMinimumThatTakesTheFactorIsThatOfTheOrdinarySolver) {
   // Conjugate gradients alone give up well before this gap.
   std::mt19937 random(10);
   const int n = 12;
-  const Dense A = shifted(0.3 * normal(random, n, n), 0.1), C = normal(random, 3, n);
+  const Doubles A = shifted(0.3 * normal(random, n, n), 0.1), C = normal(random, 3, n);
   const MatrixProgram program = margin_program(-A, C);
   MatrixOptions options;
   options.tolerance = 1e-9;
@@ -306,8 +306,8 @@ TEST(MatrixSolver, AMinimumThatTakesTheFactorIsThatOfTheOrdinarySolver) {
 TEST(MatrixSolver, OfAnUnstableMatrixNoPointIsInside) {
   std::mt19937 random(5);
   const int n = 10;
-  const Dense A = shifted(0.3 * normal(random, n, n), 0.2);
-  const MatrixProgram program = margin_program(-A, Dense(0, n));
+  const Doubles A = shifted(0.3 * normal(random, n, n), 0.2);
+  const MatrixProgram program = margin_program(-A, Doubles(0, n));
   MatrixOptions options;
   options.start.assign(program.c.size(), 0);
   options.start.back() = -1;
@@ -317,8 +317,8 @@ TEST(MatrixSolver, OfAnUnstableMatrixNoPointIsInside) {
 
 TEST(MatrixSolver, BeginsOutsideWithoutAStart) {
   std::mt19937 random(8);
-  const Dense A = shifted(0.3 * normal(random, 12, 12), -0.3);
-  const MatrixProgram program = margin_program(-A, Dense(0, 12));
+  const Doubles A = shifted(0.3 * normal(random, 12, 12), -0.3);
+  const MatrixProgram program = margin_program(-A, Doubles(0, 12));
   MatrixOptions options;
   options.tolerance = 1e-6;
   const Solution far = solve(program, options);
@@ -332,7 +332,7 @@ TEST(MatrixSolver, BeginsOutsideWithoutAStart) {
 TEST(MatrixSolver, EndsWhenAllIsToStop) {
   std::mt19937 random(9);
   const MatrixProgram program =
-      margin_program(-shifted(normal(random, 20, 20), -0.1), Dense(0, 20));
+      margin_program(-shifted(normal(random, 20, 20), -0.1), Doubles(0, 20));
   const tests::StopInTest stop(true);
   EXPECT_THROW(solve(program, {}), Stopped);
 }

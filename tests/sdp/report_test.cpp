@@ -20,14 +20,14 @@ using testing::Square;
 
 template <typename T>
 class Report : public ::testing::Test {};
-using Scalars = ::testing::Types<double, DoubleDouble>;
-TYPED_TEST_SUITE(Report, Scalars);
+using NarrowScalars = ::testing::Types<double, DoubleDouble>;
+TYPED_TEST_SUITE(Report, NarrowScalars);
 
 /// Random numbers with all the digits of T.
 template <typename T>
-class Random {
+class Numbers {
  public:
-  explicit Random(std::uint64_t seed) : stream_(seed, 0) {}
+  explicit Numbers(std::uint64_t seed) : stream_(seed, 0) {}
   T number() {
     const double value = 2 * stream_.uniform() - 1;
     return T(value) + T(value * stream_.uniform() * (std::is_same_v<T, double> ? 0 : 0x1p-54));
@@ -39,7 +39,7 @@ class Random {
 
 /// Symmetric blocks a of random numbers; a a' + shift I where `positive`.
 template <typename T>
-std::vector<std::vector<T>> random_blocks(const Problem& problem, Random<T>& random,
+std::vector<std::vector<T>> random_blocks(const Problem& problem, Numbers<T>& random,
                                           bool positive) {
   std::vector<std::vector<T>> result;
   for (const Block& block : problem.blocks) {
@@ -68,7 +68,7 @@ std::vector<std::vector<T>> random_blocks(const Problem& problem, Random<T>& ran
 
 template <typename T>
 Point<T> random_point(const Problem& problem, std::uint64_t seed, bool positive) {
-  Random<T> random(seed);
+  Numbers<T> random(seed);
   Point<T> point;
   for (std::size_t i = 0; i < problem.c.size(); ++i) point.x.push_back(random.number());
   point.X = random_blocks(problem, random, positive);

@@ -24,8 +24,8 @@ TYPED_TEST_SUITE(ResidualsOf, Scalars);
 
 /// A random point of the working problem and, in long double, what it is on the problem as given.
 template <typename T>
-struct Setting {
-  Setting(const Problem& given, std::uint64_t seed)
+struct ResidualSetting {
+  ResidualSetting(const Problem& given, std::uint64_t seed)
       : problem(given), presolved(presolve(given)), point(presolved.data) {
     testing::fill(seed, point.x);
     testing::fill_positive(seed + 1, point.X);
@@ -119,7 +119,7 @@ void expect_near(double got, Real expected, Real scale, const char* what) {
 TYPED_TEST(ResidualsOf, AreThoseOfTheProblemAsGiven) {
   for (const auto& [name, problem] : testing::random_problems(41)) {
     SCOPED_TRACE(name);
-    const Setting<TypeParam> at(problem, 3);
+    const ResidualSetting<TypeParam> at(problem, 3);
     Residuals<TypeParam> residuals(problem, at.presolved);
     residuals.update(at.point);
 
@@ -159,7 +159,7 @@ TYPED_TEST(ResidualsOf, AreTheDefectOfTheModel) {
   using T = TypeParam;
   for (const auto& [name, problem] : testing::random_problems(42)) {
     SCOPED_TRACE(name);
-    const Setting<T> at(problem, 4);
+    const ResidualSetting<T> at(problem, 4);
     Residuals<T> residuals(problem, at.presolved);
     residuals.update(at.point);
     const testing::Dense<T> dense(at.presolved.data);
@@ -180,7 +180,7 @@ TYPED_TEST(ResidualsOf, AreThoseOfCertificates) {
   using T = TypeParam;
   for (const auto& [name, problem] : testing::random_problems(43)) {
     SCOPED_TRACE(name);
-    Setting<T> at(problem, 5);
+    ResidualSetting<T> at(problem, 5);
     for (const double sign : {1.0, -1.0}) {
       at.point.x *= T(sign);
       Residuals<T> residuals(problem, at.presolved);
@@ -226,7 +226,7 @@ TYPED_TEST(ResidualsOf, KnowWhatRoundingDoes) {
   const Real epsilon = static_cast<double>(std::numeric_limits<T>::epsilon());
   for (const auto& [name, problem] : testing::random_problems(44)) {
     SCOPED_TRACE(name);
-    const Setting<T> at(problem, 6);
+    const ResidualSetting<T> at(problem, 6);
     Residuals<T> residuals(problem, at.presolved);
     residuals.update(at.point);
     Real largest_c = 0, largest_f0 = 0, terms = 0;

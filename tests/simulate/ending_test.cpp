@@ -17,7 +17,7 @@ using tests::jumps_of;
 using tests::part_of;
 using tests::value_at;
 
-hybrid::Trajectory simulate(const hybrid::System& system, double horizon) {
+hybrid::Trajectory run_to(const hybrid::System& system, double horizon) {
   const hybrid::Scenario scenario = hybrid::make_scenario(horizon, system);
   return Simulator(system, scenario).run(1, 0);
 }
@@ -29,7 +29,7 @@ void expect_says(const hybrid::Trajectory& run, const std::string& text) {
 TEST(EventEnding, AChainOfJumpsWithoutFlowNamesTheEventAndItsValue) {
   EventProblem problem;
   problem.state("x", {}, "0").flow("x", "1").when("over", "x >= 1").jump("over", {{"x", "x + 1"}});
-  const hybrid::Trajectory run = simulate(problem.system(), 5);
+  const hybrid::Trajectory run = run_to(problem.system(), 5);
   EXPECT_EQ(run.ending, hybrid::Ending::stuck);
   EXPECT_NEAR(run.end, 1, 1e-15);
   expect_says(run, "the event over is due again");
@@ -40,7 +40,7 @@ TEST(EventEnding, AChainOfJumpsWithoutFlowNamesTheEventAndItsValue) {
   two.state("x", {}, "1").flow("x", "1");
   two.when("up", "x >= 2").jump("up", {{"x", "0"}});
   two.when("down", "x <= 0").jump("down", {{"x", "2"}});
-  const hybrid::Trajectory both = simulate(two.system(), 5);
+  const hybrid::Trajectory both = run_to(two.system(), 5);
   EXPECT_EQ(both.ending, hybrid::Ending::stuck);
   expect_says(both, "of up, down");
 }
@@ -48,12 +48,12 @@ TEST(EventEnding, AChainOfJumpsWithoutFlowNamesTheEventAndItsValue) {
 TEST(EventEnding, EscapesNameTheirTime) {
   EventProblem problem;
   problem.state("x", {}, "1").flow("x", "x^2");
-  const hybrid::Trajectory run = simulate(problem.system(), 5);
+  const hybrid::Trajectory run = run_to(problem.system(), 5);
   EXPECT_EQ(run.ending, hybrid::Ending::escaped) << run.message;
   EXPECT_NEAR(run.end, 1, 1e-3);
   EventProblem linear;
   linear.state("x", {}, "1").flow("x", "1000*x");
-  const hybrid::Trajectory far = simulate(linear.system(), 5);
+  const hybrid::Trajectory far = run_to(linear.system(), 5);
   EXPECT_EQ(far.ending, hybrid::Ending::escaped);
   EXPECT_NEAR(far.end, 0.345, 0.01);
   expect_says(far, "x = ");
@@ -62,13 +62,13 @@ TEST(EventEnding, EscapesNameTheirTime) {
 TEST(EventEnding, TextsWithoutAValueNameTheirPlace) {
   EventProblem flow;
   flow.state("x", {}, "1").flow("x", "-sqrt(x)/x");
-  const hybrid::Trajectory run = simulate(flow.system(), 5);
+  const hybrid::Trajectory run = run_to(flow.system(), 5);
   EXPECT_EQ(run.ending, hybrid::Ending::undefined) << run.message;
   EXPECT_NEAR(run.end, 2.0 / 3, 1e-3);
   expect_says(run, "sqrt");
   EventProblem jump;
   jump.state("x", {}, "1").at("go", {"1"}).jump("go", {{"x", "log(x - 2)"}});
-  const hybrid::Trajectory at = simulate(jump.system(), 5);
+  const hybrid::Trajectory at = run_to(jump.system(), 5);
   EXPECT_EQ(at.ending, hybrid::Ending::undefined);
   EXPECT_EQ(at.end, 1);
   expect_says(at, "test:1:1");
@@ -77,19 +77,19 @@ TEST(EventEnding, TextsWithoutAValueNameTheirPlace) {
 TEST(EventEnding, LeavingTheFlowSetSaysWhy) {
   EventProblem problem;
   problem.state("x", {}, "0").flow("x", "cos(t)").flow_set("x <= 0.5", "too far");
-  const hybrid::Trajectory run = simulate(problem.system(), 5);
+  const hybrid::Trajectory run = run_to(problem.system(), 5);
   EXPECT_EQ(run.ending, hybrid::Ending::left);
   EXPECT_NEAR(run.end, std::asin(0.5), 1e-8);
   expect_says(run, "too far");
   EventProblem ball;
   ball.state("x", {2, 1}, "[1; 0]").flow("x", "[x(2); -10]").flow_set("x(1) >= 0", "below ground");
   ball.when("impact", "x(1) <= 0 and x(2) < 0").jump("impact", {{"x", "[x(1); -x(2)]"}});
-  const hybrid::Trajectory bounces = simulate(ball.system(), 5);
+  const hybrid::Trajectory bounces = run_to(ball.system(), 5);
   EXPECT_EQ(bounces.ending, hybrid::Ending::horizon) << bounces.message;
   EXPECT_EQ(jumps_of(bounces).size(), 6U);
   EventProblem out;
   out.state("x", {}, "0").flow_set("x <= 1", "out").at("go", {"1"}).jump("go", {{"x", "2"}});
-  EXPECT_EQ(simulate(out.system(), 5).end, 1);
+  EXPECT_EQ(run_to(out.system(), 5).end, 1);
 }
 
 TEST(EventEnding, ARelayWithoutHysteresisChatters) {
@@ -97,7 +97,7 @@ TEST(EventEnding, ARelayWithoutHysteresisChatters) {
   problem.state("x", {}, "1").flow("x", "-q").mode("q", "1");
   problem.when("plus", "x > 0 and q == -1").jump("plus", {{"q", "1"}});
   problem.when("minus", "x < 0 and q == 1").jump("minus", {{"q", "-1"}});
-  const hybrid::Trajectory run = simulate(problem.system(), 5);
+  const hybrid::Trajectory run = run_to(problem.system(), 5);
   EXPECT_EQ(run.ending, hybrid::Ending::chattering) << run.message;
   EXPECT_NEAR(run.end, 1, 1e-9);
   expect_says(run, "plus");
@@ -108,7 +108,7 @@ TEST(EventEnding, ACounterThatEndsShrinkingIsNoZeno) {
   EventProblem problem;
   problem.state("s", {}, "0").flow("s", "1").state("k", {}, "1");
   problem.when("g", "s >= 0.5^k").jump("g", {{"s", "0"}, {"k", "where(k > 20, -3, k + 1)"}});
-  const hybrid::Trajectory run = simulate(problem.system(), 20);
+  const hybrid::Trajectory run = run_to(problem.system(), 20);
   EXPECT_EQ(run.ending, hybrid::Ending::horizon) << run.message;
 }
 
@@ -118,7 +118,7 @@ TEST(EventEnding, AFewFlightsThatShrinkFastAccumulate) {
     EventProblem problem;
     problem.state("x", {}, "0").state("v", {}, "4").flow("x", "v").flow("v", "-9.81");
     problem.when("hit", "x <= 0 and v < 0").jump("hit", {{"v", "-" + brief(r, 17) + "*v"}});
-    const hybrid::Trajectory run = simulate(problem.system(), 100);
+    const hybrid::Trajectory run = run_to(problem.system(), 100);
     EXPECT_EQ(run.ending, hybrid::Ending::zeno) << r << " " << run.message;
     const double time = 8 / 9.81 / (1 - r);
     EXPECT_NEAR(run.accumulation, time, 1e-9 * time) << r;
@@ -141,18 +141,18 @@ TEST(EventEnding, StatesThatAreNoneOfTheirKindAreErrors) {
   EventProblem mode;
   mode.mode("q", "0").at("go", {"1"}).jump("go", {{"q", "0.5"}});
   const hybrid::System halves = mode.system();
-  EXPECT_NE(input_error([&] { simulate(halves, 2); }).message().find("whole number"),
+  EXPECT_NE(input_error([&] { run_to(halves, 2); }).message().find("whole number"),
             std::string::npos);
   EventProblem matrix;
   matrix.symmetric("P", 2, "[1, 0; 0, 1]").flow("P", "[1, 2; 3, 4]*P");
   const hybrid::System skew = matrix.system();
-  EXPECT_NE(input_error([&] { simulate(skew, 2); }).message().find("P is symmetric"),
+  EXPECT_NE(input_error([&] { run_to(skew, 2); }).message().find("P is symmetric"),
             std::string::npos);
   EventProblem jump;
   jump.symmetric("P", 2, "[1, 0; 0, 1]").at("go", {"1"});
   jump.jump("go", {{"P", "[1, 1e-6; 0, 1]*P"}});
   const hybrid::System other = jump.system();
-  EXPECT_NE(input_error([&] { simulate(other, 2); }).message().find("P is symmetric"),
+  EXPECT_NE(input_error([&] { run_to(other, 2); }).message().find("P is symmetric"),
             std::string::npos);
 }
 
@@ -165,7 +165,7 @@ TEST(EventSwitch, BranchesAreFixedAndChangeAtTheirZeroCrossing) {
     const hybrid::System system = problem.system();
     EXPECT_EQ(system.affine, exact);
     EXPECT_EQ(system.switches.size(), 2U);
-    const hybrid::Trajectory run = simulate(system, 3);
+    const hybrid::Trajectory run = run_to(system, 3);
     EXPECT_EQ(run.ending, hybrid::Ending::horizon) << run.message;
     EXPECT_TRUE(jumps_of(run).empty());
     ASSERT_EQ(run.parts.size(), 1U);
@@ -179,12 +179,12 @@ TEST(EventSwitch, BranchesAreFixedAndChangeAtTheirZeroCrossing) {
 TEST(EventSwitch, BranchesThatBothLeadBackSlide) {
   EventProblem problem;
   problem.state("x", {2, 1}, "[1; 0]").flow("x", "[-sign(x(1)) + 0.25; 1]");
-  const hybrid::Trajectory run = simulate(problem.system(), 5);
+  const hybrid::Trajectory run = run_to(problem.system(), 5);
   EXPECT_EQ(run.ending, hybrid::Ending::sliding) << run.message;
   EXPECT_NEAR(run.end, 4.0 / 3, 1e-9);
   EventProblem relay;
   relay.state("x", {}, "1").flow("x", "where(x >= 0.3, -1 - x^2, 1)");
-  EXPECT_EQ(simulate(relay.system(), 5).ending, hybrid::Ending::sliding);
+  EXPECT_EQ(run_to(relay.system(), 5).ending, hybrid::Ending::sliding);
 }
 
 // x = (1 - t)^2 comes to rest on the switching surface; what is left is noise of the integration.
@@ -192,13 +192,13 @@ TEST(EventSwitch, ARateThatFallsToNothingOnTheSurfaceSlides) {
   EventProblem problem;
   problem.state("x", {}, "1").flow("x", "-2*sign(x)*abs(x)^0.5");
   const hybrid::System system = problem.system();
-  const hybrid::Trajectory run = simulate(system, 5);
+  const hybrid::Trajectory run = run_to(system, 5);
   EXPECT_EQ(run.ending, hybrid::Ending::sliding) << run.message;
   EXPECT_NEAR(run.end, 1, 0.01);
   EXPECT_NEAR(value_at(system, run, "x", run.end)(0), 0, 1e-10);
   EventProblem small;  // 1e-4 is no noise
   small.state("x", {2, 1}, "[1e-4; 0]").flow("x", "[x(2); -sign(x(1))*(1e-4 + x(1)^2)]");
-  EXPECT_EQ(simulate(small.system(), 1000).ending, hybrid::Ending::horizon);
+  EXPECT_EQ(run_to(small.system(), 1000).ending, hybrid::Ending::horizon);
 }
 
 // Two tanks with equal levels: the difference starts in its rounding and is only crossed.
@@ -208,7 +208,7 @@ TEST(EventSwitch, ACrossingInTheRoundingIsNoSliding) {
   problem.flow("a", "0.8 - 0.5*sign(a - b)*sqrt(abs(a - b))");
   problem.flow("b", "0.5*sign(a - b)*sqrt(abs(a - b)) - 0.4*sign(b)*sqrt(abs(b))");
   const hybrid::System system = problem.system();
-  const hybrid::Trajectory run = simulate(system, 1);
+  const hybrid::Trajectory run = run_to(system, 1);
   ASSERT_EQ(run.ending, hybrid::Ending::horizon) << run.message;
   // Euler's rule, whose steps halve the error of each other.
   const auto euler = [](int steps) {
@@ -229,7 +229,7 @@ TEST(EventSwitch, BranchesOfTimeAreSteppedTo) {
   EventProblem problem;
   problem.state("x", {}, "0").flow("x", "where(t >= 1, where(t < 2, 3, 0), sin(x))");
   const hybrid::System system = problem.system();
-  const hybrid::Trajectory run = simulate(system, 3);
+  const hybrid::Trajectory run = run_to(system, 3);
   EXPECT_NEAR(value_at(system, run, "x", 3)(0), 3, 1e-13);
 }
 
@@ -238,7 +238,7 @@ TEST(EventFlow, StiffFlowsAreFollowed) {
   problem.state("x", {2, 1}, "[2; 0]").flow("x", "[x(2); 1000*((1 - x(1)^2)*x(2)) - x(1)]");
   problem.crossing(model::Dynamics::EventKind::falls, "fall", "x(1)");
   const hybrid::System system = problem.system();
-  const hybrid::Trajectory run = simulate(system, 2000);
+  const hybrid::Trajectory run = run_to(system, 2000);
   EXPECT_EQ(run.ending, hybrid::Ending::horizon) << run.message;
   ASSERT_EQ(jumps_of(run).size(), 1U);
   EXPECT_NEAR(jumps_of(run)[0].t, 807.0, 1.0);
@@ -251,7 +251,7 @@ TEST(EventFlow, FirstStepsFollowTheFlowAndNotTheHorizon) {
       .let("slow", "0.04*y(1) - 1e4*y(2)*y(3)")
       .flow("y", "[-slow; slow - 3e7*y(2)^2; 3e7*y(2)^2]");
   const hybrid::System system = problem.system();
-  const hybrid::Trajectory run = simulate(system, 1e11);
+  const hybrid::Trajectory run = run_to(system, 1e11);
   EXPECT_EQ(run.ending, hybrid::Ending::horizon) << run.message;
   EXPECT_NEAR(value_at(system, run, "y", 40)(0), 0.7158270688, 1e-7);
   EXPECT_NEAR(value_at(system, run, "y", 4e10)(0), 5.2e-8, 5e-9);
@@ -262,7 +262,7 @@ TEST(EventFlow, ManyStepsInASmallPartOfTheHorizonAreProgress) {
   EventProblem problem;
   problem.state("x", {}, "0").flow("x", "where(t < 1e-4, 3e7*cos(3e7*t), -x^3)");
   const hybrid::System system = problem.system();
-  const hybrid::Trajectory run = simulate(system, 1e5);
+  const hybrid::Trajectory run = run_to(system, 1e5);
   EXPECT_EQ(run.ending, hybrid::Ending::horizon) << run.message;
   EXPECT_NEAR(value_at(system, run, "x", 1e-4)(0), std::sin(3000.0), 1e-6);
 }

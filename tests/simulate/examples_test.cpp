@@ -18,8 +18,8 @@ using tests::jumps_of;
 using tests::part_of;
 
 /// A run, which the judge accepts.
-hybrid::Trajectory simulate(const hybrid::System& system, double horizon,
-                            const Accuracy& accuracy = {}) {
+hybrid::Trajectory judged_run(const hybrid::System& system, double horizon,
+                              const Accuracy& accuracy = {}) {
   const hybrid::Scenario scenario = hybrid::make_scenario(horizon, system);
   const hybrid::Trajectory run = Simulator(system, scenario).run(1, 0, accuracy);
   judge::Question question;
@@ -53,7 +53,7 @@ TEST(EventExamples, SpikingNeuron) {
   problem.state("x", {4, 1}, "[-55; -6; -55; 4]");
   problem.flow("x", "[0.04*x(1)^2 + 5*x(1) + 140 - x(2) + 10; 0.02*(0.2*x(1) - x(2)); 0; 0]");
   problem.when("spike", "x(1) >= 30").jump("spike", {{"x", "[x(3); x(2) + x(4); x(3); x(4)]"}});
-  const hybrid::Trajectory run = simulate(problem.system(), 110);
+  const hybrid::Trajectory run = judged_run(problem.system(), 110);
   const auto spikes = jumps_of(run);
   const std::vector<double> expected = {3.153121138, 39.249265026, 70.456712589, 101.674996734};
   ASSERT_EQ(spikes.size(), expected.size());
@@ -73,7 +73,7 @@ TEST(EventExamples, BallWithUnknownRestitution) {
   problem.flow("zh", "Ao*zh + Bo + corr").flow("xih", "Kd*expm(-Ao*s)*corr").flow("s", "1");
   problem.jump("impact", {{"zh", "[zs(1); -xih*zs(2) + ud]"}, {"s", "0"}});
   const hybrid::System system = problem.system();
-  const auto impacts = jumps_of(simulate(system, 6.5));
+  const auto impacts = jumps_of(judged_run(system, 6.5));
   const std::vector<double> times = {0.7927993446, 2.5253885325, 4.3326795194};
   const std::vector<double> velocities = {-7.4694335770, -8.2446572534, -8.5891230445};
   const std::vector<double> estimates = {0.1050528, 0.4005463, 0.4825424, 0.4975369};
@@ -114,7 +114,7 @@ TEST(EventExamples, BallMeasuredAtImpacts) {
       {0.8, {7.5102, 2.5241, 0.9822, 0.4266}, {0.3095, 0.1040, 0.0501, 0.0217}}};
   for (const Row& row : rows) {
     const hybrid::System system = measured_ball(row.restitution).system();
-    const hybrid::Trajectory run = simulate(system, 20);
+    const hybrid::Trajectory run = judged_run(system, 20);
     EXPECT_EQ(run.ending, hybrid::Ending::zeno);
     const double speed = std::sqrt(4 + 2 * 9.81 * 4);
     const double accumulation =
@@ -157,18 +157,18 @@ EventProblem boxed(const std::string& correction) {
 
 TEST(EventExamples, HighGainObserverInABox) {
   const hybrid::System nominal = boxed("").system();
-  const hybrid::Trajectory free = simulate(nominal, 0.5);
+  const hybrid::Trajectory free = judged_run(nominal, 0.5);
   EXPECT_NEAR(peak(nominal, free, "xh", 1), 30.767, 1e-3);
   EXPECT_NEAR(peak(nominal, free, "xh", 2, 0.5), 7.787, 1e-3);
   const hybrid::System pulled = boxed(" + gc*pull(xh, S)").system();
-  EXPECT_NEAR(peak(pulled, simulate(pulled, 0.5), "xh", 1), 8.2426, 1e-3);
+  EXPECT_NEAR(peak(pulled, judged_run(pulled, 0.5), "xh", 1), 8.2426, 1e-3);
 
   EventProblem jumping = boxed("");
   jumping.when("outside", "max(abs(xh)) >= 11");
   EventProblem projected = jumping;
   projected.jump("outside", {{"xh", "project_polytope(xh, inv(D*S*D), box, 8*ones(6, 1))"}});
   const hybrid::System system = projected.system();
-  const auto jumps = jumps_of(simulate(system, 1));
+  const auto jumps = jumps_of(judged_run(system, 1));
   ASSERT_EQ(jumps.size(), 14U);
   EXPECT_NEAR(jumps[0].t, 0.016374, 1e-6);
   const Matrix before = part_of(system, jumps[0].before, "xh");
@@ -183,7 +183,7 @@ TEST(EventExamples, ManyCorrectionsInOneJump) {
       .number(EventProblem::VariableKind::passes, "passes(outside)", "outside");
   problem.repeat("outside", {{"xh", "xh + gd*pull(xh, S)"}}, "norm(c(xh)) <= 1", "100000");
   const hybrid::System system = problem.system();
-  const auto jumps = jumps_of(simulate(system, 1));
+  const auto jumps = jumps_of(judged_run(system, 1));
   ASSERT_EQ(jumps.size(), 20U);
   double corrections = 0;
   for (const hybrid::JumpPoint& jump : jumps)
@@ -219,7 +219,7 @@ TEST(EventExamples, UnitingTwoObservers) {
     problem.jump("to_global", {{"z0", "0"}, {"s", "0"}, {"q", "1"}});
     problem.jump("to_local", {{"a", "b"}, {"P", "eye(2)"}, {"z0", "0"}, {"s", "0"}, {"q", "0"}});
     // Where it integrates across a kink of abs a step is off by some 1000 times the accuracy.
-    const auto jumps = jumps_of(simulate(problem.system(), 20, {1e-12, 1e-12}));
+    const auto jumps = jumps_of(judged_run(problem.system(), 20, {1e-12, 1e-12}));
     ASSERT_EQ(jumps.size(), 3U);
     for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(jumps[i].t, row.times[i], 1e-6);
   }

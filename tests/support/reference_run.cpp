@@ -104,4 +104,10 @@ bool has_fault(const std::vector<judge::Fault>& faults, std::size_t part, const 
   });
 }
 
+Eigen::VectorXd column_of(std::initializer_list<double> values) {
+  Eigen::VectorXd result(static_cast<Eigen::Index>(values.size()));
+  std::copy(values.begin(), values.end(), result.begin());
+  return result;
+}
+
 }  // namespace gainsmith::tests

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,9 @@ class ReferenceRun {
 
 /// The polynomial on [from, to] through the values at its Chebyshev points.
 hybrid::DenseStep dense_step(double from, double to, const ReferenceRun::Values& values);
+
+/// A column of these numbers.
+Eigen::VectorXd column_of(std::initializer_list<double> values);
 
 /// The place of a variable's first element.
 Eigen::Index place_of(const model::Dynamics& dynamics, const std::string& variable);

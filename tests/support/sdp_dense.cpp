@@ -5,9 +5,9 @@
 namespace gainsmith::sdp::testing {
 namespace {
 
-class Random {
+class Digits {
  public:
-  explicit Random(std::uint64_t seed) : stream_(seed, 0) {}
+  explicit Digits(std::uint64_t seed) : stream_(seed, 0) {}
   double number() { return 2 * stream_.uniform() - 1; }
   int below(int count) { return static_cast<int>(stream_.uniform() * count); }
   /// With all the digits of T.
@@ -61,7 +61,7 @@ class Builder {
   Problem problem_;
 
  private:
-  Random random_;
+  Digits random_;
 };
 
 Problem one_block(int n, int m, std::uint64_t seed) {
@@ -136,7 +136,7 @@ Problem chain(std::uint64_t seed) {
 }
 
 template <typename T>
-Matrix<T> random_matrix(Random& random, Eigen::Index n) {
+Matrix<T> random_matrix(Digits& random, Eigen::Index n) {
   Matrix<T> a(n, n);
   for (T& value : a.reshaped()) value = random.full<T>();
   return a;
@@ -167,7 +167,7 @@ std::vector<NamedProblem> random_problems(std::uint64_t seed) {
 
 template <typename T>
 void fill_positive(std::uint64_t seed, Blocks<T>& matrix) {
-  Random random(seed);
+  Digits random(seed);
   for (int b = 0; b < matrix.layout().blocks(); ++b) {
     auto block = matrix.dense(b);
     const auto a = random_matrix<T>(random, block.rows());
@@ -206,7 +206,7 @@ void fill_positive(std::uint64_t seed, const Data& data, Blocks<T>& matrix) {
 
 template <typename T>
 void fill_symmetric(std::uint64_t seed, Blocks<T>& matrix) {
-  Random random(seed);
+  Digits random(seed);
   for (int b = 0; b < matrix.layout().blocks(); ++b) {
     auto block = matrix.dense(b);
     const auto a = random_matrix<T>(random, block.rows());
@@ -217,7 +217,7 @@ void fill_symmetric(std::uint64_t seed, Blocks<T>& matrix) {
 
 template <typename T>
 void fill(std::uint64_t seed, Vector<T>& v) {
-  Random random(seed);
+  Digits random(seed);
   for (T& value : v) value = random.full<T>();
 }
 

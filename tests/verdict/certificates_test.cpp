@@ -13,6 +13,7 @@
 #include "support/linear_algebra.h"
 #include "support/yaml_problem.h"
 #include "verdict/boundary_pair.h"
+#include "verdict/plants.h"
 #include "verdict/refined_refutation.h"
 #include "verdict/refutation.h"
 
@@ -21,13 +22,13 @@ namespace {
 
 using numbers::Matrix;
 
-struct Posed {
+struct PosedInDouble {
   tests::YamlProblem yaml;
   lmi::Inequalities of;
   lmi::Lmi lmi;
   lmi::Formulation formulation;
 
-  explicit Posed(const std::string& text)
+  explicit PosedInDouble(const std::string& text)
       : yaml("problem: p\nmethod:\n  method: m\n" + text),
         of(yaml.instance),
         lmi(compile(of)),
@@ -48,19 +49,6 @@ Matrix random_matrix(int rows, int cols, std::mt19937& generator) {
   return Matrix::NullaryExpr(rows, cols, [&] { return number(generator); });
 }
 
-/// A with the largest real part of an eigenvalue moved to `abscissa`.
-Matrix with_abscissa(Matrix A, double abscissa) {
-  const double found = tests::spectral_abscissa(A);
-  A.diagonal().array() += abscissa - found;
-  return A;
-}
-
-std::string lyapunov(const Matrix& A) {
-  return "  data: {A: n x n}\n  unknowns: {P: symmetric n}\n  require: {positive: P > 0, stable: "
-         "He(P*A) < 0}\ndata: {A: " +
-         tests::matrix_yaml(A) + "}\n";
-}
-
 std::string observer(const Matrix& A, const Matrix& C) {
   return "  data: {A: n x n, C: p x n}\n  unknowns: {P: symmetric n, Y: n x p}\n  require: "
          "{positive: P > 0, stable: He(P*A - Y*C) < 0}\ndata: {A: " +
@@ -79,7 +67,7 @@ TEST(ExactBlocks, AgreeWithTheFormsInDouble) {
         "[trace(P*A), Y'; Y, x*A + (x*A)'] >= 0", "P/s + D*s - A*D*A' > expm(A)*expm(A)'",
         "P(1, 1)*A*A' + diag(D(1, 1)*b) > I", "P .* (A + A') + x*ones(2, 2) > 0",
         "-(P - D)*2 + I/3 > 0", "[x, s; s, P(2, 1)] > 0"}) {
-    const Posed posed(head + text + "\"}" + data);
+    const PosedInDouble posed(head + text + "\"}" + data);
     const ExactBlocks<Decimal100> exact(posed.of, posed.formulation.balance);
     for (std::size_t k = 0; k < posed.lmi.blocks.size(); ++k) {
       const lmi::Block& block = posed.lmi.blocks[k];
@@ -104,7 +92,7 @@ TEST(ExactBlocks, AgreeWithTheFormsInDouble) {
 
 /// Whole numbers stay exact, so that what cancels is no element.
 TEST(ExactBlocks, WholeNumbersHaveNoError) {
-  const Posed posed(lyapunov(Matrix{{1, 2}, {-3, 4}}));
+  const PosedInDouble posed(lyapunov(Matrix{{1, 2}, {-3, 4}}));
   const ExactBlocks<Decimal100> exact(posed.of, posed.formulation.balance);
   const auto block = exact.block(posed.lmi.blocks[1], 1, {0, 1});
   for (const auto& [i, elements] : block.terms)
@@ -115,7 +103,7 @@ TEST(ExactBlocks, WholeNumbersHaveNoError) {
 TEST(BoundaryPair, UnstablePlantsAreExcluded) {
   std::mt19937 generator(7);
   for (const int n : {2, 3, 5, 8, 12}) {
-    const Posed posed(lyapunov(with_abscissa(random_matrix(n, n, generator), 0.1)));
+    const PosedInDouble posed(lyapunov(with_abscissa(random_matrix(n, n, generator), 0.1)));
     const Refutation found = posed.on_boundary();
     EXPECT_LE(found.backward_error, kNothing) << n;
   }
@@ -126,7 +114,7 @@ TEST(BoundaryPair, HiddenModesAreExcluded) {
   std::mt19937 generator(8);
   for (const int n : {4, 7, 10}) {
     const Matrix A = Matrix::Identity(n, n);
-    const Posed posed(observer(A, random_matrix(2, n, generator)));
+    const PosedInDouble posed(observer(A, random_matrix(2, n, generator)));
     EXPECT_LE(posed.on_boundary().backward_error, kNothing) << n;
   }
 }
@@ -135,7 +123,7 @@ TEST(BoundaryPair, FeasibleProblemsAreNot) {
   std::mt19937 generator(9);
   for (int trial = 0; trial < 20; ++trial) {
     const double depth = std::pow(10.0, -trial / 2.0);
-    const Posed posed(lyapunov(with_abscissa(random_matrix(3, 3, generator), -depth)));
+    const PosedInDouble posed(lyapunov(with_abscissa(random_matrix(3, 3, generator), -depth)));
     const Refutation found = posed.on_boundary();
     EXPECT_FALSE(found.exact) << depth;
     EXPECT_GT(found.backward_error, 1e-30) << depth;
@@ -144,7 +132,7 @@ TEST(BoundaryPair, FeasibleProblemsAreNot) {
 
 /// What is neither needed nor in the way: a block without multipliers, an unknown of its own.
 TEST(BoundaryPair, WhatIsBesideDoesNotHinder) {
-  const Posed posed(
+  const PosedInDouble posed(
       "  data: {A: n x n}\n  unknowns: {x: scalar, P: symmetric n}\n  require: {high: x < 1, "
       "positive: P > 0, stable: He(P*A) < 0, size: P > I}\ndata: {A: [[-1, 5, 0], [-2, -3, 1], "
       "[0, 0, 0.2]]}\n");
@@ -160,7 +148,7 @@ TEST(RefinedInDouble, BelowANormThereIsACertificate) {
     });
     Matrix B = Matrix::Zero(n, 1), C = Matrix::Zero(1, n);
     B(0, 0) = C(0, n - 1) = 1;
-    const Posed posed(
+    const PosedInDouble posed(
         "  data: {A: n x n, B: n x 1, C: 1 x n}\n  unknowns: {P: symmetric n}\n  require: "
         "{positive: P > 0, gain: \"[He(P*A) + C'*C, P*B; *, -0.9*eye(1)] < 0\"}\ndata: {A: " +
         tests::matrix_yaml(chain) + ", B: " + tests::matrix_yaml(B) +
@@ -186,14 +174,14 @@ TEST(Violation, BelowANormThereIsACertificateOfSmallRank) {
     const Matrix B = random_matrix(20, 1, generator), C = random_matrix(1, 20, generator);
     const double at_rest = std::abs((C * tests::inverse(A) * B)(0, 0));
     const auto posed = [&](double gain) {
-      return Posed(
+      return PosedInDouble(
           "  data: {A: n x n, B: n x m, C: p x n, g: scalar}\n  unknowns: {P: symmetric "
           "n}\n  require: {positive: P > 0, gain: \"[He(P*A) + C'*C, P*B; *, -g*I] < "
           "0\"}\ndata: {A: " +
           tests::matrix_yaml(A) + ", B: " + tests::matrix_yaml(B) +
           ", C: " + tests::matrix_yaml(C) + ", g: " + model::printed(gain * gain) + "}\n");
     };
-    const Posed below = posed(0.7 * at_rest);
+    const PosedInDouble below = posed(0.7 * at_rest);
     EXPECT_GT(below.on_boundary().backward_error, kNothing) << seed;
     settled += below.by_violation().backward_error <= kNothing ? 1 : 0;
     EXPECT_GT(posed(1e3 * (at_rest + 1)).by_violation().backward_error, kNothing) << seed;
@@ -203,7 +191,7 @@ TEST(Violation, BelowANormThereIsACertificateOfSmallRank) {
 
 TEST(Certificates, EndWithTheirAllowance) {
   std::mt19937 generator(11);
-  const Posed posed(lyapunov(with_abscissa(random_matrix(8, 8, generator), 0.1)));
+  const PosedInDouble posed(lyapunov(with_abscissa(random_matrix(8, 8, generator), 0.1)));
   const Allowance allowance(1e-4);
   EXPECT_THROW(static_cast<void>(posed.on_boundary()), OutOfAllowance);
 }

@@ -12,34 +12,34 @@
 namespace gainsmith::verdict {
 namespace {
 
-using Wide = numbers::MatrixOf<Decimal100>;
+using Matrix100 = numbers::MatrixOf<Decimal100>;
 
-Wide drawn(RandomStream& random, int rows, int columns) {
-  Wide matrix(rows, columns);
+Matrix100 drawn(RandomStream& random, int rows, int columns) {
+  Matrix100 matrix(rows, columns);
   for (Eigen::Index e = 0; e < matrix.size(); ++e) matrix(e) = Decimal100(2 * random.uniform() - 1);
   return matrix;
 }
 
-Decimal100 inner(const Wide& a, const Wide& b) {
+Decimal100 inner(const Matrix100& a, const Matrix100& b) {
   Decimal100 sum(0);
   for (Eigen::Index e = 0; e < a.size(); ++e) sum += a(e) * b(e);
   return sum;
 }
 
-ExactElements<Decimal100> elements_of(const Wide& B) {
+ExactElements<Decimal100> elements_of(const Matrix100& B) {
   ExactElements<Decimal100> result;
   for (int c = 0; c < B.cols(); ++c)
     for (int r = 0; r < B.rows(); ++r) result.push_back({r, c, B(r, c), 0});
   return result;
 }
 
-Wide gram_of(const Wide& L) { return L.lazyProduct(L.transpose()); }
+Matrix100 gram_of(const Matrix100& L) { return L.lazyProduct(L.transpose()); }
 
 /// A unit vector w with L' w = 0 (Gram and Schmidt).
-Wide beside(RandomStream& random, const Wide& L) {
-  std::vector<Wide> basis;
-  const auto add = [&](Wide q) {
-    for (const Wide& b : basis) q -= b * inner(b, q);
+Matrix100 beside(RandomStream& random, const Matrix100& L) {
+  std::vector<Matrix100> basis;
+  const auto add = [&](Matrix100 q) {
+    for (const Matrix100& b : basis) q -= b * inner(b, q);
     basis.push_back(q / sqrt(inner(q, q)));
   };
   for (Eigen::Index c = 0; c < L.cols(); ++c) add(L.col(c));
@@ -49,7 +49,7 @@ Wide beside(RandomStream& random, const Wide& L) {
 
 /// Blocks B_ki of two blocks for which Y_k = L_k L_k' is a certificate up to 100 digits.
 struct Planted {
-  std::vector<Wide> L;
+  std::vector<Matrix100> L;
   std::vector<ExactBlock<Decimal100>> blocks;
 
   Planted(RandomStream& random, int n, int rank, int unknowns) {
@@ -57,14 +57,14 @@ struct Planted {
     blocks.resize(2);
     for (auto& block : blocks) block.size = n;
     for (int i = 1; i <= unknowns; ++i) {
-      std::vector<Wide> B;
+      std::vector<Matrix100> B;
       Decimal100 residual(0), weight(0);
       for (int k = 0; k < 2; ++k) {
-        const Wide half = drawn(random, n, n);
+        const Matrix100 half = drawn(random, n, n);
         B.push_back(half + half.transpose());
         residual += inner(B.back(), gram_of(L[static_cast<std::size_t>(k)]));
       }
-      weight = inner(Wide::Identity(n, n), gram_of(L[0]));
+      weight = inner(Matrix100::Identity(n, n), gram_of(L[0]));
       for (int r = 0; r < n; ++r) B[0](r, r) -= residual / weight;
       for (std::size_t k = 0; k < 2; ++k) blocks[k].terms.emplace_back(i, elements_of(B[k]));
     }
@@ -75,7 +75,7 @@ struct Planted {
     std::vector<FactoredMultiplier> result;
     for (std::size_t k = 0; k < 2; ++k) {
       const auto n = static_cast<int>(L[k].rows());
-      Wide off = drawn(random, n, static_cast<int>(L[k].cols()));
+      Matrix100 off = drawn(random, n, static_cast<int>(L[k].cols()));
       off = L[k] + off * Decimal100(by);
       result.push_back({&blocks[k], off});
     }
@@ -104,18 +104,18 @@ TEST(RefinedMultipliers, LoseTheirResidualAndKeepTheirRank) {
       ASSERT_TRUE(refine(multipliers, 4)) << rank << ' ' << seed;
       EXPECT_LT(planted.residual(multipliers), 1e-57) << rank << ' ' << seed;
       for (std::size_t k = 0; k < 2; ++k) {
-        const Wide moved = multipliers[k].value() - gram_of(planted.L[k]);
+        const Matrix100 moved = multipliers[k].value() - gram_of(planted.L[k]);
         for (Eigen::Index e = 0; e < moved.size(); ++e)
           EXPECT_LT(std::abs(static_cast<double>(moved(e))), 1e-3);
         EXPECT_TRUE((moved - moved.transpose()).isZero(Decimal100(0)));
         // >= 0: the quadratic form at random vectors, and 0 where the rank is 1.
         for (int t = 0; t < 10; ++t) {
-          const Wide v = drawn(random, 4, 1);
+          const Matrix100 v = drawn(random, 4, 1);
           const auto form = static_cast<double>(inner(gram_of(v), multipliers[k].value()));
           EXPECT_GE(form, -1e-90);
         }
         if (rank > 1) continue;
-        const Wide Y = multipliers[k].value();
+        const Matrix100 Y = multipliers[k].value();
         EXPECT_LT(std::abs(static_cast<double>(Decimal100(Y(0, 0) * Y(1, 1) - Y(0, 1) * Y(1, 0)))),
                   1e-57);
       }
@@ -130,10 +130,10 @@ TEST(RefinedMultipliers, OfFullRankLoseADirectionThatNoCertificateHas) {
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
       RandomStream random(0x903, seed);
       Planted planted(random, kSize, kSize - 1, kUnknowns);
-      const Wide w = beside(random, planted.L[0]);
+      const Matrix100 w = beside(random, planted.L[0]);
       planted.blocks[0].terms.emplace_back(kUnknowns + 1, elements_of(gram_of(w)));
       std::vector<FactoredMultiplier> multipliers = planted.near(random, off * 1e-4);
-      Wide whole(kSize, kSize);
+      Matrix100 whole(kSize, kSize);
       whole << multipliers[0].L, w * Decimal100(off);
       multipliers[0].L = whole;
       const auto along_w = [&] {
@@ -151,8 +151,8 @@ TEST(RefinedMultipliers, FarFromACertificateThereIsNone) {
   // <I, Y> = 0 asks for Y = 0.
   ExactBlock<Decimal100> block;
   block.size = 2;
-  block.terms.emplace_back(1, elements_of(Wide::Identity(2, 2)));
-  std::vector<FactoredMultiplier> multipliers = {{&block, Wide::Identity(2, 2)}};
+  block.terms.emplace_back(1, elements_of(Matrix100::Identity(2, 2)));
+  std::vector<FactoredMultiplier> multipliers = {{&block, Matrix100::Identity(2, 2)}};
   EXPECT_FALSE(refine(multipliers, 1));
 }
 

@@ -15,6 +15,7 @@
 #include "sdp/solver.h"
 #include "support/linear_algebra.h"
 #include "support/yaml_problem.h"
+#include "verdict/plants.h"
 #include "verdict/refined_refutation.h"
 #include "verdict/relaxed_backward_error.h"
 #include "verdict/zero_diagonal.h"
@@ -67,22 +68,9 @@ struct Posed {
   }
 };
 
-std::string lyapunov(const Matrix& A) {
-  return "  data: {A: n x n}\n  unknowns: {P: symmetric n}\n  require: {positive: P > 0, stable: "
-         "He(P*A) < 0}\ndata: {A: " +
-         tests::matrix_yaml(A) + "}\n";
-}
-
 Matrix random_matrix(int n, std::mt19937& generator) {
   std::normal_distribution<double> number;
   return Matrix::NullaryExpr(n, n, [&] { return number(generator); });
-}
-
-/// A with the largest real part of an eigenvalue moved to `abscissa`.
-Matrix with_abscissa(Matrix A, double abscissa) {
-  const double found = tests::spectral_abscissa(A);
-  A.diagonal().array() += abscissa - found;
-  return A;
 }
 
 /// The decimals of the file.
