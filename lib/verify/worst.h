@@ -1,0 +1,57 @@
+// The worst run, sought and not sampled: over starts, lengths of flows, losses, noise and uncertain
+// data, within what the dynamics and the campaign allow.
+//
+// The margin of a claim in a run is how far its value is beyond its bound: on a logarithmic scale
+// where both are positive, so that it has no units and rises evenly from a held claim to a violated
+// one. It is maximised without derivatives, for each claim
+//
+//   1. over runs whose lists of draws repeat after one, two and three draws (draw_cube.h), and after
+//      the period in which linear errors grow fastest (periodic_lengths.h): all over the cube by
+//      NLopt's CRS2, then near the best point by a simplex and BOBYQA
+//   2. from the best of these over all draws one by one, each at both its ends
+//
+// Each run is judged by Judge, as every run of a campaign. What is reported as violated is a run
+// that violates when it is repeated too. That none was found shows nothing.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hybrid/given_run.h"
+#include "model/words.h"
+#include "verify/periodic_lengths.h"
+
+namespace gainsmith::verify {
+
+struct WorstOptions {
+  std::uint64_t seed = 1;     ///< of the search
+  std::uint64_t runs = 3000;  ///< at most, a little more to share them evenly
+  unsigned threads = 0;       ///< 0: one a core; the report does not depend on it
+};
+
+struct WorstReport {
+  /// A claim in the worst run that was found for it: run k of `given` for element k.
+  struct Claim {
+    std::string name;
+    model::ClaimKind kind = model::ClaimKind::nonincreasing;
+    claims::Finding finding;
+  };
+
+  model::CampaignVerdict verdict = model::CampaignVerdict::undecided;
+  std::uint64_t runs = 0;     ///< that were made
+  std::vector<Claim> claims;  ///< that are stated; none after a stop
+  std::vector<hybrid::GivenRun> given;
+  std::optional<PeriodicLengths> lengths;  ///< in which linear errors grow fastest
+};
+
+/// Deterministic. A stop (base/stop.h) leaves the report without claims. InputError when nothing is
+/// drawn, no claim is stated, or NLopt is not there.
+WorstReport search_worst(const model::Instance& instance, const model::Gains& gains,
+                         const WorstOptions& options);
+
+/// The margin of a finding; the larger the worse. Beyond +-1e6 where there is no number.
+double margin_of(const claims::Finding& finding, model::ClaimKind kind);
+
+}  // namespace gainsmith::verify
