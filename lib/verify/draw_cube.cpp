@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/number.h"
 #include "verify/tolerances.h"
 
 namespace gainsmith::verify {
@@ -30,15 +31,22 @@ Eigen::VectorXd ball_point(const Eigen::VectorXd& w) {
 DrawCube::DrawCube(const hybrid::System& system, const hybrid::Scenario& scenario,
                    std::size_t period)
     : system_(&system), scenario_(&scenario), period_(period) {
-  walk([&](const Name& name) {
+  walk({[&](const Name& name) {
     names_.push_back(name);
     return 0.5;
-  });
+  }});
 }
 
-GivenRun DrawCube::at(const std::vector<double>& u) const {
+double DrawCube::Take::between(double low, double high, const Name& name) const {
+  const double value = std::lerp(low, high, u(name));
+  return digits == 0 ? value : std::clamp(*parse_decimal(brief(value, digits)), low, high);
+}
+
+GivenRun DrawCube::at(const std::vector<double>& u) const { return rounded(u, 0); }
+
+GivenRun DrawCube::rounded(const std::vector<double>& u, int digits) const {
   std::size_t next = 0;
-  return walk([&](const Name&) { return std::clamp(u[next++], 0.0, 1.0); });
+  return walk({[&](const Name&) { return std::clamp(u[next++], 0.0, 1.0); }, digits});
 }
 
 std::vector<double> DrawCube::start() const {
@@ -89,14 +97,14 @@ void DrawCube::walk_starts(const Take& take, GivenRun& run) const {
   for (std::size_t v = 0; v < run.starts.size(); ++v) {
     const auto& rule = scenario_->starts[v];
     if (!rule || rule->kind == model::StartKind::expression) continue;
-    const auto next = [&](Index element) { return take({Purpose::start, v, 0, element}); };
+    const auto name = [&](Index element) { return Name{Purpose::start, v, 0, element}; };
     Matrix value = rule->values[0];
     if (rule->kind == model::StartKind::list) {
       if (rule->values.size() < 2) continue;
-      value = rule->values[index_in(rule->values.size(), next(0))];
+      value = rule->values[index_in(rule->values.size(), take.u(name(0)))];
     } else if (rule->kind == model::StartKind::ellipsoid) {
       Eigen::VectorXd w(value.size());
-      for (Index k = 0; k < w.size(); ++k) w(k) = 2 * next(k) - 1;
+      for (Index k = 0; k < w.size(); ++k) w(k) = 2 * take.u(name(k)) - 1;
       value = value + rule->values[1] * ball_point(w);
     } else {
       const bool symmetric =
@@ -105,7 +113,7 @@ void DrawCube::walk_starts(const Take& take, GivenRun& run) const {
         for (Index i = symmetric ? j : 0; i < value.rows(); ++i) {
           const double high = rule->values[1](i, j);
           if (value(i, j) < high)
-            value(i, j) = std::lerp(value(i, j), high, next(i + j * value.rows()));
+            value(i, j) = take.between(value(i, j), high, name(i + j * value.rows()));
           if (symmetric) value(j, i) = value(i, j);
         }
     }
@@ -130,25 +138,25 @@ void DrawCube::walk_event(std::size_t event, const Take& take, GivenRun& run) co
   if (clock && clock->first && !scenario_->first[event] &&
       clock->first->first < clock->first->second)
     run.first[event] =
-        std::lerp(clock->first->first, clock->first->second, take({Purpose::first, event, 0, 0}));
+        take.between(clock->first->first, clock->first->second, {Purpose::first, event, 0, 0});
   if (clock && clock->low < clock->high)
     for (std::size_t k = 0; k < count_of_event(event); ++k)
       run.lengths[event].push_back(
-          std::lerp(clock->low, clock->high, take({Purpose::length, event, k, 0})));
+          take.between(clock->low, clock->high, {Purpose::length, event, k, 0}));
   if (system_->dynamics.events[event].lost > 0)
     for (std::size_t k = 0; k < count_of_event(event); ++k)
-      run.losses[event].push_back(take({Purpose::loss, event, k, 0}) > 0.5 ? 1 : 0);
+      run.losses[event].push_back(take.u({Purpose::loss, event, k, 0}) > 0.5 ? 1 : 0);
 }
 
 void DrawCube::walk_noise(std::size_t noise, const Take& take, GivenRun& run) const {
   const Dynamics::Noise& one = system_->dynamics.noise[noise];
   const hybrid::System::NoiseValues& rule = system_->noise[noise];
-  const auto next = [&](std::size_t k, Index element) {
-    return take({Purpose::noise, noise, k, element});
+  const auto name = [&](std::size_t k, Index element) {
+    return Name{Purpose::noise, noise, k, element};
   };
   if (one.kind == Dynamics::NoiseKind::vertices || one.kind == Dynamics::NoiseKind::corners) {
     if (rule.values.size() > 1)
-      run.noise[noise] = {rule.values[index_in(rule.values.size(), next(0, 0))]};
+      run.noise[noise] = {rule.values[index_in(rule.values.size(), take.u(name(0, 0)))]};
     return;
   }
   const bool normal = one.kind == Dynamics::NoiseKind::normal;
@@ -161,7 +169,7 @@ void DrawCube::walk_noise(std::size_t noise, const Take& take, GivenRun& run) co
   for (std::size_t k = 0; k < number; ++k) {
     Matrix value = low;
     for (Index e = 0; e < value.size(); ++e)
-      if (low(e) != high(e)) value(e) = std::lerp(low(e), high(e), next(k, e));
+      if (low(e) != high(e)) value(e) = take.between(low(e), high(e), name(k, e));
     run.noise[noise].push_back(value);
   }
 }

@@ -29,6 +29,8 @@ class DrawCube {
   /// d; 0: nothing is drawn.
   std::size_t size() const { return names_.size(); }
   hybrid::GivenRun at(const std::vector<double>& u) const;
+  /// The same with numbers of so many digits, within their ranges; all digits in an ellipsoid.
+  hybrid::GivenRun rounded(const std::vector<double>& u, int digits) const;
 
   /// Where a search begins: starts away from the middle, which is an equilibrium more often than not.
   std::vector<double> start() const;
@@ -41,7 +43,15 @@ class DrawCube {
  private:
   enum class Purpose { start, first, length, loss, noise };
   using Name = std::tuple<Purpose, std::size_t, std::size_t, Eigen::Index>;  ///< index, k, element
-  using Take = std::function<double(const Name&)>;
+
+  /// Where values come from, coordinate by coordinate.
+  struct Take {
+    std::function<double(const Name&)> u;
+    int digits = 0;  ///< 0: all
+
+    /// low + (high - low) u.
+    double between(double low, double high, const Name& name) const;
+  };
 
   hybrid::GivenRun walk(const Take& take) const;
   void walk_starts(const Take& take, hybrid::GivenRun& run) const;

@@ -86,6 +86,8 @@ class Search {
 
   WorstReport report() {
     WorstReport report;
+    report.seed = options_.seed;
+    report.horizon = setup_->horizon();
     const Doing doing("runs of the search", options_.runs);
     try {
       report.lengths = fastest_lengths(*setup_);
@@ -191,13 +193,12 @@ class Search {
 
   /// The worst runs again, as they are given in the report.
   void judge(WorstReport& report) {
-    given_.clear();
-    for (const Worst& worst : worst_) given_.push_back(cubes_[worst.cube].at(worst.u));
+    given_.assign(claims(), {});
     Judge judge(*setup_);
     report.verdict = model::CampaignVerdict::held;
     for (std::size_t c = 0; c < claims(); ++c) {
       const claims::JudgedClaim& claim = setup_->events->judged[c];
-      claims::Finding finding = judge(options_.seed, c).findings[c];
+      claims::Finding finding = simplest(c, judge);
       if (finding.violated() && !judge.confirm(options_.seed, c).findings[c].violated()) {
         finding.judgement = claims::Judgement::undecided;
         finding.disputed = true;
@@ -209,6 +210,24 @@ class Search {
       report.claims.push_back({claim.name, claim.kind, finding});
     }
     report.given = given_;
+  }
+
+  /// The worst run of a claim with numbers of as few digits as leave it nearly as bad.
+  claims::Finding simplest(std::size_t claim, Judge& judge) {
+    constexpr double kAsBad = 0.01;  // of the margin
+    const Worst& worst = worst_[claim];
+    const DrawCube& cube = cubes_[worst.cube];
+    for (const int digits : {2, 3, 4, 6}) {
+      given_[claim] = cube.rounded(worst.u, digits);
+      claims::Finding finding = judge(options_.seed, claim).findings[claim];
+      check_stop();
+      const double margin = margin_of(finding, setup_->events->judged[claim].kind);
+      if (finding.violated() == worst.violated &&
+          margin >= worst.margin - kAsBad * std::abs(worst.margin))
+        return finding;
+    }
+    given_[claim] = cube.at(worst.u);
+    return judge(options_.seed, claim).findings[claim];
   }
 
   WorstOptions options_;

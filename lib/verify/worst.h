@@ -41,6 +41,8 @@ struct WorstReport {
 
   model::CampaignVerdict verdict = model::CampaignVerdict::undecided;
   std::uint64_t runs = 0;     ///< that were made
+  std::uint64_t seed = 0;
+  double horizon = 0;
   std::vector<Claim> claims;  ///< that are stated; none after a stop
   std::vector<hybrid::GivenRun> given;
   std::optional<PeriodicLengths> lengths;  ///< in which linear errors grow fastest
