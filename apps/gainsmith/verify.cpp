@@ -53,7 +53,7 @@ ExitCode search_worst(const VerifyOptions& options, const LoadedGains& loaded) {
     throw InputError({options.gains}, "--probability is about runs at random, not about --worst");
   verify::WorstOptions search;
   search.seed = options.seed.value_or(search.seed);
-  search.runs = options.runs.value_or(search.runs);
+  search.runs = options.runs;
   search.threads = options.threads;
   const verify::WorstReport report = verify::search_worst(loaded.stated, loaded.gains, search);
   const model::Design& design = *loaded.stated.design;
@@ -99,7 +99,8 @@ Command verify_command() {
        Option("--seed", options->seed, "seed of the random streams (default: the problem's)"),
        Option("--worst", options->worst,
               "search the worst run of each claim instead of drawing runs: over starts, lengths, "
-              "losses, noise and uncertain data; --runs: of the search (default: 3000)"),
+              "losses, noise and uncertain data; --runs: of the search (default: 3000, or 600 "
+              "where flows are integrated)"),
        Option("--threads", options->threads,
               "threads, 0: one a core; the report does not depend on it")
            .within(0, 1024),

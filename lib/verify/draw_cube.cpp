@@ -26,6 +26,18 @@ Eigen::VectorXd ball_point(const Eigen::VectorXd& w) {
   return length == 0 ? w : Eigen::VectorXd(w * (w.cwiseAbs().maxCoeff() / length));
 }
 
+/// A list that repeats a part of it, as that part.
+template <class List>
+void shorten(List& list) {
+  for (std::size_t period = 1; period < list.size(); ++period) {
+    if (list.size() % period != 0) continue;
+    if (!std::equal(list.begin() + static_cast<std::ptrdiff_t>(period), list.end(), list.begin()))
+      continue;
+    list.resize(period);
+    return;
+  }
+}
+
 }  // namespace
 
 DrawCube::DrawCube(const hybrid::System& system, const hybrid::Scenario& scenario,
@@ -46,7 +58,12 @@ GivenRun DrawCube::at(const std::vector<double>& u) const { return rounded(u, 0)
 
 GivenRun DrawCube::rounded(const std::vector<double>& u, int digits) const {
   std::size_t next = 0;
-  return walk({[&](const Name&) { return std::clamp(u[next++], 0.0, 1.0); }, digits});
+  GivenRun run =
+      walk({[&](const Name&) { return std::clamp(u[next++], 0.0, 1.0); }, digits});
+  for (auto& list : run.lengths) shorten(list);
+  for (auto& list : run.losses) shorten(list);
+  for (auto& list : run.noise) shorten(list);
+  return run;
 }
 
 std::vector<double> DrawCube::start() const {

@@ -44,15 +44,18 @@ class Runs {
                     std::size_t claim) {
     check_stop();
     *run_ = cube.at(u);
-    const RunVerdict verdict = judge_(seed_, number_);
+    const bounded::Track<double>& track = judge_.track(seed_, number_);
     check_stop();  // perhaps amid the run
     ++made_;
     Doing::step();
+    const bool lost = track.termination != bounded::Termination::horizon &&
+                      track.termination != bounded::Termination::lost;
     double margin = 0;
     for (std::size_t c = 0; c < worst_.size(); ++c) {
-      const claims::Finding& finding = verdict.findings[c];
+      const claims::Finding finding = judge_.checks()[c](track);
       Worst one{margin_of(finding, setup_->events->judged[c].kind), finding.violated(),
                 cube_number, u};
+      if (lost) one.margin = kLargestMargin;
       if (c == claim) margin = one.margin;
       if (is_worse(one, worst_[c])) worst_[c] = std::move(one);
     }
@@ -76,6 +79,8 @@ class Search {
  public:
   Search(const model::Instance& instance, const model::Gains& gains, const WorstOptions& options)
       : options_(options), setup_(make_setup(instance, gains, &given_)) {
+    constexpr std::uint64_t kExact = 3000, kIntegrated = 600;
+    runs_ = options.runs.value_or(setup_->integrated() ? kIntegrated : kExact);
     if (setup_->events->judged.empty())
       throw InputError(instance.design->campaign.place, "there is no claim to search the worst run of");
     make_cubes();
@@ -88,7 +93,7 @@ class Search {
     WorstReport report;
     report.seed = options_.seed;
     report.horizon = setup_->horizon();
-    const Doing doing("runs of the search", options_.runs);
+    const Doing doing("runs of the search", runs_);
     try {
       report.lengths = fastest_lengths(*setup_);
       if (report.lengths && report.lengths->lengths.size() > kPeriods)
@@ -144,7 +149,7 @@ class Search {
     const std::size_t periods = cubes_.size() - 1;
     const std::size_t tasks = claims() * periods;
     const auto runs =
-        static_cast<int>(std::max(kFewest, 2 * options_.runs / 3 / static_cast<std::uint64_t>(tasks)));
+        static_cast<int>(std::max(kFewest, 2 * runs_ / 3 / static_cast<std::uint64_t>(tasks)));
     worst_.assign(claims(), {});
     share(tasks, [&](std::size_t task, Runs& own) {
       search_cube(task % periods, task / periods, runs, options_.seed + task, own);
@@ -166,13 +171,15 @@ class Search {
     search::nlopt_search()(function, own.worst()[claim].u, options, go_on);
   }
 
-  /// Each draw of the worst run at both its ends, until nothing gets worse.
+  /// Each draw of the worst run at both its ends, until nothing gets worse; of claims that no run
+  /// violates so far.
   void search_each_draw() {
     const std::size_t number = cubes_.size() - 1;
     const DrawCube& cube = cubes_[number];
-    const std::uint64_t most = options_.runs / 3 / static_cast<std::uint64_t>(claims());
+    const std::uint64_t most = runs_ / 3 / static_cast<std::uint64_t>(claims());
     const std::vector<Worst> from = worst_;
     share(claims(), [&](std::size_t claim, Runs& own) {
+      if (from[claim].violated) return;
       Point u = cube.unrolled(cubes_[from[claim].cube], from[claim].u);
       double margin = own(cube, number, u, claim);
       for (bool worse = true; worse && own.made() < most;) {
@@ -214,7 +221,7 @@ class Search {
 
   /// The worst run of a claim with numbers of as few digits as leave it nearly as bad.
   claims::Finding simplest(std::size_t claim, Judge& judge) {
-    constexpr double kAsBad = 0.01;  // of the margin
+    constexpr double kAsBad = 0.1;  // of the margin
     const Worst& worst = worst_[claim];
     const DrawCube& cube = cubes_[worst.cube];
     for (const int digits : {2, 3, 4, 6}) {
@@ -231,6 +238,7 @@ class Search {
   }
 
   WorstOptions options_;
+  std::uint64_t runs_ = 0;
   std::vector<hybrid::GivenRun> given_;  ///< of the setup: those that are being made
   std::unique_ptr<const Setup> setup_;
   std::vector<DrawCube> cubes_;

@@ -8,10 +8,11 @@
 //   1. over runs whose lists of draws repeat after one, two and three draws (draw_cube.h), and after
 //      the period in which linear errors grow fastest (periodic_lengths.h): all over the cube by
 //      NLopt's CRS2, then near the best point by a simplex and BOBYQA
-//   2. from the best of these over all draws one by one, each at both its ends
+//   2. from the best of these, if it does not violate, over all draws one by one, each at both ends
 //
-// Each run is judged by Judge, as every run of a campaign. What is reported as violated is a run
-// that violates when it is repeated too. That none was found shows nothing.
+// The search goes by one computation of each run. The worst is judged as a run of a campaign
+// (judge.h), and what is reported as violated violates when it is repeated too. That none was found
+// shows nothing.
 #pragma once
 
 #include <cstdint>
@@ -26,9 +27,10 @@
 namespace gainsmith::verify {
 
 struct WorstOptions {
-  std::uint64_t seed = 1;     ///< of the search
-  std::uint64_t runs = 3000;  ///< at most, a little more to share them evenly
-  unsigned threads = 0;       ///< 0: one a core; the report does not depend on it
+  std::uint64_t seed = 1;  ///< of the search
+  /// At most, or a little more to share them evenly; none: 3000, or 600 where flows are integrated.
+  std::optional<std::uint64_t> runs;
+  unsigned threads = 0;  ///< 0: one a core; the report does not depend on it
 };
 
 struct WorstReport {
