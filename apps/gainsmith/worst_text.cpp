@@ -24,7 +24,7 @@ std::string verdict_word(const verify::WorstReport& report) {
     case model::CampaignVerdict::undecided:
       return "undecided";
     case model::CampaignVerdict::held:
-      return "none found";
+      return "no violation found";
   }
   return "?";
 }
@@ -62,7 +62,7 @@ std::string lengths_text(const verify::PeriodicLengths& lengths) {
 
 std::string worst_summary(const verify::WorstReport& report, const model::Design& design,
                           const std::string& gains_file) {
-  std::string text = fmt::format("worst       {} in {} runs that were searched (seed {}, horizon {})\n",
+  std::string text = fmt::format("worst       {} ({} runs tried, seed {}, horizon {})\n",
                                  verdict_word(report), report.runs, report.seed,
                                  brief(report.horizon));
   std::size_t width = 12;
