@@ -13,11 +13,9 @@ namespace gainsmith::app {
 
 namespace {
 
-bool is_interrupted(const verify::WorstReport& report) { return report.claims.empty(); }
-
 /// A search proves no claim: what it does not find is not held.
 std::string verdict_word(const verify::WorstReport& report) {
-  if (is_interrupted(report)) return "interrupted";
+  if (report.interrupted) return "interrupted";
   switch (report.verdict) {
     case model::CampaignVerdict::violated:
       return "violated";
@@ -29,14 +27,17 @@ std::string verdict_word(const verify::WorstReport& report) {
   return "?";
 }
 
-std::string claim_word(const claims::Finding& finding) {
+/// A violation that was not repeated yet is none.
+std::string claim_word(const verify::WorstReport& report, const claims::Finding& finding) {
+  if (report.interrupted) return "not confirmed";
   return finding.violated() ? "violated" : finding.undecided() ? "undecided" : "not violated";
 }
 
-std::string claim_text(const verify::WorstReport::Claim& claim, std::size_t width) {
+std::string claim_text(const verify::WorstReport& report, std::size_t number, std::size_t width) {
+  const verify::WorstReport::Claim& claim = report.claims[number];
   const claims::Finding& finding = claim.finding;
-  std::string text = fmt::format("  {:<{}} {:<17} {:<12}  ", claim.name, width,
-                                 kind_text(claim.kind), claim_word(finding));
+  std::string text = fmt::format("  {:<{}} {:<17} {:<13}  ", claim.name, width,
+                                 kind_text(claim.kind), claim_word(report, finding));
   if (!finding.looked && !finding.ended)
     return text + "no run reaches the time or event of the claim\n";
   if (finding.ended) return text + "the run " + end_text(finding) + "\n";
@@ -68,12 +69,15 @@ std::string worst_summary(const verify::WorstReport& report, const model::Design
   std::size_t width = 12;
   for (const auto& claim : report.claims) width = std::max(width, claim.name.size());
   for (std::size_t c = 0; c < report.claims.size(); ++c) {
-    text += claim_text(report.claims[c], width);
+    text += claim_text(report, c, width);
     text += fmt::format("    replay    gainsmith simulate {} --given {}\n", gains_file,
                         model::quoted(given_text(report.given[c], design)));
   }
+  for (const auto& [name, symbols] : report.missing)
+    text += fmt::format("  {:<{}} not stated: no value for {}\n", name, width,
+                        fmt::join(symbols, ", "));
   if (report.lengths && !report.lengths->lengths.empty()) text += lengths_text(*report.lengths);
-  if (report.verdict != model::CampaignVerdict::violated && !is_interrupted(report))
+  if (report.verdict != model::CampaignVerdict::violated && !report.interrupted)
     text += "  note        that nothing was found shows nothing: runs that were not tried may be worse\n";
   return text;
 }
@@ -85,7 +89,7 @@ io::Json worst_json(const verify::WorstReport& report, const model::Design& desi
     const claims::Finding& finding = claim.finding;
     claims.push_back({{"name", claim.name},
                       {"claim", kind_text(claim.kind)},
-                      {"verdict", claim_word(finding)},
+                      {"verdict", claim_word(report, finding)},
                       {"value", io::finite_or_null(finding.value)},
                       {"bound", io::finite_or_null(finding.bound)},
                       {"t", finding.t},

@@ -24,6 +24,7 @@ constexpr double kLargestMargin = 1e6;
 struct Worst {
   double margin = -std::numeric_limits<double>::infinity();
   bool violated = false;
+  claims::Finding finding;
   std::size_t cube = 0;
   Point u;
 };
@@ -53,7 +54,7 @@ class Runs {
     double margin = 0;
     for (std::size_t c = 0; c < worst_.size(); ++c) {
       const claims::Finding finding = judge_.checks()[c](track);
-      Worst one{margin_of(finding, setup_->events->judged[c].kind), finding.violated(),
+      Worst one{margin_of(finding, setup_->events->judged[c].kind), finding.violated(), finding,
                 cube_number, u};
       if (lost) one.margin = kLargestMargin;
       if (c == claim) margin = one.margin;
@@ -93,6 +94,8 @@ class Search {
     WorstReport report;
     report.seed = options_.seed;
     report.horizon = setup_->horizon();
+    for (const claims::Claim& claim : setup_->claims())
+      if (!claim.stated()) report.missing.emplace_back(claim.name, claim.missing);
     const Doing doing("runs of the search", runs_);
     try {
       report.lengths = fastest_lengths(*setup_);
@@ -101,11 +104,10 @@ class Search {
       lengths_ = report.lengths ? report.lengths->lengths : Point();
       search_periods();
       if (cubes_.back().size() > cubes_.front().size()) search_each_draw();
-      report.runs = made_;
       judge(report);
-    } catch (const Stopped&) {
       report.runs = made_;
-      report.claims.clear();
+    } catch (const Stopped&) {
+      leave(report);
     }
     return report;
   }
@@ -132,11 +134,21 @@ class Search {
   void share(std::size_t count, const Task& task) {
     given_.assign(count, {});
     std::vector<std::optional<Runs>> runs(count);
-    parallel_for(count, options_.threads, [&](std::size_t i) {
-      runs[i].emplace(*setup_, given_[i], i, options_.seed);
-      task(i, *runs[i]);
-    });
+    try {
+      parallel_for(count, options_.threads, [&](std::size_t i) {
+        runs[i].emplace(*setup_, given_[i], i, options_.seed);
+        task(i, *runs[i]);
+      });
+    } catch (const Stopped&) {
+      add(runs);
+      throw;
+    }
+    add(runs);
+  }
+
+  void add(const std::vector<std::optional<Runs>>& runs) {
     for (const auto& one : runs) {
+      if (!one) continue;
       made_ += one->made();
       for (std::size_t c = 0; c < claims(); ++c)
         if (is_worse(one->worst()[c], worst_[c])) worst_[c] = one->worst()[c];
@@ -217,6 +229,20 @@ class Search {
       report.claims.push_back({claim.name, claim.kind, finding});
     }
     report.given = given_;
+  }
+
+  /// What was found so far, by one computation of each run.
+  void leave(WorstReport& report) {
+    report.runs = made_;
+    report.interrupted = true;
+    report.verdict = model::CampaignVerdict::undecided;
+    report.claims.clear();
+    report.given.clear();
+    for (std::size_t c = 0; c < worst_.size() && made_ > 0; ++c) {
+      const claims::JudgedClaim& claim = setup_->events->judged[c];
+      report.claims.push_back({claim.name, claim.kind, worst_[c].finding});
+      report.given.push_back(cubes_[worst_[c].cube].at(worst_[c].u));
+    }
   }
 
   /// The worst run of a claim with numbers of as few digits as leave it nearly as bad.

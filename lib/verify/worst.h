@@ -18,6 +18,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hybrid/given_run.h"
@@ -45,12 +46,15 @@ struct WorstReport {
   std::uint64_t runs = 0;     ///< that were made
   std::uint64_t seed = 0;
   double horizon = 0;
-  std::vector<Claim> claims;  ///< that are stated; none after a stop
+  bool interrupted = false;   ///< then the findings are those of one computation of each run
+  std::vector<Claim> claims;  ///< that are stated; none when no run was made
+  /// Claims that are not stated, with what has no value.
+  std::vector<std::pair<std::string, std::vector<std::string>>> missing;
   std::vector<hybrid::GivenRun> given;
   std::optional<PeriodicLengths> lengths;  ///< in which linear errors grow fastest
 };
 
-/// Deterministic. A stop (base/stop.h) leaves the report without claims. InputError when nothing is
+/// Deterministic. A stop (base/stop.h) leaves the report with what was found so far, undecided. InputError when nothing is
 /// drawn, no claim is stated, or NLopt is not there.
 WorstReport search_worst(const model::Instance& instance, const model::Gains& gains,
                          const WorstOptions& options);

@@ -297,6 +297,28 @@ TEST(Worst, UncertainDataAndStartsAreAtTheirWorst) {
   EXPECT_FALSE(report.lengths);
 }
 
+/// A pendulum of which no product of matrices tells the lengths: random runs stay below 4.
+TEST(Worst, TurnsAreFoundWithoutALinearPart) {
+  const model::Instance instance = instance_of(R"~(  let: {f(x): "[x(2); -x(1) - 1e-3*x(1)^3]"}
+  events: {sample: {every: [0.1, 1.1]}}
+  plant: {state: {x: 2}, output: {y: x(1)}, flow: {x: f(x)}}
+  observer:
+    state: {xh: {shape: 2, start: 0}}
+    flow: {xh: f(xh)}
+    at: {sample: {xh: "xh + [0.6; 2]*(y - xh(1))"}}
+  claims: {bounded: {below: norm(x - xh), bound: 20}}
+)~",
+                                               "campaign: {horizon: 20, sampling: uniform, initial: "
+                                               "{x: {box: [-1, 1]}}}\n");
+  CampaignOptions sampled;
+  sampled.runs = 200;
+  EXPECT_EQ(run_campaign(*make_setup(instance, {}), sampled).verdict,
+            model::CampaignVerdict::held);
+  const WorstReport report = search_worst(instance, {}, options_of(200));
+  EXPECT_EQ(report.verdict, model::CampaignVerdict::violated);
+  EXPECT_FALSE(report.lengths);
+}
+
 TEST(Worst, WithoutDrawsThereIsNothingToSearch) {
   const model::Instance instance =
       instance_of("  plant: {state: {x: scalar}, flow: {x: -x}}\n  claims: {b: {below: x, bound: 3}}\n",
