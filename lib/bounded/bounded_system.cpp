@@ -18,7 +18,8 @@ bool uses_any(const expr::Program& program, const std::set<std::string>& names) 
                      [&](const expr::Input& input) { return names.contains(input.name); });
 }
 
-/// The jump as an affine map; none when a coefficient depends on clocks or an entry is not affine.
+}  // namespace
+
 std::optional<WideMap> affine_jump(const Coordinates& coordinates) {
   const Index n = coordinates.layout.size;
   WideMap map{Wide::Identity(n, n), Wide::Zero(n, 1)};
@@ -36,8 +37,6 @@ std::optional<WideMap> affine_jump(const Coordinates& coordinates) {
   map.remove_noise();
   return map;
 }
-
-}  // namespace
 
 template <class Scalar>
 BallFunction<Scalar>::BallFunction(const expr::Program& program, const hybrid::StateLayout& layout,

@@ -34,6 +34,9 @@ class BallFunction {
   expr::Evaluator<BallAlgebra<Scalar>> evaluator_;
 };
 
+/// The jump as an affine map; none when a coefficient depends on clocks or an entry is not affine.
+std::optional<WideMap> affine_jump(const Coordinates& coordinates);
+
 /// What the runs of one Scalar share.
 template <class Scalar>
 struct BoundedSystem {

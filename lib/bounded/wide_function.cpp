@@ -36,7 +36,8 @@ WideFunction::WideFunction(const expr::Program& program, const hybrid::StateLayo
   evaluator_.set(layout.timer, moving_.back());
 }
 
-const Wide& WideFunction::operator()(const Wide& x) {
+const Wide& WideFunction::operator()(const Wide& x, const Decimal100& tau) {
+  moving_.back()(0) = tau;
   for (std::size_t i = 0; i < slots_.size(); ++i)
     moving_[i].reshaped() = x.col(0).segment(slots_[i].offset, slots_[i].shape.size());
   return evaluator_.run();

@@ -11,14 +11,15 @@
 
 namespace gainsmith::bounded {
 
-/// A program of constants and coordinates in 100 digits; every coordinate that is not set is 0.
+/// A program of constants, coordinates and the timer in 100 digits.
 class WideFunction {
  public:
   WideFunction(const expr::Program& program, const hybrid::StateLayout& layout,
                const numbers::ValuesOf<Decimal100>& constants);
   WideFunction(WideFunction&&) = default;
   WideFunction& operator=(WideFunction&&) = default;
-  const numbers::MatrixOf<Decimal100>& operator()(const numbers::MatrixOf<Decimal100>& x);
+  const numbers::MatrixOf<Decimal100>& operator()(const numbers::MatrixOf<Decimal100>& x,
+                                                  const Decimal100& tau = Decimal100(0));
 
  private:
   std::vector<hybrid::Slot> slots_;

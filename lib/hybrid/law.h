@@ -1,13 +1,20 @@
 // Where the lengths of the sampling intervals come from.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
 #include "base/random.h"
+#include "base/sine.h"
 #include "hybrid/system.h"
 
 namespace gainsmith::hybrid {
+
+/// The length of the law `sinusoid` at time t.
+inline double sinusoid(double t, double low, double high) {
+  return std::min(std::max((high - low) / 2 * sine(t / high) + (high + low) / 2, low), high);
+}
 
 /// A sampling law with its numbers, for reset values in [low, high].
 struct Law {

@@ -207,12 +207,16 @@ Scenario make_scenario(const model::Design::Campaign& campaign, const System& sy
   return scenario;
 }
 
-RandomStream draw_stream(std::uint64_t seed, std::uint64_t run, Purpose purpose,
-                         std::size_t index) {
+std::uint64_t stream_key(std::uint64_t seed, Purpose purpose, std::size_t index) {
   const auto low = [](std::uint64_t x) { return static_cast<std::uint32_t>(x & 0xFFFFFFFFU); };
   const auto words = philox4x32({static_cast<std::uint32_t>(purpose), low(index), 0, 0},
                                 {low(seed), low(seed >> 32U)});
-  return {(static_cast<std::uint64_t>(words[0]) << 32U) | words[1], run};
+  return (static_cast<std::uint64_t>(words[0]) << 32U) | words[1];
+}
+
+RandomStream draw_stream(std::uint64_t seed, std::uint64_t run, Purpose purpose,
+                         std::size_t index) {
+  return {stream_key(seed, purpose, index), run};
 }
 
 VectorXd draw_start(const System& system, const Scenario& scenario, std::uint64_t seed,

@@ -65,6 +65,8 @@ Scenario make_scenario(double horizon, const System& system);
 
 enum class Purpose : std::uint32_t { start = 1, first, length, lost, noise, last_places };
 
+/// The key of a stream, which all runs of a seed share.
+std::uint64_t stream_key(std::uint64_t seed, Purpose purpose, std::size_t index);
 RandomStream draw_stream(std::uint64_t seed, std::uint64_t run, Purpose purpose, std::size_t index);
 
 /// The values of all variables at the start of a run, branches 0. InputError where a text has no

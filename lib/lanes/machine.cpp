@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <new>
 #include <optional>
 
@@ -92,14 +93,18 @@ class LaneCode::Maker {
  public:
   Maker(TapeCode tape, LaneCode& code) : tape_(std::move(tape)), code_(code) {}
 
-  void make() {
+  /// `feed_back`: the input that takes the place of the first result.
+  void make(std::optional<std::uint32_t> feed_back) {
+    if (feed_back)
+      for (std::uint32_t k = 0; k < tape_.results.front().size(); ++k)
+        fed_.emplace(tape_.results.front()[k], *feed_back + k);
     first_ = tape_.inputs + static_cast<std::uint32_t>(tape_.constants.size());
     code_.constants_ = tape_.constants;
     code_.registers_ = tape_.inputs;
     find_last_uses();
     at_.assign(tape_.registers, kNone);
     for (std::uint32_t k = 0; k < tape_.inputs; ++k) at_[k] = k;
-    for (std::size_t k = 0; k < tape_.steps.size(); ++k) add(k);
+    for (std::size_t k = 0; k < tape_.steps.size();) k += add_from(k);
     for (const auto& result : tape_.results) {
       auto& list = code_.results_.emplace_back();
       for (const std::uint32_t one : result) list.push_back(place(one));
@@ -107,8 +112,23 @@ class LaneCode::Maker {
     code_.blocks_ = std::move(tape_.blocks);
   }
 
+  /// Copies the first result to the inputs from `first` on.
+  void feed_back(std::uint32_t first) {
+    std::vector<std::uint32_t> from = code_.results_.front();
+    // An input that another one takes the place of is read before.
+    for (std::uint32_t k = 0; k < from.size(); ++k)
+      if (from[k] < tape_.inputs && from[k] != first + k) {
+        const auto beside = static_cast<std::uint32_t>(code_.registers_++);
+        copy(from[k], beside);
+        from[k] = beside;
+      }
+    for (std::uint32_t k = 0; k < from.size(); ++k)
+      if (from[k] != first + k) copy(from[k], first + k);
+  }
+
  private:
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  static constexpr std::size_t kFewestTerms = 2;  ///< of a polynomial in one step
   static constexpr std::size_t kNever = std::numeric_limits<std::size_t>::max();
 
   template <class Visit>
@@ -159,9 +179,11 @@ class LaneCode::Maker {
     });
   }
 
-  /// A result that nothing uses is there for its fault alone.
+  /// A result that nothing uses is there for its fault alone. One that is fed back is written to the
+  /// input at once, when nothing reads that any more.
   std::uint32_t give(std::uint32_t out, std::size_t k) {
-    at_[out] = fresh();
+    const auto input = fed_.find(out);
+    at_[out] = input != fed_.end() && last_[input->second] <= k ? input->second : fresh();
     if (last_[out] == 0) last_[out] = k;
     return at_[out];
   }
@@ -188,14 +210,109 @@ class LaneCode::Maker {
     made.a = by_constant ? a - tape_.inputs : place(a);
     if (count > 1) made.b = place(b);
     if (count > 2) made.c = place(step.c);
+    if (!code_.steps_.empty() && k > 0) keep_last(k, made);
     release(step, k);
     made.out = give(step.out, k);
     code_.steps_.push_back(made);
     drop(step.out, k);
   }
 
+  /// Takes an operand from the step before, when nothing else reads it.
+  void keep_last(std::size_t k, LaneStep& made) {
+    LaneStep& before = code_.steps_.back();
+    const std::uint32_t result = tape_.steps[k - 1].out;
+    if (before.op == LaneOp::one_by_one || before.is_partial || last_[result] != k) return;
+    if (at_[result] != before.out) return;
+    switch (made.op) {
+      case LaneOp::add:
+        if ((made.a == before.out) == (made.b == before.out)) return;
+        if (made.a == before.out) made.a = made.b;
+        made.op = LaneOp::add_last;
+        break;
+      case LaneOp::multiply_add:
+        if (made.c == before.out && made.a != before.out && made.b != before.out) {
+          made.op = LaneOp::multiply_add_last;
+        } else if (made.c != before.out && (made.a == before.out) != (made.b == before.out)) {
+          if (made.b == before.out) std::swap(made.a, made.b);
+          made.op = LaneOp::multiply_last_add;
+        } else {
+          return;
+        }
+        break;
+      case LaneOp::multiply_constant_add:
+        if (made.c != before.out || made.b == before.out) return;
+        made.op = LaneOp::multiply_constant_add_last;
+        break;
+      default:
+        return;
+    }
+    before.stores = false;
+  }
+
   void drop(std::uint32_t out, std::size_t k) {
     if (last_[out] == k) free_.push_back(at_[out]);
+  }
+
+  void copy(std::uint32_t from, std::uint32_t to) {
+    LaneStep made;
+    made.op = LaneOp::copy;
+    made.a = from;
+    made.out = to;
+    code_.steps_.push_back(made);
+  }
+
+  /// Adds step k, or a polynomial that begins there; how many steps these are.
+  std::size_t add_from(std::size_t k) {
+    const std::size_t length = chain_length(k);
+    if (length < kFewestTerms) {
+      add(k);
+      return 1;
+    }
+    add_polynomial(k, length);
+    return length;
+  }
+
+  /// How many steps from k on are Horner's rule with constants: (c a + c') a + c'' ...
+  std::size_t chain_length(std::size_t k) const {
+    std::size_t length = 0;
+    for (; k + length < tape_.steps.size(); ++length) {
+      const TapeCode::Step& step = tape_.steps[k + length];
+      if (step.op != ScalarOp::multiply_add || !is_constant(step.c)) break;
+      if (length == 0 ? is_constant(step.a) == is_constant(step.b) : !continues(k, k + length))
+        break;
+    }
+    return length;
+  }
+
+  std::uint32_t argument_of(const TapeCode::Step& first) const {
+    return is_constant(first.a) ? first.b : first.a;
+  }
+
+  bool continues(std::size_t first, std::size_t k) const {
+    const TapeCode::Step& step = tape_.steps[k];
+    const std::uint32_t before = tape_.steps[k - 1].out;
+    const std::uint32_t argument = argument_of(tape_.steps[first]);
+    const bool takes =
+        (step.a == before && step.b == argument) || (step.b == before && step.a == argument);
+    return takes && last_[before] == k;
+  }
+
+  void add_polynomial(std::size_t k, std::size_t length) {
+    const TapeCode::Step& first = tape_.steps[k];
+    LaneStep made;
+    made.op = LaneOp::polynomial;
+    made.a = place(argument_of(first));
+    made.b = static_cast<std::uint32_t>(code_.constants_.size());
+    made.c = static_cast<std::uint32_t>(length);
+    const auto value = [&](std::uint32_t one) { return tape_.constants[one - tape_.inputs]; };
+    code_.constants_.push_back(value(is_constant(first.a) ? first.a : first.b));
+    for (std::size_t i = 0; i < length; ++i)
+      code_.constants_.push_back(value(tape_.steps[k + i].c));
+    const std::size_t end = k + length - 1;
+    for (std::size_t i = k; i <= end; ++i) release(tape_.steps[i], i);
+    made.out = give(tape_.steps[end].out, end);
+    code_.steps_.push_back(made);
+    drop(tape_.steps[end].out, end);
   }
 
   void add_function(const TapeCode::Step& step, std::size_t k) {
@@ -239,15 +356,20 @@ class LaneCode::Maker {
 
   TapeCode tape_;
   LaneCode& code_;
-  std::uint32_t first_ = 0;  ///< that is computed
+  std::uint32_t first_ = 0;                     ///< that is computed
+  std::map<std::uint32_t, std::uint32_t> fed_;  ///< the inputs of results that are fed back
   std::vector<std::size_t> last_;
   std::vector<std::uint32_t> at_;
   std::vector<std::uint32_t> free_;
 };
 
 LaneCode::LaneCode(const numbers::ScalarGraph& graph, const std::vector<std::vector<int>>& results,
-                   std::size_t inputs) {
-  Maker(numbers::tape_code(graph, results, static_cast<int>(inputs)), *this).make();
+                   std::size_t inputs, std::optional<std::uint32_t> feed_back) {
+  Maker maker(numbers::tape_code(graph, results, static_cast<int>(inputs)), *this);
+  maker.make(feed_back);
+  if (feed_back) maker.feed_back(*feed_back);
+  may_fault_ = std::any_of(steps_.begin(), steps_.end(),
+                           [](const LaneStep& step) { return step.is_partial; });
 }
 
 void LaneMachine::Free::operator()(double* registers) const {
@@ -278,6 +400,7 @@ void LaneMachine::run(std::uint32_t active) {
   const LaneStep* const end = step + code_->steps_.size();
   while ((step = run_(step, end, code_->constants_.data(), registers_.get(), faults)) != end)
     run_one_by_one(code_->one_by_one_[(step++)->a], active);
+  if (!code_->may_fault_) return;
   for (std::size_t l = 0; l < kLanes; ++l)
     if (faults[l] != 0 || std::isnan(faults[l])) faults_ |= 1U << l;
 }

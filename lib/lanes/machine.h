@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "lanes/steps.h"
@@ -20,8 +21,9 @@ namespace gainsmith::lanes {
 class LaneCode {
  public:
   /// Computes the nodes of `results` and what may have no value, from `inputs` numbers a lane.
+  /// `feed_back`: then writes the first result to the inputs from this one on.
   LaneCode(const numbers::ScalarGraph& graph, const std::vector<std::vector<int>>& results,
-           std::size_t inputs);
+           std::size_t inputs, std::optional<std::uint32_t> feed_back = {});
 
  private:
   friend class LaneMachine;
@@ -41,6 +43,7 @@ class LaneCode {
   std::vector<std::pair<std::uint32_t, double>> filled_;  ///< registers of constants
   std::vector<std::vector<std::uint32_t>> results_;
   std::size_t registers_ = 0;
+  bool may_fault_ = false;  ///< beside what is done lane by lane
 };
 
 class LaneMachine {

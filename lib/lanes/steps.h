@@ -22,6 +22,13 @@ enum class LaneOp : std::uint8_t {
   multiply_constant,  ///< constant a * b
   multiply_add,       ///< a b + c
   multiply_constant_add,
+  // Of the result of the step before, `last`, which stays where results are computed.
+  add_last,                    ///< last + a
+  multiply_add_last,           ///< a b + last
+  multiply_constant_add_last,  ///< constant a * b + last
+  multiply_last_add,           ///< last b + c
+  copy,
+  polynomial,  ///< by Horner's rule: of register a, with the c + 1 constants from constant b on
   divide,
   negate,
   minimum,  ///< b < a ? b : a
@@ -42,6 +49,7 @@ enum class LaneOp : std::uint8_t {
 struct LaneStep {
   LaneOp op = LaneOp::one_by_one;
   bool is_partial = false;  ///< a result that is not finite is a fault of the lane
+  bool stores = true;       ///< false: the next step alone reads the result
   std::uint32_t out = 0, a = 0, b = 0, c = 0;  ///< registers; of one_by_one `a` is its number
 };
 
@@ -51,9 +59,14 @@ struct LaneStep {
 using RunSteps = const LaneStep* (*)(const LaneStep* step, const LaneStep* end,
                                      const double* constants, double* registers, double* faults);
 
+/// Draw `draw` of the streams (key, runs[l]) of base/random.h, uniform in [0, 1), of all lanes.
+using Uniforms = void (*)(std::uint64_t key, const std::uint64_t* runs, std::uint64_t draw,
+                          double* out);
+
 struct Variant {
   const char* name;
   RunSteps run;
+  Uniforms uniforms;
 };
 
 /// The best that this machine has, or that GAINSMITH_ISA names: v2, v3 or v4. InputError for

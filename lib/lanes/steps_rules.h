@@ -177,93 +177,198 @@ inline V sine(V x) {
   return out;
 }
 
-template <class Operation>
-inline void each(const LaneStep& step, double* registers, const Operation& operation) {
+/// The result of a step, in vector registers.
+struct Last {
+  V part[kVectors];
+};
+
+inline void store(const LaneStep& step, double* registers, const Last& last) {
+  if (!step.stores) return;
   V* const out = reinterpret_cast<V*>(registers + step.out * kLanes);
+#pragma GCC unroll 4
+  for (std::size_t k = 0; k < kVectors; ++k) out[k] = last.part[k];
+}
+
+/// `operation` of the operands and the last result.
+template <class Operation>
+inline void each(const LaneStep& step, double* registers, Last& last, const Operation& operation) {
   const V* const a = reinterpret_cast<const V*>(registers + step.a * kLanes);
   const V* const b = reinterpret_cast<const V*>(registers + step.b * kLanes);
   const V* const c = reinterpret_cast<const V*>(registers + step.c * kLanes);
-  for (std::size_t k = 0; k < kVectors; ++k) out[k] = operation(a[k], b[k], c[k]);
+#pragma GCC unroll 4
+  for (std::size_t k = 0; k < kVectors; ++k)
+    last.part[k] = operation(a[k], b[k], c[k], last.part[k]);
+  store(step, registers, last);
+}
+
+inline void polynomial(const LaneStep& step, const double* constants, double* registers,
+                       Last& last) {
+  const V* const a = reinterpret_cast<const V*>(registers + step.a * kLanes);
+  const double* k = constants + step.b;
+  Last x, sum;
+#pragma GCC unroll 4
+  for (std::size_t v = 0; v < kVectors; ++v) {
+    x.part[v] = a[v];
+    sum.part[v] = all(*k);
+  }
+  for (const double* const end = k + step.c; k != end;) {
+    const V next = all(*++k);
+#pragma GCC unroll 4
+    for (std::size_t v = 0; v < kVectors; ++v)
+      sum.part[v] = multiply_add(sum.part[v], x.part[v], next);
+  }
+  last = sum;
+  store(step, registers, last);
+}
+
+/// Philox4x32-10 (base/random.h) of eight counters, each word in the low half of 64 bits.
+using U = unsigned long long __attribute__((vector_size(64)));
+inline U all_bits(unsigned long long x) { return U{x, x, x, x, x, x, x, x}; }
+/// Of the low halves.
+inline U multiply_low(U a, U b) {
+#if defined(__AVX512F__)
+  return (U)_mm512_maskz_mul_epu32(0xFF, (__m512i)a, (__m512i)b);
+#else
+#if defined(__AVX2__)
+  using Part = __m256i;
+  const auto product = [](Part x, Part y) { return _mm256_mul_epu32(x, y); };
+#else
+  using Part = __m128i;
+  const auto product = [](Part x, Part y) { return _mm_mul_epu32(x, y); };
+#endif
+  constexpr std::size_t parts = sizeof(U) / sizeof(Part);
+  union Parts {
+    U whole;
+    Part part[parts];
+  };
+  const Parts x{a}, y{b};
+  Parts out;
+  for (std::size_t k = 0; k < parts; ++k) out.part[k] = product(x.part[k], y.part[k]);
+  return out.whole;
+#endif
+}
+
+void uniforms(std::uint64_t key, const std::uint64_t* runs, std::uint64_t draw, double* out) {
+  const U low = all_bits(0xFFFFFFFFULL);
+  for (std::size_t v = 0; v < kVectors; ++v) {
+    U run;
+    __builtin_memcpy(&run, runs + v * kWidth, sizeof run);
+    U w0 = all_bits(draw & 0xFFFFFFFFULL), w1 = all_bits(draw >> 32U);
+    U w2 = run & low, w3 = run >> 32;
+    std::uint32_t k0 = static_cast<std::uint32_t>(key), k1 = static_cast<std::uint32_t>(key >> 32U);
+    for (int round = 0; round < 10; ++round) {
+      const U p0 = multiply_low(w0, all_bits(0xD2511F53ULL));
+      const U p1 = multiply_low(w2, all_bits(0xCD9E8D57ULL));
+      w0 = (p1 >> 32) ^ w1 ^ all_bits(k0);
+      w1 = p1 & low;
+      w2 = (p0 >> 32) ^ w3 ^ all_bits(k1);
+      w3 = p0 & low;
+      k0 += 0x9E3779B9U;
+      k1 += 0xBB67AE85U;
+    }
+    // 53 bits as two whole numbers behind the exponents of 2^52 and 2^84.
+    const U bits = ((w0 << 32) | w1) >> 11;
+    const V high = __builtin_bit_cast(V, (bits >> 32) | all_bits(0x4530000000000000ULL));
+    const V rest = __builtin_bit_cast(V, (bits & low) | all_bits(0x4330000000000000ULL));
+    const V number = (high - all(0x1p84)) + (rest - all(0x1p52));
+    const V value = number * all(0x1p-53);
+    __builtin_memcpy(out + v * kWidth, &value, sizeof value);
+  }
 }
 
 const LaneStep* run(const LaneStep* step, const LaneStep* end, const double* constants,
                     double* registers, double* faults) {
+  Last last{};
   for (; step != end; ++step) {
-    const auto over = [&](const auto& operation) { each(*step, registers, operation); };
+    const auto over = [&](const auto& operation) { each(*step, registers, last, operation); };
+    const auto over_constant = [&](const auto& operation) {
+      const V k = all(constants[step->a]);
+      each({step->op, false, step->stores, step->out, 0, step->b, step->c}, registers, last,
+           [&](V, V b, V c, V before) { return operation(k, b, c, before); });
+    };
     switch (step->op) {
       case LaneOp::add:
-        over([](V a, V b, V) { return a + b; });
+        over([](V a, V b, V, V) { return a + b; });
         break;
-      case LaneOp::add_constant: {
-        const V k = all(constants[step->a]);
-        each({step->op, false, step->out, 0, step->b, 0}, registers,
-             [k](V, V b, V) { return k + b; });
+      case LaneOp::add_constant:
+        over_constant([](V k, V b, V, V) { return k + b; });
         break;
-      }
       case LaneOp::subtract:
-        over([](V a, V b, V) { return a - b; });
+        over([](V a, V b, V, V) { return a - b; });
         break;
       case LaneOp::multiply:
-        over([](V a, V b, V) { return a * b; });
+        over([](V a, V b, V, V) { return a * b; });
         break;
-      case LaneOp::multiply_constant: {
-        const V k = all(constants[step->a]);
-        each({step->op, false, step->out, 0, step->b, 0}, registers,
-             [k](V, V b, V) { return k * b; });
+      case LaneOp::multiply_constant:
+        over_constant([](V k, V b, V, V) { return k * b; });
         break;
-      }
       case LaneOp::multiply_add:
-        over([](V a, V b, V c) { return multiply_add(a, b, c); });
+        over([](V a, V b, V c, V) { return multiply_add(a, b, c); });
         break;
-      case LaneOp::multiply_constant_add: {
-        const V k = all(constants[step->a]);
-        each({step->op, false, step->out, 0, step->b, step->c}, registers,
-             [k](V, V b, V c) { return multiply_add(k, b, c); });
+      case LaneOp::multiply_constant_add:
+        over_constant([](V k, V b, V c, V) { return multiply_add(k, b, c); });
         break;
-      }
+      case LaneOp::add_last:
+        over([](V a, V, V, V before) { return before + a; });
+        break;
+      case LaneOp::multiply_add_last:
+        over([](V a, V b, V, V before) { return multiply_add(a, b, before); });
+        break;
+      case LaneOp::multiply_constant_add_last:
+        over_constant([](V k, V b, V, V before) { return multiply_add(k, b, before); });
+        break;
+      case LaneOp::multiply_last_add:
+        over([](V, V b, V c, V before) { return multiply_add(before, b, c); });
+        break;
+      case LaneOp::copy:
+        over([](V a, V, V, V) { return a; });
+        break;
+      case LaneOp::polynomial:
+        polynomial(*step, constants, registers, last);
+        break;
       case LaneOp::divide:
-        over([](V a, V b, V) { return a / b; });
+        over([](V a, V b, V, V) { return a / b; });
         break;
       case LaneOp::negate:
-        over([](V a, V, V) { return -a; });
+        over([](V a, V, V, V) { return -a; });
         break;
       case LaneOp::minimum:
-        over([](V a, V b, V) { return b < a ? b : a; });
+        over([](V a, V b, V, V) { return b < a ? b : a; });
         break;
       case LaneOp::maximum:
-        over([](V a, V b, V) { return a < b ? b : a; });
+        over([](V a, V b, V, V) { return a < b ? b : a; });
         break;
       case LaneOp::where_positive:
-        over([](V a, V b, V c) { return a > all(0.0) ? b : c; });
+        over([](V a, V b, V c, V) { return a > all(0.0) ? b : c; });
         break;
       case LaneOp::where_nonnegative:
-        over([](V a, V b, V c) { return a >= all(0.0) ? b : c; });
+        over([](V a, V b, V c, V) { return a >= all(0.0) ? b : c; });
         break;
       case LaneOp::abs:
-        over([](V a, V, V) { return abs_of(a); });
+        over([](V a, V, V, V) { return abs_of(a); });
         break;
       case LaneOp::sign:
-        over([](V a, V, V) {
+        over([](V a, V, V, V) {
           return a > all(0.0) ? all(1.0) : a < all(0.0) ? all(-1.0) : all(0.0);
         });
         break;
       case LaneOp::floor:
-        over([](V a, V, V) { return floor_of(a); });
+        over([](V a, V, V, V) { return floor_of(a); });
         break;
       case LaneOp::sqrt:
-        over([](V a, V, V) { return sqrt_of(a); });
+        over([](V a, V, V, V) { return sqrt_of(a); });
         break;
       case LaneOp::exp:
-        over([](V a, V, V) { return exp_of(a); });
+        over([](V a, V, V, V) { return exp_of(a); });
         break;
       case LaneOp::sin:
-        over([](V a, V, V) { return sine<false>(a); });
+        over([](V a, V, V, V) { return sine<false>(a); });
         break;
       case LaneOp::cos:
-        over([](V a, V, V) { return sine<true>(a); });
+        over([](V a, V, V, V) { return sine<true>(a); });
         break;
       case LaneOp::tanh:
-        over([](V a, V, V) { return tanh_of(a); });
+        over([](V a, V, V, V) { return tanh_of(a); });
         break;
       case LaneOp::one_by_one:
         return step;
@@ -280,6 +385,6 @@ const LaneStep* run(const LaneStep* step, const LaneStep* end, const double* con
 }  // namespace
 
 extern const Variant GAINSMITH_VARIANT;
-const Variant GAINSMITH_VARIANT{GAINSMITH_VARIANT_NAME, run};
+const Variant GAINSMITH_VARIANT{GAINSMITH_VARIANT_NAME, run, uniforms};
 
 }  // namespace gainsmith::lanes

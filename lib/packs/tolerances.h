@@ -35,6 +35,17 @@ constexpr double kFlatRoot = 0.25;  ///< of the largest operand on a step | a sq
         ///< falls below is not followed by a polynomial | SharpClaims.AreDecidedRight
 constexpr double kAtRoot = 1e-11;  ///< of the horizon | a step ends at a root that is so near |
         ///< Systems/PackRuns.AgreeWithCarefulRuns
+constexpr int kMostLengthDegree = 96;  ///< degree | functions of a length that no polynomial of it
+        ///< follows are not run as linear packs | LengthTable.RefusesWhatItDoesNotFollow
+constexpr double kLengthTail = 1e-25;  ///< of the largest coefficient | the last quarter of the
+        ///< coefficients is below, so that what no coefficient shows is rounding |
+        ///< LengthTable.RefusesWhatItDoesNotFollow
+constexpr double kLengthNoise = 1e-70;  ///< of the largest coefficient of all functions | a function
+        ///< below is the rounding of 0 | LengthTable.WhatIsRoundingIsNothing
+constexpr double kLongestFlow = 100;  ///< the norm of the matrix times the length | longer flows are
+        ///< not run as linear packs | LinearPacks.RunWhatTheyCan
+constexpr double kFlowMargin = 1e-9;  ///< relative | that a value falls along flows is shown in
+        ///< double with so much to spare | LinearProof.NeedsMoreThanRounding
 constexpr int kMostShortFlows = 3;  ///< flows in a row | more of them within an instant are left to
         ///< the careful run | UnusualRuns.AreLeftOpen
 // clang-format on

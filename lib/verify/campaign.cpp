@@ -76,11 +76,12 @@ bool is_worse(const claims::Finding& a, const claims::Finding& b) {
 }
 
 void add(const ClaimTally& later, ClaimTally& sum) {
-  const ClaimTally before = sum;
-  if (is_worse(later.worst, sum.worst)) sum = later;
-  sum.violations = before.violations + later.violations;
-  sum.undecided = before.undecided + later.undecided;
-  sum.floor = std::max(before.floor, later.floor);
+  sum.violations += later.violations;
+  sum.undecided += later.undecided;
+  sum.floor = std::max(sum.floor, later.floor);
+  if (!is_worse(later.worst, sum.worst)) return;
+  sum.run = later.run;
+  sum.worst = later.worst;
 }
 
 /// Adds the outcome of later runs: of equals the earlier run stays.
@@ -90,26 +91,29 @@ void add(const Tally& later, Tally& sum) {
     sum = later;
     return;
   }
-  Tally before = sum;
-  if (is_worse(later, sum)) sum = later;
-  for (std::size_t e = 0; e < before.happened.size(); ++e)
-    sum.happened[e] = before.happened[e] != 0 || later.happened[e] != 0 ? 1 : 0;
-  sum.runs = before.runs + later.runs;
-  sum.violations = before.violations + later.violations;
-  sum.undecided = before.undecided + later.undecided;
-  sum.unfinished = before.unfinished + later.unfinished;
-  sum.careful = before.careful + later.careful;
-  for (std::size_t k = 0; k < sum.open.size(); ++k) sum.open[k] = before.open[k] + later.open[k];
-  sum.first_undecided = before.first_undecided ? before.first_undecided : later.first_undecided;
-  const Tally& first = before.unfinished > 0 ? before : later;
-  sum.unfinished_run = first.unfinished_run;
-  sum.unfinished_termination = first.unfinished_termination;
-  sum.unfinished_message = first.unfinished_message;
-  sum.repeated = before.repeated + later.repeated;
-  for (std::size_t i = 0; i < before.claims.size(); ++i) add(later.claims[i], before.claims[i]);
-  sum.claims = std::move(before.claims);
-  before.confirmed.insert(before.confirmed.end(), later.confirmed.begin(), later.confirmed.end());
-  sum.confirmed = std::move(before.confirmed);
+  if (is_worse(later, sum)) {
+    sum.run = later.run;
+    sum.judgement = later.judgement;
+    sum.score = later.score;
+    sum.termination = later.termination;
+  }
+  if (sum.unfinished == 0 && later.unfinished > 0) {
+    sum.unfinished_run = later.unfinished_run;
+    sum.unfinished_termination = later.unfinished_termination;
+    sum.unfinished_message = later.unfinished_message;
+  }
+  sum.runs += later.runs;
+  sum.violations += later.violations;
+  sum.undecided += later.undecided;
+  sum.unfinished += later.unfinished;
+  sum.repeated += later.repeated;
+  sum.careful += later.careful;
+  for (std::size_t k = 0; k < sum.open.size(); ++k) sum.open[k] += later.open[k];
+  if (!sum.first_undecided) sum.first_undecided = later.first_undecided;
+  for (std::size_t e = 0; e < sum.happened.size(); ++e)
+    sum.happened[e] = sum.happened[e] != 0 || later.happened[e] != 0 ? 1 : 0;
+  for (std::size_t i = 0; i < sum.claims.size(); ++i) add(later.claims[i], sum.claims[i]);
+  sum.confirmed.insert(sum.confirmed.end(), later.confirmed.begin(), later.confirmed.end());
 }
 
 /// Its claim is counted among those that are stated.
@@ -150,8 +154,8 @@ Tally tally_of(std::uint64_t run, const RunVerdict& verdict) {
 }
 
 /// Runs first, first + 1, ..., last - 1, or those until the campaign is stopped.
-Tally judge_runs(const Setup& setup, const packs::PackSystem* packs, std::uint64_t seed,
-                 std::uint64_t first, std::uint64_t last) {
+Tally judge_runs(const Setup& setup, const Packs* packs, std::uint64_t seed, std::uint64_t first,
+                 std::uint64_t last) {
   PackJudge judge(setup, packs);
   Tally sum;
   try {
@@ -174,15 +178,16 @@ Tally judge_runs(const Setup& setup, const packs::PackSystem* packs, std::uint64
 
 /// All runs, in blocks that are handed to the threads and added up in order; those runs that
 /// are done when the campaign is stopped. Packs go on where they decide most of the first block.
-Tally judge_all(const Setup& setup, const packs::PackSystem* packs, std::uint64_t seed,
-                std::uint64_t runs, const CampaignOptions& options) {
+Tally judge_all(const Setup& setup, const Packs* packs, std::uint64_t seed, std::uint64_t runs,
+                const CampaignOptions& options) {
   constexpr std::uint64_t first_size = 64;
   const Doing doing("runs", runs);
   const std::uint64_t begun = packs != nullptr ? std::min(runs, first_size) : 0;
   Tally sum;
   if (begun > 0) sum = judge_runs(setup, packs, seed, 0, begun);
   if (2 * sum.careful > begun) packs = nullptr;
-  const std::uint64_t block_size = packs != nullptr ? 256 : 64;
+  // Linear packs put runs of one law together.
+  const std::uint64_t block_size = packs == nullptr ? 64 : packs->linear ? 2048 : 256;
   constexpr std::uint64_t most_blocks = 4096;  // at once, so that memory does not grow with runs
   for (std::uint64_t from = begun; from < runs;) {
     const std::uint64_t to = std::min(runs, from + most_blocks * block_size);
@@ -318,14 +323,14 @@ Report run_campaign(const Setup& setup, const CampaignOptions& options) {
 
   report.confidence = options.confidence;
   report.idle_observers = hybrid::idle_observers(setup.events->system.dynamics);
-  const auto packs = report.asked >= kFewestInPacks ? make_packs(setup) : nullptr;
-  Tally tally = judge_all(setup, packs.get(), report.seed, report.asked, options);
+  const Packs packs = make_packs(setup, report.asked);
+  Tally tally = judge_all(setup, packs ? &packs : nullptr, report.seed, report.asked, options);
   report.runs = tally.runs;
   report.horizon = setup.horizon();
   report.integrated = setup.integrated();
   report.verdict = model::CampaignVerdict::undecided;
   if (!tally.run) return report;
-  if (packs != nullptr) {
+  if (packs) {
     const Concluding concluding;
     repeat_worst(setup, report.seed, tally);
   }
@@ -333,7 +338,7 @@ Report run_campaign(const Setup& setup, const CampaignOptions& options) {
   report.undecided = tally.undecided;
   report.unfinished = tally.unfinished;
   report.repeated = tally.repeated;
-  if (packs != nullptr) report.careful = tally.careful;
+  if (packs) report.careful = tally.careful;
   report.open = tally.open;
   report.confirmed = tally.confirmed;
   report.worst_run = *tally.run;

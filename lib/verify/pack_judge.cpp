@@ -10,7 +10,8 @@ using claims::Judgement;
 
 namespace {
 
-RunVerdict verdict_of(const packs::PackVerdict& pack, const packs::PackSystem& system) {
+/// `system`: nullptr for linear packs, whose errors are proved.
+RunVerdict verdict_of(const packs::PackVerdict& pack, const packs::PackSystem* system) {
   RunVerdict verdict;
   verdict.judgement = pack.violated() ? Judgement::violated : Judgement::held;
   verdict.happened = pack.happened;
@@ -21,8 +22,8 @@ RunVerdict verdict_of(const packs::PackVerdict& pack, const packs::PackSystem& s
     finding.score = claim.score;
     finding.floor = claim.floor;
     finding.looked = claim.looked;
-    finding.estimated = true;
-    finding.tolerance = system.claims[c].tolerance;
+    finding.estimated = system != nullptr;
+    if (system != nullptr) finding.tolerance = system->claims[c].tolerance;
     verdict.findings.push_back(finding);
   }
   return verdict;
@@ -38,27 +39,40 @@ void require_agreement(std::uint64_t run, Judgement packs, Judgement careful) {
                   run, claims::to_string(packs), claims::to_string(careful)));
 }
 
-std::unique_ptr<const packs::PackSystem> make_packs(const Setup& setup) {
-  if (setup.sampled) return nullptr;
+Packs make_packs(const Setup& setup, std::uint64_t runs) {
+  Packs made;
+  if (runs < (setup.sampled ? kFewestLinear : kFewestInPacks)) return made;
   const EventSetup& events = setup.judged();
+  if (setup.sampled) {
+    const SampledSetup& sampled = *setup.sampled;
+    auto model = packs::make_linear_model(*sampled.system, setup.events->scenario,
+                                          sampled.coordinates, sampled.judged);
+    if (model) made.linear = packs::make_linear_system(std::move(*model));
+    return made;
+  }
   const simulate::Accuracy accuracy = events.accuracy(kAccuracyOfMany);
   const Eigen::VectorXd absolute =
       accuracy.absolute_of.size() > 0
           ? accuracy.absolute_of
           : Eigen::VectorXd(Eigen::VectorXd::Constant(events.system.size, accuracy.absolute));
-  return packs::make_pack_system(events.system, events.scenario, events.claims, accuracy.relative,
-                                 absolute);
+  made.any = packs::make_pack_system(events.system, events.scenario, events.claims,
+                                     accuracy.relative, absolute);
+  return made;
 }
 
-PackJudge::PackJudge(const Setup& setup, const packs::PackSystem* packs)
-    : setup_(&setup), system_(packs) {
-  if (packs != nullptr) packs_.emplace(*packs);
+PackJudge::PackJudge(const Setup& setup, const Packs* packs) : setup_(&setup) {
+  if (packs == nullptr) return;
+  if (packs->linear) linear_.emplace(*packs->linear);
+  if (!packs->any) return;
+  system_ = packs->any.get();
+  packs_.emplace(*system_);
 }
 
 void PackJudge::begin(std::uint64_t seed, std::uint64_t first, std::uint64_t last) {
   seed_ = seed;
   first_ = first;
   verdicts_.clear();
+  if (linear_) verdicts_ = linear_->run(seed, first, last);
   if (packs_) verdicts_ = packs_->run(seed, first, last);
 }
 
@@ -68,10 +82,10 @@ RunVerdict PackJudge::careful(std::uint64_t seed, std::uint64_t run) {
 }
 
 CampaignVerdictOnRun PackJudge::operator()(std::uint64_t run) {
-  if (!packs_) return {careful(seed_, run), true, {}};
+  if (!linear_ && !packs_) return {careful(seed_, run), true, {}};
   const packs::PackVerdict& pack = verdicts_[static_cast<std::size_t>(run - first_)];
   if (pack.open) return {careful(seed_, run), true, pack.why};
-  RunVerdict verdict = verdict_of(pack, *system_);
+  RunVerdict verdict = verdict_of(pack, system_);
   if (run % kSampled != 0) return {std::move(verdict), false, {}};
   RunVerdict again = careful(seed_, run);
   for (std::size_t c = 0; c < again.findings.size(); ++c)

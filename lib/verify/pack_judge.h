@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "packs/linear_runner.h"
 #include "packs/pack_runner.h"
 #include "verify/judge.h"
 
@@ -19,14 +20,21 @@ struct CampaignVerdictOnRun {
   std::optional<packs::Why> why{};  ///< packs left it open
 };
 
-/// nullptr for runs of a kind that packs do not run, or that have a faster way of their own. The
-/// setup must outlive it.
-std::unique_ptr<const packs::PackSystem> make_packs(const Setup& setup);
+/// What packs run: dynamics that are linear, or any other; neither: all runs are careful.
+struct Packs {
+  std::unique_ptr<const packs::LinearSystem> linear;
+  std::unique_ptr<const packs::PackSystem> any;
+
+  explicit operator bool() const { return linear || any; }
+};
+
+/// For so many runs: few are careful. The setup must outlive it.
+Packs make_packs(const Setup& setup, std::uint64_t runs);
 
 class PackJudge {
  public:
-  /// Without packs all runs are careful. One for each thread; both must outlive it.
-  PackJudge(const Setup& setup, const packs::PackSystem* packs);
+  /// nullptr: all runs are careful. One for each thread; both must outlive it.
+  PackJudge(const Setup& setup, const Packs* packs);
 
   /// Prepares runs first, ..., last - 1.
   void begin(std::uint64_t seed, std::uint64_t first, std::uint64_t last);
@@ -38,8 +46,9 @@ class PackJudge {
 
  private:
   const Setup* setup_;
-  const packs::PackSystem* system_;
   std::uint64_t seed_ = 0, first_ = 0;
+  const packs::PackSystem* system_ = nullptr;  ///< of packs_
+  std::optional<packs::LinearRunner> linear_;
   std::optional<packs::PackRunner> packs_;
   std::optional<Judge> judge_;  ///< made when it is asked for
   std::vector<packs::PackVerdict> verdicts_;

@@ -28,6 +28,8 @@ constexpr double kReach = 3;  ///< standard deviations | so far a search for the
         ///< normal noise | DrawCube.NormalNoiseReachesThreeDeviations
 constexpr double kLongestList = 64;  ///< draws | so many lengths, losses or values of one noise are
         ///< chosen one by one; then they repeat | DrawCube.ListsRepeatAfterAPeriodOrAtTheirMost
+constexpr std::uint64_t kFewestLinear = 64;  ///< runs | of fewer runs of linear dynamics each is
+        ///< careful: the tables of packs take the time of so many | PackJudge.AFewRunsAreMadeOneByOne
 // clang-format on
 
 }  // namespace gainsmith::verify

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/random.h"
 #include "numbers/tape.h"
 
 namespace gainsmith::lanes {
@@ -35,7 +36,7 @@ struct RandomGraph {
     for (int k = 0; k < kInputs; ++k) nodes.push_back(graph.input(k));
     const auto any = [&] { return nodes[random() % nodes.size()]; };
     for (int k = 0; k < 120; ++k) {
-      switch (random() % 9) {
+      switch (random() % 10) {
         case 0:
           nodes.push_back(graph.constant(0.25 * static_cast<double>(random() % 17) - 2));
           break;
@@ -62,6 +63,15 @@ struct RandomGraph {
         case 7:
           nodes.push_back(graph.add(graph.multiply(any(), any()), any()));
           break;
+        case 8: {
+          // A polynomial by Horner's rule.
+          const int x = any();
+          int sum = graph.constant(0.5);
+          for (unsigned power = 0; power < 1 + seed % 4; ++power)
+            sum = graph.add(graph.multiply(sum, x), graph.constant(0.25 * power - 0.3));
+          nodes.push_back(sum);
+          break;
+        }
         default:
           nodes.push_back(graph.add(any(), any()));
       }
@@ -125,6 +135,53 @@ TEST(LaneMachine, HasTheSameBitsOnAllMachinesWithFusedProducts) {
     const LaneCode code(one.graph, one.results, RandomGraph::kInputs);
     EXPECT_EQ(run_all(one, code, *v3, seed), run_all(one, code, *v4, seed));
   }
+}
+
+TEST(LaneMachine, FeedsResultsBackToInputs) {
+  // As it goes on, a code that feeds back has the bits of one that does not.
+  for (unsigned seed = 0; seed < 100; ++seed) {
+    RandomGraph one(seed);
+    std::vector<int> next;
+    for (int k = 0; k < RandomGraph::kInputs - 1; ++k) {
+      const int bounded = one.graph.apply(ScalarOp::tanh, one.results[0][0]);
+      next.push_back(k % 3 == 0   ? one.graph.input(1 + (k + 1) % (RandomGraph::kInputs - 1))
+                     : k % 3 == 1 ? one.graph.add(bounded, one.graph.input(1 + k))
+                                  : one.results[static_cast<std::size_t>(k) % 5][1]);
+    }
+    const LaneCode fed(one.graph, {next}, RandomGraph::kInputs, 1);
+    const LaneCode plain(one.graph, {next}, RandomGraph::kInputs);
+    LaneMachine a(fed), b(plain);
+    for (std::size_t k = 0; k < RandomGraph::kInputs; ++k)
+      for (std::size_t l = 0; l < kLanes; ++l)
+        a.input(k)[l] = b.input(k)[l] = 0.01 * static_cast<double>(k * 7 + l) - 0.1;
+    for (int step = 0; step < 3; ++step) {
+      a.run();
+      b.run();
+      std::vector<std::vector<double>> values;
+      for (std::size_t k = 0; k < next.size(); ++k)
+        values.emplace_back(b.result(0, k), b.result(0, k) + kLanes);
+      for (std::size_t k = 0; k < next.size(); ++k)
+        std::copy(values[k].begin(), values[k].end(), b.input(1 + k));
+      for (std::size_t k = 0; k < next.size(); ++k)
+        for (std::size_t l = 0; l < kLanes; ++l)
+          ASSERT_EQ(std::bit_cast<std::uint64_t>(a.input(1 + k)[l]),
+                    std::bit_cast<std::uint64_t>(b.input(1 + k)[l]))
+              << "seed " << seed << ", input " << k;
+    }
+  }
+}
+
+TEST(Uniforms, AreThoseOfTheStreams) {
+  std::vector<std::uint64_t> runs(kLanes);
+  for (std::size_t l = 0; l < kLanes; ++l) runs[l] = l * 0x123456789ULL + (l % 3);
+  std::vector<double> out(kLanes);
+  for (const Variant* const variant : variants())
+    for (const std::uint64_t key : {0ULL, 1ULL, 0xfedcba9876543210ULL})
+      for (const std::uint64_t draw : {0ULL, 7ULL, 0x100000003ULL}) {
+        variant->uniforms(key, runs.data(), draw, out.data());
+        for (std::size_t l = 0; l < kLanes; ++l)
+          EXPECT_EQ(out[l], RandomStream(key, runs[l]).uniform_at(draw)) << variant->name;
+      }
 }
 
 /// Units in the last place between two numbers.

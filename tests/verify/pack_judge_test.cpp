@@ -146,9 +146,9 @@ class PackRuns : public testing::TestWithParam<Case> {};
 TEST_P(PackRuns, AgreeWithCarefulRuns) {
   const model::Instance instance = bind::bind(io::read_problem(GetParam().text));
   const auto setup = make_setup(instance, {});
-  const auto packs = make_packs(*setup);
-  ASSERT_NE(packs, nullptr);
-  packs::PackRunner runner(*packs);
+  const Packs packs = make_packs(*setup, 96);
+  ASSERT_NE(packs.any, nullptr);
+  packs::PackRunner runner(*packs.any);
   constexpr std::uint64_t runs = 96;
   const std::vector<packs::PackVerdict> verdicts = runner.run(11, 0, runs);
   Judge judge(*setup);
@@ -185,9 +185,9 @@ TEST_P(PackRuns, AgreeWithCarefulRuns) {
 TEST_P(PackRuns, AreTheSameInAnyOrder) {
   const model::Instance instance = bind::bind(io::read_problem(GetParam().text));
   const auto setup = make_setup(instance, {});
-  const auto packs = make_packs(*setup);
-  ASSERT_NE(packs, nullptr);
-  packs::PackRunner runner(*packs);
+  const Packs packs = make_packs(*setup, 96);
+  ASSERT_NE(packs.any, nullptr);
+  packs::PackRunner runner(*packs.any);
   const std::vector<packs::PackVerdict> all = runner.run(3, 0, 60);
   const std::vector<packs::PackVerdict> some = runner.run(3, 37, 45);
   for (std::size_t k = 0; k < some.size(); ++k) {
@@ -202,9 +202,9 @@ TEST_P(PackRuns, AreTheSameInAnyOrder) {
 std::size_t open_runs(const std::string& text) {
   const model::Instance instance = bind::bind(io::read_problem(text));
   const auto setup = make_setup(instance, {});
-  const auto packs = make_packs(*setup);
-  if (packs == nullptr) return 40;
-  const std::vector<packs::PackVerdict> all = packs::PackRunner(*packs).run(1, 0, 40);
+  const Packs packs = make_packs(*setup, 40);
+  if (!packs.any) return 40;
+  const std::vector<packs::PackVerdict> all = packs::PackRunner(*packs.any).run(1, 0, 40);
   return static_cast<std::size_t>(
       std::count_if(all.begin(), all.end(), [](const auto& one) { return one.open; }));
 }
@@ -315,9 +315,9 @@ class DelicateRuns : public testing::TestWithParam<Case> {};
 TEST_P(DelicateRuns, AreNotDecidedWrongly) {
   const model::Instance instance = bind::bind(io::read_problem(GetParam().text));
   const auto setup = make_setup(instance, {});
-  const auto packs = make_packs(*setup);
-  ASSERT_NE(packs, nullptr);
-  const std::vector<packs::PackVerdict> verdicts = packs::PackRunner(*packs).run(86, 0, 96);
+  const Packs packs = make_packs(*setup, 96);
+  ASSERT_NE(packs.any, nullptr);
+  const std::vector<packs::PackVerdict> verdicts = packs::PackRunner(*packs.any).run(86, 0, 96);
   Judge judge(*setup);
   for (std::uint64_t run = 0; run < verdicts.size(); ++run) {
     if (verdicts[run].open) continue;
@@ -338,7 +338,7 @@ TEST(DelicateClaims, WithNarrowPeaksAreLeftToCarefulRuns) {
         "  claims: {c: {below: \"" +
         value +
         "\", bound: 0.3}}\ncampaign: {runs: 40, horizon: 5, initial: {x: {box: [-1, 1]}}}\n"));
-    return make_packs(*make_setup(instance, {})) != nullptr;
+    return make_packs(*make_setup(instance, {}), 96).any != nullptr;
   };
   EXPECT_FALSE(runs_in_packs("1/(1 + 1e4*((x(1) - 0.5)^2 + x(2)^2))"));
   EXPECT_FALSE(runs_in_packs("exp(-1e4*x(1)^2)"));
@@ -362,9 +362,9 @@ campaign: {runs: 120, horizon: 5, initial: {x: {box: [-1.5, 1.5]}}}
 )yaml";
   const model::Instance instance = bind::bind(io::read_problem(text));
   const auto setup = make_setup(instance, {});
-  const auto packs = make_packs(*setup);
-  ASSERT_NE(packs, nullptr);
-  const std::vector<packs::PackVerdict> verdicts = packs::PackRunner(*packs).run(5, 0, 120);
+  const Packs packs = make_packs(*setup, 96);
+  ASSERT_NE(packs.any, nullptr);
+  const std::vector<packs::PackVerdict> verdicts = packs::PackRunner(*packs.any).run(5, 0, 120);
   Judge judge(*setup);
   std::size_t violated = 0, open = 0;
   for (std::uint64_t run = 0; run < verdicts.size(); ++run) {

@@ -1,0 +1,69 @@
+#include "packs/lane_lengths.h"
+
+namespace gainsmith::packs {
+
+using lanes::kLanes;
+using model::LawKind;
+
+LaneLengths::LaneLengths(const hybrid::System& system, const hybrid::Scenario& scenario)
+    : clock_(&*system.clocks.front()), scenario_(&scenario) {}
+
+void LaneLengths::begin(std::uint64_t seed, const LaneRuns& runs) {
+  runs_ = runs;
+  const std::vector<hybrid::Law>& laws = scenario_->laws.front();
+  law_ = laws.empty() ? nullptr : &laws[runs.front() % laws.size()];
+  key_ = hybrid::stream_key(seed, hybrid::Purpose::length, 0);
+  occurrences_ = numbers_ = drawn_ = 0;
+  const auto& given = scenario_->first.empty() ? std::optional<double>() : scenario_->first.front();
+  due_.fill(0);
+  if (given) {
+    length_.fill(*given);
+  } else if (!clock_->first) {
+    draw_lengths(numbers_++);
+  } else {
+    const auto [low, high] = *clock_->first;
+    lanes::variant().uniforms(hybrid::stream_key(seed, hybrid::Purpose::first, 0), runs_.data(), 0,
+                              length_.data());
+    for (double& one : length_) one = low == high ? low : low + (high - low) * one;
+  }
+  due_ = first_ = length_;
+}
+
+void LaneLengths::draw_lengths(std::uint64_t number) {
+  const double low = clock_->low, high = clock_->high;
+  if (low == high) {
+    length_.fill(low);
+    return;
+  }
+  const LawKind kind = law_ == nullptr ? LawKind::uniform : law_->kind;
+  if (kind == LawKind::uniform || kind == LawKind::extremes) {
+    lanes::variant().uniforms(key_, runs_.data(), drawn_++, length_.data());
+    if (kind == LawKind::uniform) {
+      for (double& one : length_) one = low + (high - low) * one;
+    } else {
+      for (double& one : length_) one = one < 0.5 ? low : high;
+    }
+    return;
+  }
+  // Without draws.
+  RandomStream none(0, 0);
+  if (kind != LawKind::sinusoid) {
+    length_.fill(law_->reset_value(number, 0, none));
+    return;
+  }
+  for (std::size_t l = 0; l < kLanes; ++l) length_[l] = hybrid::sinusoid(due_[l], low, high);
+}
+
+void LaneLengths::advance() {
+  ++occurrences_;
+  if (clock_->low == clock_->high) {
+    length_.fill(clock_->low);
+    for (std::size_t l = 0; l < kLanes; ++l)
+      due_[l] = first_[l] + static_cast<double>(occurrences_) * clock_->low;
+    return;
+  }
+  draw_lengths(numbers_++);
+  for (std::size_t l = 0; l < kLanes; ++l) due_[l] += length_[l];
+}
+
+}  // namespace gainsmith::packs

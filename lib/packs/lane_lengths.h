@@ -1,0 +1,40 @@
+// The lengths of the flows of kLanes runs, bit by bit those of hybrid::EventClocks.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "hybrid/scenario.h"
+#include "lanes/steps.h"
+
+namespace gainsmith::packs {
+
+using LaneNumbers = std::array<double, lanes::kLanes>;
+using LaneRuns = std::array<std::uint64_t, lanes::kLanes>;
+
+class LaneLengths {
+ public:
+  /// Of event 0, which has a clock. All runs have the same law. Both must outlive it.
+  LaneLengths(const hybrid::System& system, const hybrid::Scenario& scenario);
+
+  void begin(std::uint64_t seed, const LaneRuns& runs);
+  /// Of the flow that is next, and the times at which it ends.
+  const LaneNumbers& length() const { return length_; }
+  const LaneNumbers& due() const { return due_; }
+  /// The flow is over.
+  void advance();
+
+ private:
+  void draw_lengths(std::uint64_t number);
+
+  const hybrid::System::Clock* clock_;
+  const hybrid::Scenario* scenario_;
+  const hybrid::Law* law_ = nullptr;  ///< none: uniform
+  LaneRuns runs_{};
+  std::uint64_t key_ = 0;  ///< of the stream of lengths
+  std::uint64_t occurrences_ = 0, numbers_ = 0, drawn_ = 0;
+  LaneNumbers length_{}, due_{}, first_{};
+};
+
+}  // namespace gainsmith::packs

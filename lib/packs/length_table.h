@@ -1,0 +1,45 @@
+// Functions of the length of a flow as polynomials.
+//
+//   f_k(s) = sum_i c_ki sigma^i,   sigma = (s - middle) scale in [-1, 1],   s in [from, to]
+//
+// They are interpolated at Chebyshev points in 100 digits, cut where what is left falls below
+// rounding, and rounded once. The functions must be smooth: those of linear flows are entire.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "base/scalars.h"
+
+namespace gainsmith::packs {
+
+constexpr double kUnitRoundoff = 0x1p-53;
+
+/// All functions at a length.
+using WideFunctions = std::function<std::vector<Decimal100>(const Decimal100& length)>;
+
+struct LengthTable {
+  struct Polynomial {
+    std::vector<double> powers;  ///< c_0, c_1, ...
+    double error = 0;  ///< of Horner's rule in double, with sigma in double, over the range
+    double size = 0;   ///< at least |f| over the range
+  };
+  double middle = 0;
+  double scale = 0;  ///< 0: there is one length, `middle`
+  std::vector<Polynomial> functions;
+};
+
+/// The functions over [from, to], their coefficients in 100 digits.
+struct WideTable {
+  double middle = 0;
+  double scale = 0;
+  std::vector<std::vector<Decimal100>> powers;
+  std::vector<double> errors;  ///< what was cut
+};
+
+/// None where polynomials of degree kMostLengthDegree do not follow a function.
+std::optional<WideTable> make_wide_table(double from, double to, const WideFunctions& functions);
+LengthTable rounded(const WideTable& table);
+
+}  // namespace gainsmith::packs

@@ -1,0 +1,245 @@
+#include "packs/linear_model.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "bounded/bounded_system.h"
+#include "claims/value.h"
+#include "numbers/degree.h"
+#include "packs/tolerances.h"
+
+namespace gainsmith::packs {
+
+namespace {
+
+using bounded::Coordinates;
+using claims::JudgedFunction;
+using Eigen::Index;
+using hybrid::StateLayout;
+using model::ClaimKind;
+
+/// Whether a program is affine in what moves and does not ask for the timer.
+bool is_affine(const expr::Program& program, const StateLayout& layout) {
+  const auto moves = [&](const std::string& name) { return layout.moves(name); };
+  const auto degrees = numbers::degrees(program, moves);
+  return degrees[static_cast<std::size_t>(program.result)] != numbers::kNotAffine &&
+         !program.uses(layout.timer);
+}
+
+/// Writes rows of `out` for an affine program of x = X [xi; 1].
+void set_rows(const hybrid::Slot& slot, bounded::WideFunction& function, const Wide& X, Wide& out) {
+  const Index last = X.cols() - 1;
+  const Index rows = slot.shape.size();
+  const Wide still = X.col(last);
+  const Wide constant = function(still).reshaped();
+  for (Index j = 0; j < last; ++j)
+    out.block(slot.offset, j, rows, 1) = function(still + X.col(j)).reshaped() - constant;
+  out.block(slot.offset, last, rows, 1) = constant;
+}
+
+/// The start as a map of what is drawn and 1; false when it is none.
+bool find_start(LinearModel& linear) {
+  const bounded::SampledSystem& sampled = *linear.sampled;
+  const Coordinates& coordinates = *linear.coordinates;
+  for (std::size_t k = 0; k < sampled.variable.size(); ++k) {
+    const auto& rule = linear.scenario->starts[sampled.variable[k]];
+    if (!rule) return false;
+    if (rule->kind == model::StartKind::expression) continue;
+    for (int e = 0; e < sampled.layout.slots[k].shape.size(); ++e)
+      linear.drawn.push_back({sampled.variable[k], e});
+  }
+  const auto m = static_cast<Index>(linear.drawn.size());
+  Wide X = Wide::Zero(sampled.layout.size, m + 1);
+  Index next = 0;
+  for (std::size_t k = 0; k < sampled.variable.size(); ++k) {
+    const hybrid::StartRule& rule = *linear.scenario->starts[sampled.variable[k]];
+    const hybrid::Slot& slot = sampled.layout.slots[k];
+    if (rule.kind == model::StartKind::expression) {
+      if (!is_affine(rule.program, sampled.layout)) return false;
+      bounded::WideFunction value(rule.program, sampled.layout, coordinates.constants);
+      set_rows(slot, value, X, X);
+    } else {
+      for (int e = 0; e < slot.shape.size(); ++e) X(slot.offset + e, next++) = Decimal100(1);
+    }
+  }
+  Wide S = Wide::Zero(coordinates.layout.size, m + 1);
+  for (std::size_t i = 0; i < coordinates.list.size(); ++i) {
+    const expr::Program& start = coordinates.list[i].start;
+    if (!is_affine(start, sampled.layout)) return false;
+    bounded::WideFunction value(start, sampled.layout, coordinates.constants);
+    set_rows(coordinates.layout.slots[i], value, X, S);
+  }
+  bounded::remove_noise(S, bounded::largest_of(S));
+  // Without what no coordinate depends on.
+  std::vector<Index> kept;
+  std::vector<DrawnElement> drawn;
+  for (Index j = 0; j < m; ++j)
+    if (!S.col(j).isZero(0)) {
+      kept.push_back(j);
+      drawn.push_back(linear.drawn[static_cast<std::size_t>(j)]);
+    }
+  kept.push_back(m);
+  linear.drawn = std::move(drawn);
+  linear.S = S(Eigen::all, kept);
+  return true;
+}
+
+/// [M c; 0 last] of a map, or M alone without a constant.
+Wide homogeneous(const Wide& M, const Wide& c, bool constant, int last) {
+  if (!constant) return M;
+  const Index n = M.rows();
+  Wide whole = Wide::Zero(n + 1, M.cols() + 1);
+  whole.topLeftCorner(n, M.cols()) = M;
+  whole.block(0, M.cols(), n, 1) = c;
+  whole(n, M.cols()) = Decimal100(last);
+  return whole;
+}
+
+void set_maps(const bounded::WideMap& jump, LinearModel& linear) {
+  const Coordinates& coordinates = *linear.coordinates;
+  linear.constant = !coordinates.constant.isZero(0) || !jump.constant.isZero(0) ||
+                    !linear.S.rightCols(1).isZero(0);
+  const bool constant = linear.constant;
+  linear.A = homogeneous(coordinates.linear, coordinates.constant, constant, 0);
+  RankFactors factors = rank_factors(jump.linear);
+  const Index r = factors.D.rows();
+  linear.D = homogeneous(factors.D, Wide::Zero(r, 1), constant, 1);
+  linear.B = homogeneous(factors.B, jump.constant, constant, 1);
+  const Index m = linear.S.cols() - 1;
+  linear.S = constant ? homogeneous(linear.S.leftCols(m), linear.S.rightCols(1), true, 1)
+                      : Wide(linear.S.leftCols(m));
+}
+
+/// The form over x with or without a last coordinate 1. False: it has terms that need it.
+std::optional<Wide> form_over(const Wide& Q, bool constant) {
+  if (constant) return Q;
+  const Index n = Q.rows() - 1;
+  if (!Q.row(n).isZero(0)) return std::nullopt;
+  return Wide(Q.topLeftCorner(n, n));
+}
+
+/// The parts of a quadratic function whose factors depend on the timer alone.
+bool add_parts(const JudgedFunction& function, const LinearModel& linear,
+               std::vector<LinearForm>& forms) {
+  if (!function.quadratic) return false;
+  const StateLayout& layout = linear.coordinates->layout;
+  for (const claims::QuadraticPart& part : function.parts) {
+    if (part.factor && std::any_of(layout.slots.begin(), layout.slots.end(),
+                                   [&](const auto& slot) { return part.factor->uses(slot.name); }))
+      return false;
+    const auto Q = form_over(part.matrix, linear.constant);
+    if (!Q) return false;
+    forms.push_back({part.factor, *Q});
+  }
+  return true;
+}
+
+/// v'v of a program norm(v); none for any other.
+std::optional<expr::Program> square_of_norm(const expr::Program& program) {
+  const auto last = static_cast<std::size_t>(program.result);
+  const expr::Instruction& root = program.code[last];
+  if (root.op != expr::Op::norm || last + 1 != program.code.size()) return std::nullopt;
+  const int of = root.operands.front();
+  const expr::Shape shape = program.code[static_cast<std::size_t>(of)].shape;
+  if (shape.rows != 1 && shape.cols != 1) return std::nullopt;
+  expr::Program square = program;
+  expr::Instruction turned = root;
+  turned.op = expr::Op::transpose;
+  turned.shape = {shape.cols, shape.rows};
+  expr::Instruction product = root;
+  product.op = expr::Op::multiply;
+  const int at = static_cast<int>(last);
+  product.operands = shape.cols == 1 ? std::vector<int>{at, of} : std::vector<int>{of, at};
+  square.code[last] = turned;
+  square.code.push_back(product);
+  square.result = at + 1;
+  return square;
+}
+
+/// The form of a cost, nowhere negative; none: it is no such form.
+std::optional<Wide> cost_form(const JudgedFunction& cost, const LinearModel& linear) {
+  if (!cost.is_form()) return std::nullopt;
+  const Index n = linear.A.rows();
+  if (cost.parts.empty()) return Wide(Wide::Zero(n, n));
+  const auto Q = form_over(cost.parts.front().matrix, linear.constant);
+  if (!Q || !is_semidefinite(*Q)) return std::nullopt;
+  return Q;
+}
+
+bool add_costs(const claims::JudgedClaim& claim, const LinearModel& linear, LinearClaim& made) {
+  if (claim.flow_cost) {
+    made.flow_cost = cost_form(*claim.flow_cost, linear);
+    if (!made.flow_cost) return false;
+  }
+  if (claim.jump_cost) {
+    made.jump_cost = cost_form(*claim.jump_cost, linear);
+    if (!made.jump_cost) return false;
+  }
+  return true;
+}
+
+bool set_factor(const JudgedFunction& factor, const LinearModel& linear, LinearClaim& made) {
+  const StateLayout& layout = linear.coordinates->layout;
+  for (const expr::Input& input : factor.program.inputs)
+    if (layout.moves(input.name)) return false;
+  bounded::WideFunction value(factor.program, layout, linear.coordinates->constants);
+  made.factor = static_cast<double>(value(Wide::Zero(layout.size, 1))(0));
+  return made.factor > 0;
+}
+
+bool add_claim(const claims::JudgedClaim& claim, LinearModel& linear) {
+  if (claim.after > 0 || claim.over || claim.tolerance > 0) return false;
+  LinearClaim& made = linear.claims.emplace_back();
+  made.kind = claim.kind;
+  switch (claim.kind) {
+    case ClaimKind::nonincreasing:
+      return add_parts(claim.value, linear, made.value);
+    case ClaimKind::cost:
+      return add_parts(claim.value, linear, made.value) && add_costs(claim, linear, made);
+    case ClaimKind::shrinks: {
+      if (!set_factor(*claim.factor, linear, made)) return false;
+      if (add_parts(claim.value, linear, made.value)) return true;
+      made.value.clear();
+      const auto square = square_of_norm(claim.value.program);
+      made.squared = square.has_value();
+      return square &&
+             add_parts(claims::make_function(*square, *linear.coordinates), linear, made.value);
+    }
+    default:
+      return false;
+  }
+}
+
+void set_lengths(LinearModel& linear) {
+  const hybrid::System& system = *linear.sampled->dynamics;
+  const hybrid::System::Clock& clock = *system.clocks.front();
+  linear.low = clock.low;
+  linear.high = clock.high;
+  linear.first_low = clock.first ? clock.first->first : clock.low;
+  linear.first_high = clock.first ? clock.first->second : clock.high;
+  const auto& given = linear.scenario->first;
+  if (!given.empty() && given.front()) linear.first_low = linear.first_high = *given.front();
+}
+
+}  // namespace
+
+std::optional<LinearModel> make_linear_model(const bounded::SampledSystem& sampled,
+                                             const hybrid::Scenario& scenario,
+                                             const Coordinates& coordinates,
+                                             const std::vector<claims::JudgedClaim>& claims) {
+  if (!sampled.flow || !coordinates.affine) return std::nullopt;
+  LinearModel linear;
+  linear.sampled = &sampled;
+  linear.scenario = &scenario;
+  linear.coordinates = &coordinates;
+  const auto jump = bounded::affine_jump(coordinates);
+  if (!jump || !find_start(linear)) return std::nullopt;
+  set_maps(*jump, linear);
+  set_lengths(linear);
+  if (flow_norm(linear.A, linear.longest()) > kLongestFlow) return std::nullopt;
+  for (const claims::JudgedClaim& claim : claims)
+    if (!add_claim(claim, linear)) return std::nullopt;
+  return linear;
+}
+
+}  // namespace gainsmith::packs

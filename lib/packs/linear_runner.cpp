@@ -1,0 +1,363 @@
+#include "packs/linear_runner.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "base/stop.h"
+#include "bounded/tolerances.h"
+#include "hybrid/tolerances.h"
+#include "packs/lane_lengths.h"
+#include "packs/length_table.h"
+#include "packs/tolerances.h"
+
+namespace gainsmith::packs {
+
+using lanes::kLanes;
+using lanes::LaneMachine;
+using model::ClaimKind;
+
+namespace {
+
+constexpr std::size_t kFlowsOfBox = bounded::kStepsOfBox;
+
+}  // namespace
+
+/// What is drawn, over lanes.
+class LaneStarts {
+ public:
+  explicit LaneStarts(const LinearModel& model) : model_(&model) {}
+
+  /// Bit by bit that of hybrid::draw_start, to the inputs from `first` on.
+  void draw(std::uint64_t seed, const LaneRuns& runs, std::size_t first, LaneMachine& machine) {
+    for (std::size_t k = 0; k < model_->drawn.size(); ++k) {
+      const DrawnElement& element = model_->drawn[k];
+      const hybrid::StartRule& rule = *model_->scenario->starts[element.variable];
+      double* const out = machine.input(first + k);
+      if (rule.kind == model::StartKind::box) {
+        const double low = rule.values[0](element.element);
+        const double width = rule.values[1](element.element) - low;
+        lanes::variant().uniforms(
+            hybrid::stream_key(seed, hybrid::Purpose::start, element.variable), runs.data(),
+            static_cast<std::uint64_t>(element.element), out);
+        for (std::size_t l = 0; l < kLanes; ++l) out[l] = low + width * out[l];
+      } else if (rule.kind == model::StartKind::list) {
+        for (std::size_t l = 0; l < kLanes; ++l)
+          out[l] = rule.values[runs[l] % rule.values.size()](element.element);
+      } else {
+        for (std::size_t l = 0; l < kLanes; ++l) {
+          RandomStream random =
+              hybrid::draw_stream(seed, runs[l], hybrid::Purpose::start, element.variable);
+          out[l] = hybrid::draw_ellipsoid(rule, random)(element.element);
+        }
+      }
+    }
+  }
+
+ private:
+  const LinearModel* model_;
+};
+
+class LinearLanes {
+ public:
+  explicit LinearLanes(const LinearSystem& system)
+      : system_(system),
+        starts_(system.model),
+        lengths_(*system.model.sampled->dynamics, *system.model.scenario),
+        first_(*system.first),
+        step_(*system.step),
+        gather_(*system.gather),
+        last_(*system.last),
+        longest_((1 + hybrid::kAddedUp) * system.model.longest()) {}
+
+  std::vector<PackVerdict> run(std::uint64_t seed, std::uint64_t first, std::uint64_t last) {
+    verdicts_.assign(static_cast<std::size_t>(last - first), {});
+    first_run_ = first;
+    const std::uint64_t laws =
+        std::max<std::uint64_t>(system_.model.scenario->laws.front().size(), 1);
+    for (std::uint64_t law = 0; law < laws; ++law) {
+      LaneRuns runs{};
+      std::size_t count = 0;
+      for (std::uint64_t run = first + (law + laws - first % laws) % laws; run < last;
+           run += laws) {
+        runs[count++] = run;
+        if (count == kLanes) {
+          make(seed, runs, count);
+          count = 0;
+        }
+      }
+      if (count == 0) continue;
+      std::fill(runs.begin() + static_cast<std::ptrdiff_t>(count), runs.end(), runs.front());
+      make(seed, runs, count);
+    }
+    return std::move(verdicts_);
+  }
+
+ private:
+  // Inputs of the code.
+  static constexpr std::size_t kFirstXi = 1, kStepCarried = 2, kGatherCarried = 2, kLastCarried = 4;
+  static constexpr std::int64_t kNoJumpLimit = bounded::kMostJumps;
+
+  void make(std::uint64_t seed, const LaneRuns& runs, std::size_t count) {
+    check_stop();
+    begin(seed, runs, count);
+    for (std::int64_t flows = 1; running_ != 0; ++flows) {
+      if (flows % kFlowsOfBox == 1) {
+        check_stop();
+        gather();
+      }
+      lengths_.advance();
+      end_lanes(static_cast<double>(flows));
+      if (running_ == 0) break;
+      if (flows > kNoJumpLimit) {
+        open_ |= running_;
+        running_ = 0;
+        break;
+      }
+      std::copy_n(lengths_.length().data(), kLanes, step_.input(0));
+      step_.run();
+      open_ |= step_.faults() & running_;
+      t_ = lengths_.due();
+    }
+    last_.run();
+    open_ |= last_.faults();
+    for (std::size_t l = 0; l < count; ++l)
+      verdicts_[static_cast<std::size_t>(runs[l] - first_run_)] = verdict(l);
+  }
+
+  /// The first flow and its jump.
+  void begin(std::uint64_t seed, const LaneRuns& runs, std::size_t count) {
+    const double horizon = system_.model.scenario->horizon;
+    running_ = count == kLanes ? ~0U : (1U << count) - 1;
+    open_ = 0;
+    gathered_ = 0;
+    exponent_.fill(0);
+    for (auto& cost : costs_) cost = {};
+    costs_.resize(system_.claims.size());
+    starts_.draw(seed, runs, kFirstXi, first_);
+    lengths_.begin(seed, runs);
+    std::copy_n(lengths_.length().data(), kLanes, first_.input(0));
+    first_.run();
+    t_ = lengths_.due();
+    std::uint32_t without = 0;
+    for (std::size_t l = 0; l < kLanes; ++l)
+      if (!(t_[l] <= horizon + hybrid::kOneInstant * horizon)) without |= 1U << l;
+    // Runs without a jump.
+    open_ |= (without | first_.faults()) & running_;
+    running_ &= ~without;
+    for (std::size_t k = 0; k < system_.carried; ++k)
+      std::copy_n(first_.result(0, k), kLanes, step_.input(kStepCarried + k));
+    for (std::size_t k = 0; k < kLastCarried + system_.carried; ++k)
+      std::fill_n(last_.input(k), kLanes, 0.0);
+  }
+
+  /// Lanes whose next flow is the last one, perhaps of length 0; after so many others.
+  void end_lanes(double flows) {
+    const double horizon = system_.model.scenario->horizon;
+    const double latest = horizon + hybrid::kOneInstant * horizon;
+    if ((flows + 1) * longest_ < horizon) return;
+    const LaneNumbers& due = lengths_.due();
+    std::uint32_t ended = 0;
+    for (std::size_t l = 0; l < kLanes; ++l)
+      if (t_[l] >= horizon || due[l] > latest) ended |= 1U << l;
+    ended &= running_;
+    running_ &= ~ended;
+    for (std::size_t l = 0; ended != 0 && l < kLanes; ++l) {
+      if ((ended >> l & 1U) == 0) continue;
+      const double length = lengths_.length()[l];
+      const double rest = t_[l] >= horizon ? 0 : horizon - t_[l];
+      last_.input(0)[l] = rest;
+      last_.input(1)[l] = length;
+      last_.input(2)[l] = length - rest;
+      last_.input(3)[l] = step_.input(1)[l];
+      for (std::size_t k = 0; k < system_.carried; ++k)
+        last_.input(kLastCarried + k)[l] = step_.input(kStepCarried + k)[l];
+      flows_[l] = static_cast<double>(gathered_) * kFlowsOfBox;
+    }
+  }
+
+  /// Costs go to their sums; z near 1; new errors into G.
+  void gather() {
+    ++gathered_;
+    const double root = std::sqrt(static_cast<double>(gathered_));
+    for (std::size_t c = 0; c < system_.claims.size(); ++c)
+      if (system_.model.claims[c].kind == ClaimKind::cost) add_costs(c);
+    rescale(gather_.input(0));
+    std::fill_n(gather_.input(1), kLanes, root);
+    for (std::size_t k = 0; k < system_.carried; ++k)
+      std::copy_n(step_.input(kStepCarried + k), kLanes, gather_.input(kGatherCarried + k));
+    gather_.run();
+    open_ |= gather_.faults() & running_;
+    for (std::size_t k = 0; k < system_.carried; ++k)
+      std::copy_n(gather_.result(0, k), kLanes, step_.input(kStepCarried + k));
+    std::fill_n(step_.input(1), kLanes, root * bounded::kBoundSlack);
+  }
+
+  void add_costs(std::size_t c) {
+    double* const sum = step_.input(kStepCarried + system_.claims[c].first);
+    double* const error = step_.input(kStepCarried + system_.claims[c].first + 1);
+    for (std::size_t l = 0; l < kLanes; ++l) {
+      if ((running_ >> l & 1U) == 0) continue;
+      const double unit = unit_of(l);
+      costs_[c].sum[l] += unit * sum[l];
+      costs_[c].error[l] += unit * error[l];
+      sum[l] = error[l] = 0;
+    }
+  }
+
+  /// The powers of 2 that take the largest |z| near 1, where it is far from it. Not beside a
+  /// constant, which has a unit of its own.
+  void rescale(double* scale) {
+    LaneNumbers most{};
+    for (std::size_t i = 0; i < system_.rank; ++i) {
+      const double* const z = step_.input(kStepCarried + system_.z(i));
+      for (std::size_t l = 0; l < kLanes; ++l) most[l] = std::max(most[l], std::abs(z[l]));
+    }
+    constexpr double near = 0x1p64, far = 0x1p400;
+    std::uint32_t apart = 0;
+    for (std::size_t l = 0; l < kLanes; ++l)
+      if (!(most[l] >= 1 / near && most[l] <= near)) apart |= 1U << l;
+    std::fill_n(scale, kLanes, 1.0);
+    apart &= running_;
+    for (std::size_t l = 0; apart != 0 && l < kLanes; ++l) {
+      if ((apart >> l & 1U) == 0) continue;
+      if (!(most[l] <= far)) open_ |= 1U << l;
+      if (most[l] == 0 || system_.model.constant) continue;
+      if (most[l] < 1 / far) open_ |= 1U << l;
+      int exponent = 0;
+      std::frexp(most[l], &exponent);
+      exponent_[l] -= exponent;
+      scale[l] = std::ldexp(1.0, -exponent);
+    }
+  }
+
+  /// Of forms, in the unit of the start.
+  double unit_of(std::size_t l) const {
+    return exponent_[l] == 0 ? 1 : std::ldexp(1.0, -2 * exponent_[l]);
+  }
+
+  // --- Verdicts. ---
+
+  /// A number that is known up to an error.
+  struct Known {
+    double value = 0, error = 0;
+  };
+  Known start(std::size_t c, std::size_t l) const {
+    return {first_.result(1, 2 * c)[l], first_.result(1, 2 * c + 1)[l]};
+  }
+  Known end(std::size_t c, std::size_t l) const {
+    const double unit = unit_of(l);
+    return {unit * last_.result(1, 2 * c)[l], unit * last_.result(1, 2 * c + 1)[l]};
+  }
+  double carried(std::size_t c, std::size_t number, std::size_t l) const {
+    return last_.result(0, system_.claims[c].first + number)[l];
+  }
+  /// Whether value <= bound; false: it is not certain.
+  static bool compare(const Known& value, const Known& bound, PackVerdict::Claim& claim) {
+    const double rounding = 8 * kUnitRoundoff * (std::abs(value.value) + std::abs(bound.value));
+    const double error = (value.error + bound.error + rounding) * bounded::kBoundSlack;
+    const double excess = value.value - bound.value;
+    claim.violated = excess > error;
+    return claim.violated || excess <= -error;
+  }
+  /// Whether the verdict on a claim is certain, and how near the run comes to the bound is known.
+  bool judge(std::size_t c, std::size_t l, PackVerdict::Claim& claim) const {
+    switch (system_.model.claims[c].kind) {
+      case ClaimKind::nonincreasing:
+        return judge_rise(c, l, claim);
+      case ClaimKind::cost:
+        return judge_cost(c, l, claim);
+      default:
+        return judge_shrinking(c, l, claim);
+    }
+  }
+  bool judge_rise(std::size_t c, std::size_t l, PackVerdict::Claim& claim) const;
+  bool judge_cost(std::size_t c, std::size_t l, PackVerdict::Claim& claim) const;
+  bool judge_shrinking(std::size_t c, std::size_t l, PackVerdict::Claim& claim) const;
+  PackVerdict verdict(std::size_t l) const;
+
+  struct Costs {
+    LaneNumbers sum{}, error{};
+  };
+
+  const LinearSystem& system_;
+  LaneStarts starts_;
+  LaneLengths lengths_;
+  LaneMachine first_, step_, gather_, last_;
+  double longest_;  ///< no flow is longer
+  std::vector<PackVerdict> verdicts_;
+  std::uint64_t first_run_ = 0;
+  std::uint32_t running_ = 0, open_ = 0;
+  std::uint64_t gathered_ = 0;
+  std::array<int, kLanes> exponent_{};  ///< z is 2^exponent times the true one
+  LaneNumbers t_{}, flows_{};
+  std::vector<Costs> costs_;
+};
+
+bool LinearLanes::judge_rise(std::size_t c, std::size_t l, PackVerdict::Claim& claim) const {
+  const Known before = start(c, l), after = end(c, l);
+  const bool compared = is_compared(system_.model.claims[c]);
+  const double open = compared ? carried(c, 2, l) : 0, rise = compared ? carried(c, 3, l) : 0;
+  const double scale = std::abs(before.value);
+  claim.violated = rise > 0;
+  claim.score = (claim.violated ? unit_of(l) * rise : after.value - before.value) / scale;
+  const double error = (before.error + after.error) / scale;
+  return (claim.violated || open <= 0) && error <= kScore;
+}
+
+bool LinearLanes::judge_cost(std::size_t c, std::size_t l, PackVerdict::Claim& claim) const {
+  const Known bound = start(c, l);
+  const double unit = unit_of(l);
+  Known cost{costs_[c].sum[l] + unit * carried(c, 0, l),
+             costs_[c].error[l] + unit * carried(c, 1, l)};
+  // Sums of what is not negative, one a flow and one a box of flows.
+  cost.error += (2 * flows_[l] + 2 * kFlowsOfBox) * kUnitRoundoff * cost.value;
+  const double scale = std::abs(bound.value);
+  claim.score = (cost.value - bound.value) / scale;
+  return compare(cost, bound, claim) && (cost.error + bound.error) / scale <= kScore;
+}
+
+bool LinearLanes::judge_shrinking(std::size_t c, std::size_t l, PackVerdict::Claim& claim) const {
+  const LinearClaim& stated = system_.model.claims[c];
+  const Known before = start(c, l), after = end(c, l);
+  const double factor = stated.squared ? stated.factor * stated.factor : stated.factor;
+  const Known goal{factor * before.value, factor * before.error};
+  if (!(before.value > before.error)) return false;
+  const auto part = [&](double value) {
+    const double ratio = std::max(value, 0.0) / goal.value;
+    return stated.squared ? std::sqrt(ratio) : ratio;
+  };
+  claim.score = part(after.value) - 1;
+  const double error = part(after.value + after.error) - part(after.value - after.error) +
+                       before.error / before.value;
+  return compare(after, goal, claim) && error <= kScore * (1 + std::abs(claim.score));
+}
+
+PackVerdict LinearLanes::verdict(std::size_t l) const {
+  PackVerdict verdict;
+  verdict.why = Why::range;
+  if ((open_ >> l & 1U) != 0) return verdict;
+  verdict.open = false;
+  verdict.happened = {1};
+  for (std::size_t c = 0; c < system_.claims.size(); ++c) {
+    PackVerdict::Claim& claim = verdict.claims.emplace_back();
+    if (judge(c, l, claim)) continue;
+    verdict.open = true;
+    verdict.why = Why::claim;
+  }
+  return verdict;
+}
+
+LinearRunner::LinearRunner(const LinearSystem& system)
+    : lanes_(std::make_unique<LinearLanes>(system)) {}
+LinearRunner::LinearRunner(LinearRunner&&) noexcept = default;
+LinearRunner& LinearRunner::operator=(LinearRunner&&) noexcept = default;
+LinearRunner::~LinearRunner() = default;
+
+std::vector<PackVerdict> LinearRunner::run(std::uint64_t seed, std::uint64_t first,
+                                           std::uint64_t last) {
+  return lanes_->run(seed, first, last);
+}
+
+}  // namespace gainsmith::packs

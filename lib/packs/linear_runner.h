@@ -1,0 +1,30 @@
+// Runs of a linear system, kLanes at once (linear_system.h): those of one law together.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "packs/linear_system.h"
+#include "packs/pack_runner.h"
+
+namespace gainsmith::packs {
+
+class LinearLanes;
+
+class LinearRunner {
+ public:
+  /// One for each thread. The system must outlive it.
+  explicit LinearRunner(const LinearSystem& system);
+  LinearRunner(LinearRunner&&) noexcept;
+  LinearRunner& operator=(LinearRunner&&) noexcept;
+  ~LinearRunner();
+
+  /// Runs first, ..., last - 1. Stopped (base/stop.h) when it is asked to stop.
+  std::vector<PackVerdict> run(std::uint64_t seed, std::uint64_t first, std::uint64_t last);
+
+ private:
+  std::unique_ptr<LinearLanes> lanes_;
+};
+
+}  // namespace gainsmith::packs

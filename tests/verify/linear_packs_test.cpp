@@ -1,0 +1,342 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "bind/bind.h"
+#include "io/problem_text.h"
+#include "packs/lane_lengths.h"
+#include "verify/campaign.h"
+#include "verify/pack_judge.h"
+
+namespace gainsmith::verify::linear {
+namespace {
+
+using claims::Judgement;
+using packs::LinearSystem;
+using packs::Wide;
+
+struct Case {
+  const char* name;
+  const char* text;
+};
+
+void PrintTo(const Case& one, std::ostream* out) { *out << one.name; }
+
+// Bounds lie among what the runs reach, so that some hold and some violate.
+const Case kCases[] = {{"a jump that turns and grows", R"yaml(problem: p
+method:
+  method: m
+  plant:
+    state: {x: {shape: 2}}
+    flow: {x: "[-0.1, 1; -1, -0.1]*x"}
+    jump: {x: "[0.6, 0.5; -0.9, 0.75]*x"}
+  timer: {tau: {reset: [0.1, 0.6], first: [0, 0.6]}}
+  claims:
+    falls: {nonincreasing: "x'*x"}
+    cost: {cost: {flow: "x'*x", jump: 0.1*x(1)^2}, below: 3*exp(0.2*tau)*x'*x}
+    error: {shrinks: norm(x), to: 0.5}
+campaign: {runs: 160, horizon: 3, initial: {x: {box: [-2, 3]}}}
+)yaml"},
+                       {"an observer whose error does not depend on its plant", R"yaml(problem: p
+method:
+  method: m
+  plant:
+    state: {z: {shape: 2}}
+    output: {y: "[1, 0]*z"}
+    flow: {z: "[0.3, 1; -1, 0.2]*z"}
+  observer:
+    state: {zh: {shape: 2, start: 0}, th: {shape: 1}}
+    flow: {zh: "[0.3, 1; -1, 0.2]*zh + [0.5; 0.1]*th", th: -2*th}
+    jump: {zh: "zh + [0.5; 0.2]*(y - [1, 0]*zh)", th: "0.5*(y - [1, 0]*zh)"}
+  timer: {tau: {reset: [0.2, 0.7], first: [0, 0.7]}}
+  claims:
+    cost: {cost: {flow: "(z - zh)'*(z - zh)"}, below: 0.9*(z - zh)'*(z - zh)}
+    error: {shrinks: norm(z - zh), to: 0.02}
+campaign: {runs: 160, horizon: 12, initial: {z: {ellipsoid: {matrix: "[1, 0.2; 0.2, 0.5]", level: 4}}, th: "[1, 0]*z"}}
+)yaml"},
+                       {"a constant input", R"yaml(problem: p
+method:
+  method: m
+  plant:
+    state: {x: {shape: 2}}
+    flow: {x: "[-1, 0.5; -0.5, -1]*x + [1; 0.2]"}
+    jump: {x: "[0.7, 0; 0, 1]*x + [0.1; -0.3]"}
+  timer: {tau: {reset: [0.1, 0.4], first: [0, 0.4]}}
+  claims:
+    cost: {cost: {flow: "0.3*(x(1) - x(2))^2", jump: 0.01*(x(2) + 1)^2}, below: "1.2 + x'*x"}
+    distance: {shrinks: "norm(x - [0.5; -0.6])", to: 0.4}
+campaign: {runs: 160, horizon: 5, initial: {x: {box: ["[-1; -2]", "[2; 2]"]}}}
+)yaml"},
+                       {"one length, from a list of starts", R"yaml(problem: p
+method:
+  method: m
+  plant:
+    state: {x: {shape: 3}}
+    flow: {x: "[0, 1, 0; 0, 0, 1; -1, -2, -1.2]*x"}
+    jump: {x: "[1, 0, 0; 0, 0.9, 0; 0, 0, 0]*x"}
+  timer: {tau: {reset: [0.25, 0.25], first: [0.1, 0.2]}}
+  claims:
+    cost: {cost: {flow: "x(1)^2", jump: "x(3)^2"}, below: 2*x'*x}
+    shrinks: {shrinks: "x'*x", to: 0.2}
+campaign: {runs: 160, horizon: 4.1, initial: {x: {list: ["[1; 0; 0]", "[0; 1; 0]", "[0; 0; 1]", "[1; -1; 2]", "[0.2; 1; -1]"]}}}
+)yaml"},
+                       {"laws without draws", R"yaml(problem: p
+method:
+  method: m
+  plant:
+    state: {x: {shape: 2}}
+    flow: {x: "[-0.2, 2; -2, -0.2]*x"}
+    jump: {x: "[1.1, 0; 0, 0.6]*x"}
+  timer: {tau: {reset: [0.2, 1], first: [0.4, 0.4]}}
+  claims:
+    falls: {nonincreasing: "exp(-0.1*tau)*x'*x"}
+    error: {shrinks: norm(x), to: 0.2}
+campaign: {runs: 160, horizon: 6, initial: {x: {box: [-1, 1]}}, sampling: [sinusoid, golden, {list: [0.3, 0.9, 0.5]}, {constant: 0.45}, extremes]}
+)yaml"},
+                       {"a jump that forgets everything", R"yaml(problem: p
+method:
+  method: m
+  plant:
+    state: {x: {shape: 2}}
+    flow: {x: "[0.5, 1; 0, 0.2]*x"}
+    jump: {x: 0*x}
+  timer: {tau: {reset: [0.5, 1], first: [0.2, 1]}}
+  claims:
+    cost: {cost: {flow: "x'*x"}, below: 2*x'*x}
+    error: {shrinks: norm(x), to: 0.1}
+campaign: {runs: 160, horizon: 3, initial: {x: {box: [-1, 1]}}}
+)yaml"}};
+
+struct Made {
+  std::unique_ptr<const Setup> setup;
+  Packs packs;
+};
+
+Made make(const std::string& text) {
+  const model::Instance instance = bind::bind(io::read_problem(text));
+  Made made{make_setup(instance, {}), {}};
+  made.packs = make_packs(*made.setup, 1000);
+  return made;
+}
+
+class LinearPacks : public testing::TestWithParam<Case> {};
+
+TEST_P(LinearPacks, AgreeWithCarefulRuns) {
+  const Made made = make(GetParam().text);
+  ASSERT_NE(made.packs.linear, nullptr);
+  constexpr std::uint64_t runs = 160;
+  const std::vector<packs::PackVerdict> verdicts =
+      packs::LinearRunner(*made.packs.linear).run(7, 0, runs);
+  Judge judge(*made.setup);
+  std::size_t open = 0, held = 0, violated = 0;
+  for (std::uint64_t run = 0; run < runs; ++run) {
+    const packs::PackVerdict& pack = verdicts[run];
+    open += pack.open ? 1 : 0;
+    if (pack.open) continue;
+    const RunVerdict careful = judge(7, run);
+    EXPECT_EQ(pack.happened, careful.happened);
+    for (std::size_t c = 0; c < pack.claims.size(); ++c) {
+      const claims::Finding& finding = careful.findings[c];
+      ++(pack.claims[c].violated ? violated : held);
+      EXPECT_EQ(pack.claims[c].violated, finding.violated())
+          << "run " << run << ", claim " << c << ": " << finding.value << " and " << finding.bound;
+      EXPECT_NEAR(pack.claims[c].score, finding.score, 1e-6 * (1 + std::abs(finding.score)))
+          << "run " << run << ", claim " << c;
+    }
+  }
+  EXPECT_GT(held, 0U);
+  EXPECT_GT(violated, 0U);
+  EXPECT_LE(open, runs / 20);
+}
+
+TEST_P(LinearPacks, AreTheSameInAnyOrder) {
+  const Made made = make(GetParam().text);
+  packs::LinearRunner runner(*made.packs.linear);
+  const std::vector<packs::PackVerdict> all = runner.run(3, 0, 150);
+  const std::vector<packs::PackVerdict> some = runner.run(3, 37, 115);
+  for (std::size_t k = 0; k < some.size(); ++k) {
+    EXPECT_EQ(some[k].open, all[37 + k].open);
+    for (std::size_t c = 0; c < some[k].claims.size(); ++c)
+      EXPECT_EQ(some[k].claims[c].score, all[37 + k].claims[c].score);
+  }
+}
+
+/// What code over lanes says of one flow after the other beside 100 digits.
+class Beside {
+ public:
+  explicit Beside(const LinearSystem& system)
+      : system_(system),
+        flow_(system.model.A, {}, system.model.longest()),
+        first_(*system.first),
+        step_(*system.step),
+        gather_(*system.gather) {}
+
+  /// The largest part of a bound that an error takes over some flows.
+  double largest_part(unsigned flows) {
+    const packs::LinearModel& model = system_.model;
+    const auto m = static_cast<Eigen::Index>(model.drawn.size());
+    Wide xi = Wide::Ones(m + (model.constant ? 1 : 0), 1);
+    first_.input(0)[0] = length(0, model.first_low, model.first_high);
+    for (Eigen::Index k = 0; k < m; ++k) {
+      const double value = std::sin(1.0 + 2 * static_cast<double>(k));
+      xi(k) = Decimal100(value);
+      first_.input(1 + static_cast<std::size_t>(k))[0] = value;
+    }
+    first_.run();
+    Wide z = model.D * flow_(Decimal100(first_.input(0)[0])).E * model.S * xi;
+    for (std::size_t k = 0; k < system_.carried; ++k)
+      step_.input(2 + k)[0] = first_.result(0, k)[0];
+    double most = part(z, 0);
+    for (unsigned k = 1; k <= flows; ++k) {
+      if (k % 8 == 1) gather();
+      step_.input(0)[0] = length(k, model.low, model.high);
+      step_.run();
+      z = Wide(model.D * flow_(Decimal100(step_.input(0)[0])).E * model.B * z);
+      most = std::max(most, part(z, root_));
+    }
+    return most;
+  }
+
+ private:
+  static double length(unsigned k, double low, double high) {
+    const double turns = 0.6180339887498949 * (k + 1);
+    return low + (high - low) * (turns - std::floor(turns));
+  }
+  void gather() {
+    ++gathered_;
+    root_ = std::sqrt(gathered_);
+    gather_.input(0)[0] = 1;
+    gather_.input(1)[0] = root_;
+    for (std::size_t k = 0; k < system_.carried; ++k)
+      gather_.input(2 + k)[0] = step_.input(2 + k)[0];
+    gather_.run();
+    for (std::size_t k = 0; k < system_.carried; ++k)
+      step_.input(2 + k)[0] = gather_.result(0, k)[0];
+    step_.input(1)[0] = root_;
+  }
+  double part(const Wide& z, double root) {
+    double most = 0;
+    for (std::size_t i = 0; i < system_.rank; ++i) {
+      double row = 0;
+      for (std::size_t j = 0; j < system_.rank; ++j)
+        row += std::pow(step_.input(2 + system_.G(i, j))[0], 2);
+      const double bound = root * std::sqrt(row) + step_.input(2 + system_.b(i))[0];
+      const Decimal100 error =
+          z(static_cast<Eigen::Index>(i)) - Decimal100(step_.input(2 + system_.z(i))[0]);
+      most = std::max(most, std::abs(static_cast<double>(error)) / bound);
+      if (z(static_cast<Eigen::Index>(i)) != 0)
+        worst_ = std::max(worst_, bound / static_cast<double>(Decimal100(z.cwiseAbs().maxCoeff())));
+    }
+    return most;
+  }
+
+ public:
+  double worst_ = 0;  ///< the largest bound as a part of z
+
+ private:
+  const LinearSystem& system_;
+  packs::WideFlow flow_;
+  lanes::LaneMachine first_, step_, gather_;
+  double gathered_ = 0, root_ = 0;
+};
+
+TEST_P(LinearPacks, NoErrorIsBeyondItsBound) {
+  const Made made = make(GetParam().text);
+  Beside beside(*made.packs.linear);
+  const double part = beside.largest_part(100);
+  EXPECT_LE(part, 1);
+  EXPECT_LT(beside.worst_, 1e-9);
+}
+
+INSTANTIATE_TEST_SUITE_P(Systems, LinearPacks, testing::ValuesIn(kCases));
+
+/// A coefficient of a table that is wrong by 1e-11 is seen.
+TEST(LinearFaults, AWrongCoefficientIsFoundByBounds) {
+  const Made made = make(kCases[0].text);
+  packs::LinearModel wrong = made.packs.linear->model;
+  wrong.A(0, 1) += Decimal100(1e-11);
+  auto system = packs::make_linear_system(wrong);
+  ASSERT_NE(system, nullptr);
+  const_cast<LinearSystem&>(*system).model.A(0, 1) -= Decimal100(1e-11);
+  EXPECT_GT(Beside(*system).largest_part(20), 1);
+}
+
+TEST(LinearPacks, LengthsAreThoseOfOneRunAfterTheOther) {
+  for (const Case& one : kCases) {
+    const Made made = make(one.text);
+    const hybrid::System& system = made.setup->events->system;
+    const hybrid::Scenario& scenario = made.setup->events->scenario;
+    const std::size_t laws = std::max<std::size_t>(scenario.laws.front().size(), 1);
+    for (std::uint64_t law = 0; law < laws; ++law) {
+      packs::LaneRuns runs{};
+      for (std::size_t l = 0; l < runs.size(); ++l) runs[l] = law + l * laws + (1ULL << 33U) * laws;
+      packs::LaneLengths lanes(system, scenario);
+      lanes.begin(5, runs);
+      std::vector<hybrid::EventClocks> clocks;
+      for (const std::uint64_t run : runs) clocks.emplace_back(system, scenario, 5, run);
+      for (int k = 0; k < 40; ++k) {
+        for (std::size_t l = 0; l < runs.size(); ++l) {
+          ASSERT_EQ(lanes.length()[l], clocks[l].length(0)) << one.name << ", flow " << k;
+          ASSERT_EQ(lanes.due()[l], clocks[l].due(0)) << one.name << ", flow " << k;
+          clocks[l].advance(0, clocks[l].due(0));
+        }
+        lanes.advance();
+      }
+    }
+  }
+}
+
+/// Values that fall over hundreds of decades are followed.
+TEST(LinearPacks, FollowADecayOverHundredsOfDecades) {
+  std::string text = kCases[0].text;
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+  };
+  replace("[0.6, 0.5; -0.9, 0.75]*x", "0.2*x");
+  replace("horizon: 3", "horizon: 200");
+  const Made made = make(text);
+  ASSERT_NE(made.packs.linear, nullptr);
+  const auto verdicts = packs::LinearRunner(*made.packs.linear).run(1, 0, 64);
+  EXPECT_TRUE(std::none_of(verdicts.begin(), verdicts.end(),
+                           [](const auto& one) { return one.open || one.violated(); }));
+}
+
+TEST(LinearPacks, RunWhatTheyCan) {
+  const auto is_linear = [](const std::string& from, const std::string& to) {
+    std::string text = kCases[0].text;
+    text.replace(text.find(from), from.size(), to);
+    return make(text).packs.linear != nullptr;
+  };
+  EXPECT_TRUE(is_linear("reset: [0.1, 0.6]", "reset: [0, 0.6]"));
+  // A value that rises along flows, one that is no form, a cost that may fall, a fast flow.
+  EXPECT_FALSE(is_linear("nonincreasing: \"x'*x\"", "nonincreasing: \"x(1)^2 + 5*x(2)^2\""));
+  EXPECT_FALSE(is_linear("nonincreasing: \"x'*x\"", "nonincreasing: abs(x(1))"));
+  EXPECT_FALSE(is_linear("flow: \"x'*x\"", "flow: \"x(1)^2 - x(2)^2\""));
+  EXPECT_FALSE(is_linear("[-0.1, 1; -1, -0.1]", "[-0.1, 400; -400, -0.1]"));
+}
+
+Report campaign_of(const char* text, unsigned threads) {
+  const model::Instance instance = bind::bind(io::read_problem(text));
+  CampaignOptions options;
+  options.threads = threads;
+  options.runs = 3000;
+  return run_campaign(*make_setup(instance, {}), options);
+}
+
+TEST(LinearPacks, ThreadsDoNotMatter) {
+  const Report one = campaign_of(kCases[0].text, 1);
+  const Report two = campaign_of(kCases[0].text, 2);
+  EXPECT_EQ(one.violations, two.violations);
+  EXPECT_EQ(one.worst_run, two.worst_run);
+  for (std::size_t k = 0; k < one.checks.size(); ++k) {
+    EXPECT_EQ(one.checks[k].worst.score, two.checks[k].worst.score);
+    EXPECT_EQ(one.checks[k].worst_run, two.checks[k].worst_run);
+  }
+}
+
+}  // namespace
+}  // namespace gainsmith::verify::linear
