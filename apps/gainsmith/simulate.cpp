@@ -240,8 +240,9 @@ Command simulate_command() {
       {Option("gains", options->gains, "gain file (JSON), or a problem (YAML) without unknowns")
            .required(),
        set_option(options->set), Option("--run", options->run, "the run's number"),
-       Option("--given", options->given,
-              "starts, lengths, losses and noise in place of draws, as 'verify --worst' prints them")
+       Option(
+           "--given", options->given,
+           "starts, lengths, losses and noise in place of draws, as 'verify --worst' prints them")
            .named("JSON"),
        Option("--seed", options->seed, "seed of the campaign (default: the problem's)"),
        Option("-o,--output", options->output, "write the table here (default: standard output)"),

@@ -51,21 +51,19 @@ std::string given_text(const hybrid::GivenRun& run, const model::Design& design)
 
 std::string lengths_text(const verify::PeriodicLengths& lengths) {
   std::string text;
-  for (const double length : lengths.lengths)
-    text += (text.empty() ? "" : ", ") + brief(length);
-  return fmt::format(
-      "  linear part  {} by a factor of {} a jump when the lengths {} repeat{}\n",
-      lengths.growth > 1 ? "grows" : "decays most slowly, of what was tried,",
-      brief(lengths.growth), text, lengths.growth > 1 ? ": unstable" : "");
+  for (const double length : lengths.lengths) text += (text.empty() ? "" : ", ") + brief(length);
+  return fmt::format("  linear part  {} by a factor of {} a jump when the lengths {} repeat{}\n",
+                     lengths.growth > 1 ? "grows" : "decays most slowly, of what was tried,",
+                     brief(lengths.growth), text, lengths.growth > 1 ? ": unstable" : "");
 }
 
 }  // namespace
 
 std::string worst_summary(const verify::WorstReport& report, const model::Design& design,
                           const std::string& gains_file) {
-  std::string text = fmt::format("worst       {} ({} runs tried, seed {}, horizon {})\n",
-                                 verdict_word(report), report.runs, report.seed,
-                                 brief(report.horizon));
+  std::string text =
+      fmt::format("worst       {} ({} runs tried, seed {}, horizon {})\n", verdict_word(report),
+                  report.runs, report.seed, brief(report.horizon));
   std::size_t width = 12;
   for (const auto& claim : report.claims) width = std::max(width, claim.name.size());
   for (std::size_t c = 0; c < report.claims.size(); ++c) {
@@ -78,7 +76,9 @@ std::string worst_summary(const verify::WorstReport& report, const model::Design
                         fmt::join(symbols, ", "));
   if (report.lengths && !report.lengths->lengths.empty()) text += lengths_text(*report.lengths);
   if (report.verdict != model::CampaignVerdict::violated && !report.interrupted)
-    text += "  note        that nothing was found shows nothing: runs that were not tried may be worse\n";
+    text +=
+        "  note        that nothing was found shows nothing: runs that were not tried may be "
+        "worse\n";
   return text;
 }
 

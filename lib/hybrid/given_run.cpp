@@ -63,8 +63,8 @@ void check_given(const GivenRun& given, const System& system, const Scenario& sc
   for (std::size_t e = 0; e < system.dynamics.events.size(); ++e) check_event(given, e, system);
   for (std::size_t i = 0; i < given.noise.size(); ++i)
     for (const numbers::Matrix& value : given.noise[i])
-      check_shape(value, system.dynamics.noise[i].shape, "a value of " + system.dynamics.noise[i].name,
-                  given.place);
+      check_shape(value, system.dynamics.noise[i].shape,
+                  "a value of " + system.dynamics.noise[i].name, given.place);
 }
 
 }  // namespace gainsmith::hybrid

@@ -43,7 +43,7 @@ numbers::Matrix given_value(const JsonReader& reader) {
 /// Those elements of a list that are given, by their names.
 template <class List, class Write>
 void add_given(Json& json, const std::string& key, const List& list, const Names& names,
-         const Write& write) {
+               const Write& write) {
   for (std::size_t i = 0; i < list.size(); ++i) {
     const Json value = write(list[i]);
     if (!value.is_null()) json[key][names[i]] = value;
@@ -61,13 +61,12 @@ Json written_list(const std::vector<Item>& items, const Write& write) {
 /// Puts the values under a key where their names stand.
 template <class List, class Read>
 void take_given(const JsonReader& reader, const std::string& key, const Names& names, List& list,
-          const Read& read) {
+                const Read& read) {
   if (!reader.has(key)) return;
   list.resize(names.size());
   for (const auto& [name, value] : reader.at(key).members()) {
     const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end())
-      value.fail("there is no '" + name + "'" + suggestion(name, names));
+    if (found == names.end()) value.fail("there is no '" + name + "'" + suggestion(name, names));
     list[static_cast<std::size_t>(found - names.begin())] = read(value);
   }
 }
@@ -87,16 +86,16 @@ Json to_json(const GivenRun& run, const model::Dynamics& dynamics) {
   const auto number = [](double value) { return Json(value); };
   Json json = Json::object();
   add_given(json, "start", run.starts, given_names(dynamics.variables),
-      [](const auto& start) { return start ? given_value_json(*start) : Json(nullptr); });
+            [](const auto& start) { return start ? given_value_json(*start) : Json(nullptr); });
   add_given(json, "first", run.first, events,
-      [](const auto& first) { return first ? Json(*first) : Json(nullptr); });
+            [](const auto& first) { return first ? Json(*first) : Json(nullptr); });
   add_given(json, "lengths", run.lengths, events,
-      [&](const auto& lengths) { return written_list(lengths, number); });
+            [&](const auto& lengths) { return written_list(lengths, number); });
   add_given(json, "lost", run.losses, events, [](const auto& losses) {
     return written_list(losses, [](char lost) { return Json(lost != 0); });
   });
   add_given(json, "noise", run.noise, given_names(dynamics.noise),
-      [](const auto& values) { return written_list(values, given_value_json); });
+            [](const auto& values) { return written_list(values, given_value_json); });
   return json;
 }
 
@@ -110,15 +109,16 @@ GivenRun parse_given_run(const std::string& text, const std::string& file,
   GivenRun run;
   run.place = {file};
   take_given(reader, "start", given_names(dynamics.variables), run.starts,
-       [](const JsonReader& value) { return given_value(value); });
+             [](const JsonReader& value) { return given_value(value); });
   take_given(reader, "first", events, run.first, number);
   take_given(reader, "lengths", events, run.lengths,
-       [&](const JsonReader& list) { return read_list<double>(list, number); });
+             [&](const JsonReader& list) { return read_list<double>(list, number); });
   take_given(reader, "lost", events, run.losses, [](const JsonReader& list) {
-    return read_list<char>(list, [](const JsonReader& value) { return static_cast<char>(value.truth()); });
+    return read_list<char>(
+        list, [](const JsonReader& value) { return static_cast<char>(value.truth()); });
   });
   take_given(reader, "noise", given_names(dynamics.noise), run.noise,
-       [](const JsonReader& list) { return read_list<numbers::Matrix>(list, given_value); });
+             [](const JsonReader& list) { return read_list<numbers::Matrix>(list, given_value); });
   reader.finish();
   return run;
 }

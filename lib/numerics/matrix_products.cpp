@@ -24,9 +24,10 @@ double root(double value, std::size_t degree) {
 
 double norm(const Matrix& A) {
   const Matrix square = A.transpose() * A;
-  return std::sqrt(std::max(0.0, Eigen::SelfAdjointEigenSolver<Matrix>(square, Eigen::EigenvaluesOnly)
-                                     .eigenvalues()
-                                     .maxCoeff()));
+  return std::sqrt(
+      std::max(0.0, Eigen::SelfAdjointEigenSolver<Matrix>(square, Eigen::EigenvaluesOnly)
+                        .eigenvalues()
+                        .maxCoeff()));
 }
 
 /// In coordinates T x in which norms tell more of what products do.
@@ -47,8 +48,7 @@ std::vector<Matrix> in_common_norm(const std::vector<Matrix>& factors) {
   const Matrix T = llt.matrixU();
   std::vector<Matrix> result;
   for (const Matrix& A : factors)
-    result.push_back(
-        llt.matrixL().solve((T * A).transpose()).transpose());  // T A inv(T), T = L'
+    result.push_back(llt.matrixL().solve((T * A).transpose()).transpose());  // T A inv(T), T = L'
   return result;
 }
 

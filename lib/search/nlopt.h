@@ -11,9 +11,9 @@ namespace gainsmith::search {
 LocalSearch nlopt_search();
 
 /// Price's controlled random search (CRS2 with local mutation): points all over the box, then ever
-/// closer to the best of them. The start is one of them; the tolerance does not
-/// matter, and there may be a few more evaluations than allowed. The same
-/// seed makes the same search, on any thread. Loads the library.
+/// closer to the best of them. The start is one of them. The tolerance does not matter, and there
+/// may be a few more evaluations than allowed. The same seed makes the same search, on any thread.
+/// Loads the library.
 LocalSearch nlopt_global_search(unsigned long seed);
 
 }  // namespace gainsmith::search

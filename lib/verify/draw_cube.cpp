@@ -58,8 +58,7 @@ GivenRun DrawCube::at(const std::vector<double>& u) const { return rounded(u, 0)
 
 GivenRun DrawCube::rounded(const std::vector<double>& u, int digits) const {
   std::size_t next = 0;
-  GivenRun run =
-      walk({[&](const Name&) { return std::clamp(u[next++], 0.0, 1.0); }, digits});
+  GivenRun run = walk({[&](const Name&) { return std::clamp(u[next++], 0.0, 1.0); }, digits});
   for (auto& list : run.lengths) shorten(list);
   for (auto& list : run.losses) shorten(list);
   for (auto& list : run.noise) shorten(list);
@@ -69,8 +68,7 @@ GivenRun DrawCube::rounded(const std::vector<double>& u, int digits) const {
 std::vector<double> DrawCube::start() const {
   constexpr double kAside = 0.85;
   std::vector<double> u;
-  for (const Name& name : names_)
-    u.push_back(std::get<0>(name) == Purpose::start ? kAside : 0.5);
+  for (const Name& name : names_) u.push_back(std::get<0>(name) == Purpose::start ? kAside : 0.5);
   return u;
 }
 

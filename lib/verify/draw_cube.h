@@ -5,7 +5,7 @@
 //   start from a list        its element floor(number u)
 //   first time, length       low + (high - low) u, whatever the laws of the campaign
 //   loss                     u > 1/2, within `in_a_row`
-//   noise, uncertain data    normal: deviation kReach (2u - 1), an element; uniform: low + (high - low) u;
+//   noise, uncertain data    normal: deviation kReach (2u - 1), an element; uniform: as lengths;
 //                            vertices and corners: that of number floor(number u)
 //
 // What is drawn again and again repeats with a period, or has coordinates of its own.
@@ -32,7 +32,7 @@ class DrawCube {
   /// The same with numbers of so many digits, within their ranges; all digits in an ellipsoid.
   hybrid::GivenRun rounded(const std::vector<double>& u, int digits) const;
 
-  /// Where a search begins: starts away from the middle, which is an equilibrium more often than not.
+  /// Where a search begins: starts away from the middle, which often is an equilibrium.
   std::vector<double> start() const;
   /// The same with these lengths of an event, repeated.
   std::vector<double> with_lengths(std::vector<double> u, std::size_t event,

@@ -37,7 +37,11 @@ bool is_worse(const Worst& a, const Worst& b) {
 class Runs {
  public:
   Runs(const Setup& setup, hybrid::GivenRun& run, std::size_t number, std::uint64_t seed)
-      : setup_(&setup), run_(&run), number_(number), seed_(seed), judge_(setup),
+      : setup_(&setup),
+        run_(&run),
+        number_(number),
+        seed_(seed),
+        judge_(setup),
         worst_(setup.events->judged.size()) {}
 
   /// The margin of a claim at a point of a cube.
@@ -83,7 +87,8 @@ class Search {
     constexpr std::uint64_t kExact = 3000, kIntegrated = 600;
     runs_ = options.runs.value_or(setup_->integrated() ? kIntegrated : kExact);
     if (setup_->events->judged.empty())
-      throw InputError(instance.design->campaign.place, "there is no claim to search the worst run of");
+      throw InputError(instance.design->campaign.place,
+                       "there is no claim to search the worst run of");
     make_cubes();
     if (cubes_.front().size() == 0)
       throw InputError(instance.design->campaign.place,

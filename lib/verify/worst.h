@@ -43,7 +43,7 @@ struct WorstReport {
   };
 
   model::CampaignVerdict verdict = model::CampaignVerdict::undecided;
-  std::uint64_t runs = 0;     ///< that were made
+  std::uint64_t runs = 0;  ///< that were made
   std::uint64_t seed = 0;
   double horizon = 0;
   bool interrupted = false;   ///< then the findings are those of one computation of each run
@@ -54,8 +54,8 @@ struct WorstReport {
   std::optional<PeriodicLengths> lengths;  ///< in which linear errors grow fastest
 };
 
-/// Deterministic. A stop (base/stop.h) leaves the report with what was found so far, undecided. InputError when nothing is
-/// drawn, no claim is stated, or NLopt is not there.
+/// Deterministic. A stop (base/stop.h) leaves the report with what was found so far, undecided.
+/// InputError when nothing is drawn, no claim is stated, or NLopt is not there.
 WorstReport search_worst(const model::Instance& instance, const model::Gains& gains,
                          const WorstOptions& options);
 

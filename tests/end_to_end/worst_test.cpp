@@ -14,8 +14,8 @@ using Json = nlohmann::ordered_json;
 /// Repeats the run that is given for a claim; the text about it.
 std::string repeated(const std::string& gains, const Json& claim) {
   const Folder folder;
-  const Outcome outcome = gainsmith(
-      {"simulate", gains, "--given", claim["given"].dump(), "--judge", "-o", folder.path("run.csv")});
+  const Outcome outcome = gainsmith({"simulate", gains, "--given", claim["given"].dump(), "--judge",
+                                     "-o", folder.path("run.csv")});
   EXPECT_EQ(outcome.exit, 0) << outcome.err;
   return outcome.out + outcome.err;
 }
@@ -53,7 +53,8 @@ TEST(Worst, NothingFoundShowsNothingAndTheThreadsDoNotMatter) {
   const Folder folder;
   const std::string gains = folder.path("gains.json");
   gainsmith({"synth", problem("ferrante-seuret-2021/t2-0.70.yaml"), "-o", gains});
-  const std::vector<std::string> search = {"verify", gains, "--worst", "--runs", "300", "--threads"};
+  const std::vector<std::string> search = {"verify", gains, "--worst",
+                                           "--runs", "300", "--threads"};
   auto with = [&](const std::string& threads) {
     std::vector<std::string> words = search;
     words.push_back(threads);
@@ -76,8 +77,8 @@ TEST(Worst, WhatDoesNotFitIsSaid) {
       gainsmith({"simulate", file, "--given", R"({"lengths": {"sample": [3]}})"});
   EXPECT_EQ(length.exit, 2);
   EXPECT_TRUE(has(length.err, "outside its range [0.1, 1.1]")) << length.err;
-  const Outcome several = gainsmith({"simulate", file, "--given", "{}", "--runs", "0:3", "--plot",
-                                     folder.path("p.svg")});
+  const Outcome several = gainsmith(
+      {"simulate", file, "--given", "{}", "--runs", "0:3", "--plot", folder.path("p.svg")});
   EXPECT_EQ(several.exit, 2);
   const Outcome nothing = gainsmith({"verify", problem("own-systems/thermostat.yaml"), "--worst"});
   EXPECT_EQ(nothing.exit, 2);
@@ -95,8 +96,8 @@ method:
 campaign: {runs: 10, horizon: 10, initial: {x: {box: [1, 2]}}}
 )");
   const std::string gains = folder.path("gains.json");
-  const Outcome found =
-      gainsmith({"bisect", file, "--smallest", "k", "--in", "0", "2", "--claims", "-o", gains, "--json"});
+  const Outcome found = gainsmith(
+      {"bisect", file, "--smallest", "k", "--in", "0", "2", "--claims", "-o", gains, "--json"});
   EXPECT_EQ(found.exit, 0) << found.err;
   const double k = found.json()["result"]["searched"]["k"].get<double>();
   const double exact = 0.5 + std::log(10) / 10;

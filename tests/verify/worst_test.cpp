@@ -27,7 +27,8 @@ model::Instance instance_of(const std::string& method, const std::string& proble
 
 /// problems/own-systems/uneven-samples.yaml.
 model::Instance uneven_samples(const std::string& horizon = "40") {
-  return instance_of(R"(  let: {A: "[0, 1; -1, 0]", C: "[1, 0]", L: "[0.6; 2]"}
+  return instance_of(
+      R"(  let: {A: "[0, 1; -1, 0]", C: "[1, 0]", L: "[0.6; 2]"}
   events: {sample: {every: [0.1, 1.1]}}
   plant: {state: {x: 2}, output: {y: C*x}, flow: {x: A*x}}
   observer:
@@ -37,8 +38,7 @@ model::Instance uneven_samples(const std::string& horizon = "40") {
   signals: {e: x - xh}
   claims: {bounded: {below: norm(e), bound: 1000}, small: {below: norm(e), bound: 1e12}}
 )",
-                     "campaign: {horizon: " + horizon +
-                         ", sampling: uniform, initial: {x: {box: [-1, 1]}}}\n");
+      "campaign: {horizon: " + horizon + ", sampling: uniform, initial: {x: {box: [-1, 1]}}}\n");
 }
 
 /// From one sample to the next, a length s between.
@@ -70,8 +70,9 @@ const std::string kCampaign =
 
 class Drawn {
  public:
-  Drawn() : instance_(instance_of(kDrawn, kCampaign)),
-            setup_(make_event_setup(bind::run_texts(instance_, {}))) {}
+  Drawn()
+      : instance_(instance_of(kDrawn, kCampaign)),
+        setup_(make_event_setup(bind::run_texts(instance_, {}))) {}
 
   DrawCube cube(std::size_t period) const { return {setup_->system, setup_->scenario, period}; }
   std::size_t noise(const std::string& name) const {
@@ -140,7 +141,8 @@ TEST(DrawCube, ListsRepeatAfterAPeriodOrAtTheirMost) {
   const Drawn drawn;
   const auto lengths = [&](const DrawCube& cube) {
     std::vector<double> u;  // no part of it repeats
-    for (std::size_t i = 0; i < cube.size(); ++i) u.push_back(std::fmod(0.618 * static_cast<double>(i), 1));
+    for (std::size_t i = 0; i < cube.size(); ++i)
+      u.push_back(std::fmod(0.618 * static_cast<double>(i), 1));
     return cube.at(u).lengths[0].size();
   };
   EXPECT_EQ(lengths(drawn.cube(3)), 3U);
@@ -240,8 +242,7 @@ TEST(Worst, SamplingHoldsAndTheSearchFindsTheTurns) {
   const model::Instance instance = uneven_samples();
   CampaignOptions sampled;
   sampled.runs = 2000;
-  EXPECT_EQ(run_campaign(*make_setup(instance, {}), sampled).verdict,
-            model::CampaignVerdict::held);
+  EXPECT_EQ(run_campaign(*make_setup(instance, {}), sampled).verdict, model::CampaignVerdict::held);
 
   const WorstReport report = search_worst(instance, {}, options_of(600));
   EXPECT_EQ(report.verdict, model::CampaignVerdict::violated);
@@ -299,7 +300,8 @@ TEST(Worst, UncertainDataAndStartsAreAtTheirWorst) {
 
 /// A pendulum of which no product of matrices tells the lengths: random runs stay below 4.
 TEST(Worst, TurnsAreFoundWithoutALinearPart) {
-  const model::Instance instance = instance_of(R"~(  let: {f(x): "[x(2); -x(1) - 1e-3*x(1)^3]"}
+  const model::Instance instance =
+      instance_of(R"~(  let: {f(x): "[x(2); -x(1) - 1e-3*x(1)^3]"}
   events: {sample: {every: [0.1, 1.1]}}
   plant: {state: {x: 2}, output: {y: x(1)}, flow: {x: f(x)}}
   observer:
@@ -308,21 +310,20 @@ TEST(Worst, TurnsAreFoundWithoutALinearPart) {
     at: {sample: {xh: "xh + [0.6; 2]*(y - xh(1))"}}
   claims: {bounded: {below: norm(x - xh), bound: 20}}
 )~",
-                                               "campaign: {horizon: 20, sampling: uniform, initial: "
-                                               "{x: {box: [-1, 1]}}}\n");
+                  "campaign: {horizon: 20, sampling: uniform, initial: "
+                  "{x: {box: [-1, 1]}}}\n");
   CampaignOptions sampled;
   sampled.runs = 200;
-  EXPECT_EQ(run_campaign(*make_setup(instance, {}), sampled).verdict,
-            model::CampaignVerdict::held);
+  EXPECT_EQ(run_campaign(*make_setup(instance, {}), sampled).verdict, model::CampaignVerdict::held);
   const WorstReport report = search_worst(instance, {}, options_of(200));
   EXPECT_EQ(report.verdict, model::CampaignVerdict::violated);
   EXPECT_FALSE(report.lengths);
 }
 
 TEST(Worst, WithoutDrawsThereIsNothingToSearch) {
-  const model::Instance instance =
-      instance_of("  plant: {state: {x: scalar}, flow: {x: -x}}\n  claims: {b: {below: x, bound: 3}}\n",
-                  "campaign: {horizon: 1, initial: {x: 1}}\n");
+  const model::Instance instance = instance_of(
+      "  plant: {state: {x: scalar}, flow: {x: -x}}\n  claims: {b: {below: x, bound: 3}}\n",
+      "campaign: {horizon: 1, initial: {x: 1}}\n");
   EXPECT_THROW(search_worst(instance, {}, options_of(100)), InputError);
 }
 
