@@ -43,10 +43,10 @@ class Return {
 /// unless that are too many.
 std::vector<double> grid(double low, double high, double frequency) {
   const double turns = (high - low) * frequency / (2 * std::numbers::pi);
-  const double count = std::clamp(1 + std::ceil(8 * turns), 9.0, 33.0);
-  std::vector<double> lengths;
-  for (double k = 0; k < count; ++k) lengths.push_back(low + (high - low) * k / (count - 1));
-  lengths.back() = high;
+  const auto count = static_cast<std::size_t>(std::clamp(1 + std::ceil(8 * turns), 9.0, 33.0));
+  std::vector<double> lengths(count);
+  for (std::size_t k = 0; k < count; ++k)
+    lengths[k] = std::lerp(low, high, static_cast<double>(k) / static_cast<double>(count - 1));
   return lengths;
 }
 
@@ -57,13 +57,12 @@ void refine(const Return& step, double low, double high, PeriodicLengths& best) 
   options.tolerance = 1e-9;
   options.evaluations = 300 * static_cast<int>(best.lengths.size());
   const auto at = [&](const std::vector<double>& unit) {
-    std::vector<double> lengths;
-    for (const double u : unit) lengths.push_back(std::lerp(low, high, u));
+    std::vector<double> lengths = unit;
+    for (double& length : lengths) length = std::lerp(low, high, length);
     return lengths;
   };
-  std::vector<double> start;
-  for (const double length : best.lengths)
-    start.push_back(std::clamp((length - low) / (high - low), 0.0, 1.0));
+  std::vector<double> start = best.lengths;
+  for (double& length : start) length = std::clamp((length - low) / (high - low), 0.0, 1.0);
   search::nlopt_search()(
       [&](const std::vector<double>& unit) {
         check_stop();
@@ -85,6 +84,7 @@ std::optional<PeriodicLengths> fastest_lengths(const Setup& setup) {
   const Return step(coordinates.linear.cast<double>(), jump->rounded);
   const std::vector<double> lengths = grid(clock->low, clock->high, step.fastest());
   std::vector<Matrix> factors;
+  factors.reserve(lengths.size());
   for (const double length : lengths) factors.push_back(step(length));
   const numerics::MatrixProduct found = numerics::fastest_product(factors);
   PeriodicLengths best;
