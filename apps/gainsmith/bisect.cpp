@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,6 +15,7 @@
 #include "bind/instance.h"
 #include "design/synthesize.h"
 #include "gainsmith/advice.h"
+#include "gainsmith/campaign_text.h"
 #include "gainsmith/commands.h"
 #include "gainsmith/load.h"
 #include "gainsmith/output.h"
@@ -25,6 +28,7 @@
 #include "io/gains_json.h"
 #include "model/names.h"
 #include "model/stated_file.h"
+#include "verify/campaign.h"
 
 namespace gainsmith::app {
 
@@ -37,6 +41,7 @@ struct BisectOptions {
   std::string smallest;
   std::vector<std::string> range;
   std::optional<double> tolerance;
+  bool claims = false;
   std::string output;
   std::string plot;
   bool json = false;
@@ -146,13 +151,59 @@ std::string objective_note(const BisectOptions& options, const model::Instance& 
   }
 }
 
+/// The campaigns of values that have gains, by value.
+class Campaigns {
+ public:
+  /// `name`: of the scalar.
+  Campaigns(const model::Instance& own, std::string name) : own_(&own), name_(std::move(name)) {}
+
+  search::Answer operator()(const model::Gains& gains) {
+    const model::Instance instance = bind::evaluate(own_->design, gains.searched);
+    const auto setup = verify::make_setup(instance, gains);
+    const verify::Report report = verify::run_campaign(*setup);
+    check_stop();
+    lines_[gains.searched.at(name_)] = campaign_line(campaign_record(report, ""));
+    switch (report.verdict) {
+      case model::CampaignVerdict::held:
+        return search::Answer::yes;
+      case model::CampaignVerdict::violated:
+        return search::Answer::no;
+      case model::CampaignVerdict::undecided:
+        break;
+    }
+    return search::Answer::undecided;
+  }
+
+  /// What the campaigns say at both ends of the bracket.
+  std::string text(const search::Bisection& found) const {
+    std::string text;
+    for (const std::optional<double>& end : {found.yes, found.no}) {
+      const auto line = end ? lines_.find(*end) : lines_.end();
+      if (line != lines_.end())
+        text += fmt::format("{:<12}{} = {}: {}\n", text.empty() ? "claims" : "", name_,
+                            brief(line->first, 9), line->second);
+    }
+    return text;
+  }
+
+ private:
+  const model::Instance* own_;
+  std::string name_;
+  std::map<double, std::string> lines_;
+};
+
 ExitCode bisect(const BisectOptions& options) {
   check_picture_name(options.plot);
   prepare_outputs(options.problem, {options.output, options.plot});
   check_positive(options.tolerance, "--tolerance");
   const model::Instance instance = load_problem(
       options.problem, options.set, [&](model::Problem& problem) { add_range(options, problem); });
-  const design::BisectChoices choices = choices_of(options, instance);
+  design::BisectChoices choices = choices_of(options, instance);
+  Campaigns campaigns(instance, choices.scalar.name);
+  if (options.claims) {
+    refuse_without_campaign(*instance.design, options.problem);
+    choices.also = std::ref(campaigns);
+  }
   const design::BisectResult result = design::bisect(instance, {}, choices, {});
   const Telling telling;
   const std::string name = with_unit(*instance.design, choices.scalar.name);
@@ -161,6 +212,7 @@ ExitCode bisect(const BisectOptions& options) {
   const std::string report = options.json
                                  ? io::to_text(json_of(result, choices))
                                  : table(result, name) + "\n" + synthesis_summary(result.gains) +
+                                       campaigns.text(result.found) +
                                        objective_note(options, instance, choices, result.gains) +
                                        held_line(instance, {choices.scalar.name});
   write_result(result.gains, options.output, report, options.json);
@@ -183,6 +235,8 @@ Command bisect_command() {
        Option("--tolerance", options->tolerance,
               "width of the final bracket (default: the problem's, or 1e-4 of the range; of the "
               "value on a logarithmic scale)"),
+       Option("--claims", options->claims,
+              "a value counts as feasible only if the claims of its gains hold in the campaign"),
        Option("-o,--output", options->output,
               "write the gains of the feasible end here; - for standard output"),
        Option("--plot", options->plot,
@@ -197,6 +251,7 @@ Command bisect_command() {
       "nothing of the values between those tried).\n"
       "Examples:\n"
       "  gainsmith bisect problem.yaml --largest T2 --in 0.5 1.1 --tolerance 1e-5 -o gains.json\n"
+      "  gainsmith bisect problem.yaml --smallest k --in 0 10 --claims\n"
       "  gainsmith bisect problem.yaml --smallest rho --in 0.05 1 --json | jq .samples",
       [options] { return bisect(*options); }};
 }

@@ -15,22 +15,6 @@ namespace gainsmith::app {
 
 namespace {
 
-std::string kind_text(model::ClaimKind kind) {
-  switch (kind) {
-    case model::ClaimKind::nonincreasing:
-      return "never increases";
-    case model::ClaimKind::cost:
-      return "cost stays below";
-    case model::ClaimKind::shrinks:
-      return "shrinks";
-    case model::ClaimKind::below:
-      return "stays below";
-    case model::ClaimKind::above:
-      return "stays above";
-  }
-  return "?";
-}
-
 /// What JSON has no number for has no value.
 std::optional<double> finite(double value) {
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
@@ -169,6 +153,22 @@ std::string undecided_text(const verify::Report& report, const std::string& gain
 }
 
 }  // namespace
+
+std::string kind_text(model::ClaimKind kind) {
+  switch (kind) {
+    case model::ClaimKind::nonincreasing:
+      return "never increases";
+    case model::ClaimKind::cost:
+      return "cost stays below";
+    case model::ClaimKind::shrinks:
+      return "shrinks";
+    case model::ClaimKind::below:
+      return "stays below";
+    case model::ClaimKind::above:
+      return "stays above";
+  }
+  return "?";
+}
 
 std::string end_text(const claims::Finding& finding) {
   return fmt::format("ended at (t, j) = ({}, {}), before {}", brief(finding.t), finding.j,

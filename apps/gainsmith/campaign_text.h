@@ -10,6 +10,9 @@
 
 namespace gainsmith::app {
 
+/// "never increases".
+std::string kind_text(model::ClaimKind kind);
+
 /// yes of a campaign that held, no of a violated one.
 ExitCode campaign_exit(model::CampaignVerdict verdict);
 

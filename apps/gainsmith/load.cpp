@@ -75,20 +75,6 @@ void check_complete(const model::Gains& gains, const model::Instance& instance,
   }
 }
 
-/// InputError when problem or method say why nothing is simulated, or not for how long.
-void refuse_without_campaign(const model::Design& design, const std::string& file) {
-  if (!design.no_campaign.empty())
-    throw InputError({file}, "there is no campaign: " + design.no_campaign);
-  if (!design.dynamics)
-    throw InputError({file},
-                     "there is nothing to simulate: the method has no dynamics; a plant and an "
-                     "observer beside its gains make a simulation");
-  if (!model::ends(design))
-    throw InputError({file},
-                     "the problem gives no campaign; it needs 'campaign: {horizon: ...}': how long "
-                     "a run is");
-}
-
 /// InputError when a file whose verdict is not yes has no gains.
 void refuse_without_gains(const model::Gains& gains, const model::Design& design,
                           const std::string& file) {
@@ -152,6 +138,19 @@ std::vector<model::Setting> settings(const std::vector<std::string>& set) {
 }
 
 }  // namespace
+
+void refuse_without_campaign(const model::Design& design, const std::string& file) {
+  if (!design.no_campaign.empty())
+    throw InputError({file}, "there is no campaign: " + design.no_campaign);
+  if (!design.dynamics)
+    throw InputError({file},
+                     "there is nothing to simulate: the method has no dynamics; a plant and an "
+                     "observer beside its gains make a simulation");
+  if (!model::ends(design))
+    throw InputError({file},
+                     "the problem gives no campaign; it needs 'campaign: {horizon: ...}': how long "
+                     "a run is");
+}
 
 Option set_option(std::vector<std::string>& set) {
   return Option(

@@ -32,6 +32,9 @@ bool is_gain_file(const std::filesystem::path& path);
 /// What `--effort` says of a problem, for load_problem().
 std::function<void(model::Problem&)> effort(const std::string& word);
 
+/// InputError when problem or method say why nothing is simulated, or not for how long.
+void refuse_without_campaign(const model::Design& design, const std::string& file);
+
 /// A gain file with the problem that it states.
 struct LoadedGains {
   model::Gains gains;

@@ -21,6 +21,7 @@
 #include "gainsmith/run_table.h"
 #include "gainsmith/terminal.h"
 #include "hybrid/idle.h"
+#include "io/given_run_json.h"
 #include "io/json_text.h"
 
 namespace gainsmith::app {
@@ -31,6 +32,7 @@ struct SimulateOptions {
   std::string gains;
   std::vector<std::string> set;
   std::uint64_t run = 0;
+  std::string given;
   std::optional<std::uint64_t> seed;
   std::string output;
   PictureOptions picture;
@@ -149,6 +151,8 @@ void check(const SimulateOptions& options) {
     refuse("--phase, --panels and --band say what --plot draws: give --plot FILE");
   if (!options.compare && picture.file.empty() && several)
     refuse("--runs names several runs for --plot FILE or --compare: give one of them, or --run");
+  if (!options.given.empty() && (several || options.compare))
+    refuse("--given is about one run: without --runs and --compare");
   if (several && options.run != 0) refuse("either --run or --runs, not both");
   if (several && !options.compare && (!options.output.empty() || options.json || options.judge))
     refuse("--runs draws several runs: without -o, --json and --judge, which are about one");
@@ -198,7 +202,11 @@ ExitCode simulate(const SimulateOptions& options) {
   const std::vector<std::uint64_t> runs =
       runs_of(options.picture, options.run, design.campaign.runs);
   if (options.compare) return compare(options, loaded, seed, runs);
-  const auto setup = verify::make_setup(loaded.stated, loaded.gains);
+  std::vector<hybrid::GivenRun> given;
+  if (!options.given.empty())
+    given.push_back(io::parse_given_run(options.given, "--given", *design.dynamics));
+  const auto setup =
+      verify::make_setup(loaded.stated, loaded.gains, given.empty() ? nullptr : &given);
   std::vector<verify::Replay> replays;
   for (const std::uint64_t run : runs) {
     replays.push_back(verify::replay_run(*setup, seed, run, options.step, options.judge));
@@ -232,6 +240,10 @@ Command simulate_command() {
       {Option("gains", options->gains, "gain file (JSON), or a problem (YAML) without unknowns")
            .required(),
        set_option(options->set), Option("--run", options->run, "the run's number"),
+       Option(
+           "--given", options->given,
+           "starts, lengths, losses and noise in place of draws, as 'verify --worst' prints them")
+           .named("JSON"),
        Option("--seed", options->seed, "seed of the campaign (default: the problem's)"),
        Option("-o,--output", options->output, "write the table here (default: standard output)"),
        Option("--step", options->step, "points of flows this far apart (default: as integrated)")

@@ -11,9 +11,11 @@
 #include "gainsmith/commands.h"
 #include "gainsmith/load.h"
 #include "gainsmith/terminal.h"
+#include "gainsmith/worst_text.h"
 #include "io/campaign_json.h"
 #include "model/stated_file.h"
 #include "verify/statistics.h"
+#include "verify/worst.h"
 
 namespace gainsmith::app {
 
@@ -27,6 +29,7 @@ struct VerifyOptions {
   unsigned threads = 0;
   std::optional<double> probability;
   double confidence = 0.95;
+  bool worst = false;
   bool json = false;
 };
 
@@ -38,22 +41,40 @@ std::optional<std::uint64_t> runs_of(const VerifyOptions& options) {
   return verify::runs_for(*options.probability, options.confidence);
 }
 
+/// How the gains are called on a command line. A gain file holds what was set.
+std::string source_of(const VerifyOptions& options, const LoadedGains& loaded) {
+  return options.set.empty()
+             ? options.gains
+             : model::problem_words(options.gains, loaded.stated.design->statement.settings);
+}
+
+ExitCode search_worst(const VerifyOptions& options, const LoadedGains& loaded) {
+  if (options.probability)
+    throw InputError({options.gains}, "--probability is about runs at random, not about --worst");
+  verify::WorstOptions search;
+  search.seed = options.seed.value_or(search.seed);
+  search.runs = options.runs;
+  search.threads = options.threads;
+  const verify::WorstReport report = verify::search_worst(loaded.stated, loaded.gains, search);
+  const model::Design& design = *loaded.stated.design;
+  const Telling telling;
+  fmt::print("{}", options.json ? io::to_text(worst_json(report, design))
+                                : worst_summary(report, design, source_of(options, loaded)));
+  return campaign_exit(report.verdict);
+}
+
 ExitCode verify_gains(const VerifyOptions& options) {
   const LoadedGains loaded = load_run(options.gains, options.set);
+  if (options.worst) return search_worst(options, loaded);
   const verify::CampaignOptions campaign{runs_of(options), options.seed, options.threads,
                                          options.confidence};
   const auto setup = verify::make_setup(loaded.stated, loaded.gains);
   const verify::Report report = verify::run_campaign(*setup, campaign);
-  // A gain file holds what was set.
-  const std::string source =
-      options.set.empty()
-          ? options.gains
-          : model::problem_words(options.gains, loaded.stated.design->statement.settings);
   const Telling telling;
   fmt::print("{}",
              options.json
                  ? io::to_text(io::to_json(campaign_record(report, io::gains_hash(loaded.gains))))
-                 : campaign_summary(report, source));
+                 : campaign_summary(report, source_of(options, loaded)));
   return campaign_exit(report.verdict);
 }
 
@@ -76,6 +97,10 @@ Command verify_command() {
        Option("--confidence", options->confidence, "with which the report bounds that part")
            .within(0.5, 0.999999999),
        Option("--seed", options->seed, "seed of the random streams (default: the problem's)"),
+       Option("--worst", options->worst,
+              "search the worst run of each claim instead of drawing runs: over starts, lengths, "
+              "losses, noise and uncertain data; --runs: of the search (default: 3000, or 600 "
+              "where flows are integrated)"),
        Option("--threads", options->threads,
               "threads, 0: one a core; the report does not depend on it")
            .within(0, 1024),
@@ -84,6 +109,7 @@ Command verify_command() {
       "Examples:\n"
       "  gainsmith verify gains.json --runs 10000\n"
       "  gainsmith verify gains.json --probability 1e-4 --confidence 0.999\n"
+      "  gainsmith verify gains.json --worst\n"
       "  gainsmith verify gains.json --json | jq .worst_run",
       [options] { return verify_gains(*options); }};
 }

@@ -241,7 +241,9 @@ void refute(const Posed& posed, const Solve& solve, Interior& interior, Interior
 
 bool Attempt::is_near_optimal() const {
   constexpr double kNear = 1e-6;
-  return is_optimal() || std::abs(solution.relative_gap) <= kNear;
+  if (is_optimal()) return true;
+  // A solver that is stopped before its first iteration has no point and no gap.
+  return !solution.x.empty() && std::abs(solution.relative_gap) <= kNear;
 }
 
 bool Attempt::refuted() const {

@@ -56,13 +56,14 @@ std::string nothing_found(const search::Bisection& found, const BisectChoices& c
   const bool all = std::all_of(found.samples.begin(), found.samples.end(), [](const auto& sample) {
     return sample.answer == search::Answer::no;
   });
+  const std::string also = choices.also ? " or by violated claims" : "";
   if (all)
-    return text + "; each is excluded by a certificate" + limits +
+    return text + "; each is excluded by a certificate" + limits + also +
            ", which says nothing of those between";
   const std::string excluded = values_with(found, search::Answer::no);
   const std::string refused = values_with(found, search::Answer::refused);
   if (!excluded.empty())
-    text += "; those at " + excluded + " are excluded by certificates" + limits;
+    text += "; those at " + excluded + " are excluded by certificates" + limits + also;
   if (!refused.empty()) text += "; those at " + refused + " are refused by the assumptions";
   return text;
 }
@@ -108,7 +109,8 @@ BisectResult bisect(const model::Instance& own, const model::Overrides& fixed,
     try {
       model::Gains gains = synthesize_at(own.design, overrides, solver, choices.depth);
       if (gains.verdict == model::Verdict::undecided) check_stop();
-      const search::Answer answer = answer_of(gains);
+      search::Answer answer = answer_of(gains);
+      if (answer == search::Answer::yes && choices.also) answer = choices.also(gains);
       tried.insert_or_assign(value, std::move(gains));
       return answer;
     } catch (const InputError& error) {

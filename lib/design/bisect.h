@@ -1,7 +1,8 @@
 // The largest or smallest value of a scalar for which a problem has gains.
 #pragma once
 
-#include <string>
+#include <functional>
+#include <optional>
 
 #include "design/search_request.h"
 #include "design/synthesize.h"
@@ -17,6 +18,8 @@ struct BisectChoices {
   search::Tolerance tolerance;
   std::optional<double> guess;  ///< see search::BisectOptions
   Depth depth = Depth::thorough;
+  /// What else a value with gains must satisfy, such as a campaign of runs; empty: nothing.
+  std::function<search::Answer(const model::Gains&)> also{};
 };
 
 /// Both ends of a bracket with what they rest on.
@@ -32,7 +35,8 @@ struct BisectResult {
 /// Synthesizes at the values that search::bisect asks for, the problem's `own` among them, the
 /// scalars in `fixed` and the instance's overrides held. A value is yes when synthesize() says yes,
 /// no when a certificate was checked, refused when it does not fit the problem's assumptions.
-/// `gains.search` holds the bracket. InputError when every value tried is refused.
+/// With `also` a yes counts as what that answers. `gains.search` holds the bracket. InputError when
+/// every value tried is refused.
 BisectResult bisect(const model::Instance& own, const model::Overrides& fixed,
                     const BisectChoices& choices, const sdp::Options& solver);
 

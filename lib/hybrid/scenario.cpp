@@ -222,12 +222,15 @@ RandomStream draw_stream(std::uint64_t seed, std::uint64_t run, Purpose purpose,
 VectorXd draw_start(const System& system, const Scenario& scenario, std::uint64_t seed,
                     std::uint64_t run) {
   VectorXd values = VectorXd::Zero(system.whole);
+  const GivenRun* given = scenario.given_for(run);
   for (std::size_t i = 0; i < scenario.starts.size(); ++i) {
     if (!scenario.starts[i]) continue;
     const StartRule& rule = *scenario.starts[i];
     const Dynamics::Variable& variable = system.dynamics.variables[i];
     numbers::Matrix value;
-    if (rule.kind == StartKind::expression) {
+    if (given != nullptr && i < given->starts.size() && given->starts[i]) {
+      value = *given->starts[i];
+    } else if (rule.kind == StartKind::expression) {
       value = SystemFunction(rule.program, system)(values);
     } else if (rule.kind == StartKind::list) {
       value = rule.values[run % rule.values.size()];
@@ -265,6 +268,9 @@ double EventClocks::first_due(std::size_t event, Clock& clock, std::uint64_t see
   if (!times.empty()) return times.front();
   const auto& rule = system_->clocks[event];
   if (!rule) return never;
+  const GivenRun* given = scenario_->given_for(run_);
+  if (given != nullptr && event < given->first.size() && given->first[event])
+    return std::clamp(*given->first[event], rule->first->first, rule->first->second);
   if (event < scenario_->first.size() && scenario_->first[event]) return *scenario_->first[event];
   if (!rule->first) return drawn_length(event, clock, 0);
   const auto [low, high] = *rule->first;
@@ -276,6 +282,11 @@ double EventClocks::drawn_length(std::size_t event, Clock& clock, double t) cons
   const System::Clock& rule = *system_->clocks[event];
   const std::uint64_t number = clock.lengths++;
   if (rule.low == rule.high) return rule.low;
+  const GivenRun* given = scenario_->given_for(run_);
+  if (given != nullptr && event < given->lengths.size() && !given->lengths[event].empty()) {
+    const std::vector<double>& lengths = given->lengths[event];
+    return std::clamp(lengths[number % lengths.size()], rule.low, rule.high);
+  }
   const std::vector<Law>& laws = scenario_->laws[event];
   if (laws.empty()) return rule.low + (rule.high - rule.low) * clock.random.uniform();
   return laws[run_ % laws.size()].reset_value(number, t, clock.random);
@@ -310,14 +321,24 @@ void EventClocks::advance(std::size_t event, double t) {
 bool EventClocks::loses(std::size_t event) {
   const Dynamics::Event& one = system_->dynamics.events[event];
   Clock& clock = clocks_[event];
-  const bool drawn = clock.lost.uniform_at(clock.jumps++) < one.lost;
+  const std::uint64_t number = clock.jumps++;
+  const GivenRun* given = scenario_->given_for(run_);
+  const bool is_given =
+      given != nullptr && event < given->losses.size() && !given->losses[event].empty();
+  const bool drawn = is_given ? given->losses[event][number % given->losses[event].size()] != 0
+                              : clock.lost.uniform_at(number) < one.lost;
   const bool may = !one.lost_in_a_row || clock.lost_in_a_row < *one.lost_in_a_row;
   clock.lost_in_a_row = drawn && may ? clock.lost_in_a_row + 1 : 0;
   return drawn && may;
 }
 
-NoiseDraws::NoiseDraws(const System& system, std::uint64_t seed, std::uint64_t run)
-    : system_(&system), run_(run), times_(system.noise.size(), 0) {
+NoiseDraws::NoiseDraws(const System& system, const Scenario& scenario, std::uint64_t seed,
+                       std::uint64_t run)
+    : system_(&system),
+      given_(scenario.given_for(run)),
+      run_(run),
+      number_(system.noise.size(), 0),
+      times_(system.noise.size(), 0) {
   for (std::size_t i = 0; i < system.noise.size(); ++i)
     random_.push_back(draw_stream(seed, run, Purpose::noise, i));
 }
@@ -325,6 +346,10 @@ NoiseDraws::NoiseDraws(const System& system, std::uint64_t seed, std::uint64_t r
 VectorXd NoiseDraws::next_value(std::size_t noise) {
   const Dynamics::Noise& one = system_->dynamics.noise[noise];
   const std::vector<numbers::Matrix>& rule = system_->noise[noise].values;
+  if (given_ != nullptr && noise < given_->noise.size() && !given_->noise[noise].empty()) {
+    const std::vector<numbers::Matrix>& values = given_->noise[noise];
+    return values[number_[noise]++ % values.size()].reshaped();
+  }
   if (one.kind == Dynamics::NoiseKind::vertices || one.kind == Dynamics::NoiseKind::corners)
     return rule[run_ / system_->noise[noise].stride % rule.size()].reshaped();
   RandomStream& random = random_[noise];

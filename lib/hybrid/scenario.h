@@ -25,6 +25,7 @@
 #include <vector>
 
 #include "base/random.h"
+#include "hybrid/given_run.h"
 #include "hybrid/initial.h"
 #include "hybrid/law.h"
 #include "hybrid/system.h"
@@ -40,6 +41,13 @@ struct Scenario {
   std::vector<std::optional<double>> first;  ///< by event: the first time, in place of a draw
   /// Variables b that hold a difference a - b, with a: drawn as b, then taken from a.
   std::vector<std::pair<std::size_t, std::size_t>> differences;
+  /// Run i takes element i modulo their number in place of draws. Must outlive the scenario.
+  const std::vector<GivenRun>* given = nullptr;
+
+  /// Of a run; nullptr: all is drawn.
+  const GivenRun* given_for(std::uint64_t run) const {
+    return given == nullptr || given->empty() ? nullptr : &(*given)[run % given->size()];
+  }
 };
 
 /// Whether a state starts in the box [-1, 1] where nothing says so: beside a timer, unless it is
@@ -109,7 +117,8 @@ class EventClocks {
 /// The noise of one run.
 class NoiseDraws {
  public:
-  NoiseDraws(const System& system, std::uint64_t seed, std::uint64_t run);
+  NoiseDraws(const System& system, const Scenario& scenario, std::uint64_t seed,
+             std::uint64_t run);
 
   /// The next value of a noise, written to its variables.
   void draw(std::size_t noise, Eigen::VectorXd& values);
@@ -122,9 +131,11 @@ class NoiseDraws {
   Eigen::VectorXd next_value(std::size_t noise);
 
   const System* system_;
+  const GivenRun* given_;
   std::uint64_t run_;
   std::vector<RandomStream> random_;
-  std::vector<std::uint64_t> times_;  ///< drawn by time so far
+  std::vector<std::uint64_t> number_;  ///< of the next value, of those that are given
+  std::vector<std::uint64_t> times_;   ///< drawn by time so far
 };
 
 }  // namespace gainsmith::hybrid

@@ -20,7 +20,7 @@ struct PackLane {
   PackLane(const PackSystem& pack, std::uint64_t seed, std::uint64_t run)
       : run_number(run),
         clocks(*pack.system, *pack.scenario, seed, run),
-        noise(*pack.system, seed, run),
+        noise(*pack.system, *pack.scenario, seed, run),
         sides(pack.watches.size(), 0),
         before(pack.watches.size(), 0),
         zero(pack.watches.size(), 0),

@@ -28,6 +28,7 @@ struct Nlopt {
   GAINSMITH_FUNCTION(set_min_objective);
   GAINSMITH_FUNCTION(set_upper_bounds1);
   GAINSMITH_FUNCTION(set_xtol_abs1);
+  GAINSMITH_FUNCTION(srand);
 #undef GAINSMITH_FUNCTION
 };
 
@@ -112,6 +113,18 @@ LocalSearch nlopt_search() {
     constexpr double kRefine = 0.1;
     if (start.size() >= 2 && !run.best.empty())
       search(NLOPT_LN_BOBYQA, run, run.best, kRefine * options.step);
+  };
+}
+
+LocalSearch nlopt_global_search(unsigned long seed) {
+  nlopt();
+  return [seed](const std::function<double(const std::vector<double>&)>& function,
+                const std::vector<double>& start, const LocalSearchOptions& options,
+                const std::function<bool()>& go_on) {
+    Run run{function, go_on, options};
+    // The library keeps a generator for each thread.
+    nlopt().srand(seed);
+    search(NLOPT_GN_CRS2_LM, run, start, options.step);
   };
 }
 

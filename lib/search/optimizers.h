@@ -12,10 +12,10 @@ namespace gainsmith::search {
 
 /// What the message says where a library is not there.
 inline constexpr const char* kNeedsOptimizers =
-    "a search over scalars ('search' with 'over', optimize) needs NLopt and Ipopt. Scalars that "
-    "have a value under 'data' or 'parameters' are not searched";
+    "a search over scalars ('search' with 'over', optimize) needs NLopt and Ipopt, and verify "
+    "--worst needs NLopt. Scalars that have a value under 'data' or 'parameters' are not searched";
 
-/// A local search without derivatives in the unit box [0, 1]^d.
+/// A search without derivatives in the unit box [0, 1]^d.
 struct LocalSearchOptions {
   double step = 0.1;             ///< the first steps, in each coordinate
   double tolerance = 1e-5;       ///< of the point

@@ -64,7 +64,7 @@ class EventRun {
         moved_(moved ? std::optional<hybrid::LastPlaces>(std::in_place, seed, run, *moved)
                      : std::nullopt),
         due_(system, watch, hybrid::EventClocks(system, scenario, seed, run), scenario.horizon),
-        noise_(system, seed, run),
+        noise_(system, scenario, seed, run),
         rows_(system),
         branches_(system, watch, accuracy),
         flow_(make_flow(field, accuracy, kLongestStep * scenario.horizon, places())),

@@ -86,12 +86,17 @@ std::vector<claims::JudgedClaim> judged_claims(const EventSetup& setup) {
 
 }  // namespace
 
-std::unique_ptr<const EventSetup> make_event_setup(model::RunTexts texts) {
+std::unique_ptr<const EventSetup> make_event_setup(model::RunTexts texts,
+                                                   const std::vector<hybrid::GivenRun>* given) {
   auto setup = std::make_unique<EventSetup>();
   setup->system = hybrid::make_system(texts.dynamics, texts.stated.values);
   setup->layout = hybrid::layout_of(texts.dynamics);
   setup->scenario = hybrid::make_scenario(texts.campaign, setup->system);
   setup->scenario.differences = texts.differences;
+  setup->scenario.given = given;
+  if (given != nullptr)
+    for (const hybrid::GivenRun& run : *given)
+      hybrid::check_given(run, setup->system, setup->scenario);
   setup->claims = claims::claims_of(texts, setup->system, setup->scenario.horizon);
   setup->texts = std::move(texts);
   setup->constants = claims::rounded_once(setup->system.constants);

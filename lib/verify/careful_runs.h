@@ -40,6 +40,8 @@ struct EventSetup {
 };
 
 /// At an address of its own: its parts point to each other. InputError for what does not fit.
-std::unique_ptr<const EventSetup> make_event_setup(model::RunTexts texts);
+/// `given`: runs whose draws are given (hybrid/given_run.h); they must outlive the setup.
+std::unique_ptr<const EventSetup> make_event_setup(
+    model::RunTexts texts, const std::vector<hybrid::GivenRun>* given = nullptr);
 
 }  // namespace gainsmith::verify

@@ -202,7 +202,10 @@ std::vector<judge::Fault> faults_of(const hybrid::Trajectory& run, const EventSe
                            accuracy.absolute,
                            accuracy.absolute_of,
                            {},
-                           judge::DrawnFrom{seed, number, &setup.texts.campaign}};
+                           {}};
+  // What is given is not drawn again.
+  if (setup.scenario.given == nullptr)
+    question.drawn = judge::DrawnFrom{seed, number, &setup.texts.campaign};
   for (const model::Design::Start& start : setup.texts.campaign.starts) {
     const hybrid::Slot& slot = setup.layout.slots[start.state];
     const numbers::Matrix value = run.start.segment(slot.offset, slot.shape.size())

@@ -99,14 +99,14 @@ std::unique_ptr<const SampledSetup> make_sampled_setup(const model::Instance& in
 
 }  // namespace
 
-std::unique_ptr<const Setup> make_setup(const model::Instance& instance,
-                                        const model::Gains& gains) {
+std::unique_ptr<const Setup> make_setup(const model::Instance& instance, const model::Gains& gains,
+                                        const std::vector<hybrid::GivenRun>* given) {
   auto setup = std::make_unique<Setup>();
-  setup->events = make_event_setup(bind::run_texts(instance, gains));
+  setup->events = make_event_setup(bind::run_texts(instance, gains), given);
   setup->sampled = make_sampled_setup(instance, gains, *setup->events);
   if (!setup->sampled)
     if (auto texts = with_error_states(setup->events->texts, functions_of(setup->events->claims)))
-      setup->errors = make_event_setup(std::move(*texts));
+      setup->errors = make_event_setup(std::move(*texts), given);
   return setup;
 }
 

@@ -39,8 +39,10 @@ struct Setup {
   bool integrated() const { return !sampled || !sampled->steps; }
 };
 
-/// At an address of its own: its parts point to each other.
-std::unique_ptr<const Setup> make_setup(const model::Instance& instance, const model::Gains& gains);
+/// At an address of its own: its parts point to each other. `given`: runs whose draws are given
+/// (hybrid/given_run.h); they must outlive the setup.
+std::unique_ptr<const Setup> make_setup(const model::Instance& instance, const model::Gains& gains,
+                                        const std::vector<hybrid::GivenRun>* given = nullptr);
 
 /// A check for each claim that is stated, in order. The claims and the system must outlive them.
 template <class Scalar>

@@ -24,6 +24,10 @@ constexpr std::uint64_t kSampled = 1024;  ///< runs | one of so many is repeated
         ///< whatever packs say of it | PackJudge.RepeatsSomeRunsCarefully
 constexpr std::uint64_t kFewestInPacks = 8;  ///< runs | of fewer runs each is careful: some are made
         ///< carefully anyway | PackJudge.AFewRunsAreMadeOneByOne
+constexpr double kReach = 3;  ///< standard deviations | so far a search for the worst run takes
+        ///< normal noise | DrawCube.NormalNoiseReachesThreeDeviations
+constexpr double kLongestList = 64;  ///< draws | so many lengths, losses or values of one noise are
+        ///< chosen one by one; then they repeat | DrawCube.ListsRepeatAfterAPeriodOrAtTheirMost
 constexpr std::uint64_t kFewestLinear = 64;  ///< runs | of fewer runs of linear dynamics each is
         ///< careful: the tables of packs take the time of so many | PackJudge.AFewRunsAreMadeOneByOne
 // clang-format on

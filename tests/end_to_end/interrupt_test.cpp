@@ -121,6 +121,15 @@ TEST(InterruptTest, ACampaignSaysHowFarItCame) {
   EXPECT_LT(report["runs"], 100000000);
 }
 
+TEST(InterruptTest, ASearchForTheWorstRunTellsTheWorstSoFar) {
+  const Ended ended =
+      interrupted({"verify", problem("own-systems/dc-motor.yaml"), "--worst", "--runs", "1000000"});
+  expect_stopped(ended);
+  EXPECT_TRUE(has(ended.out, "worst       interrupted (")) << ended.out;
+  EXPECT_TRUE(has(ended.out, "not confirmed  worst: ")) << ended.out;
+  EXPECT_TRUE(has(ended.out, "--given ")) << ended.out;
+}
+
 /// The runs that the words count are those of a campaign of so many runs that was not interrupted.
 TEST(InterruptTest, ACampaignTalliesTheRunsThatAreDone) {
   const Folder folder;

@@ -133,5 +133,32 @@ TEST(Minimize, AStartIsTriedAndAnExceptionComesThrough) {
                std::runtime_error);
 }
 
+/// From the bottom of one valley to the deeper one at the other side of the box, by the same points
+/// for the same seed.
+TEST(GlobalSearch, LeavesTheValleyInWhichItStarts) {
+  const auto searched = [](unsigned long seed) {
+    std::vector<Point> tried;
+    LocalSearchOptions options;
+    options.evaluations = 400;
+    nlopt_global_search(seed)(
+        [&](const Point& x) {
+          tried.push_back(x);
+          return std::min(0.3 + std::hypot(x[0] - 0.1, x[1] - 0.1),
+                          2 * std::hypot(x[0] - 0.8, x[1] - 0.7));
+        },
+        {0.1, 0.1}, options, [] { return true; });
+    return tried;
+  };
+  const std::vector<Point> tried = searched(1);
+  EXPECT_NEAR(static_cast<double>(tried.size()), 400, 10);
+  EXPECT_EQ(tried.front(), (Point{0.1, 0.1}));
+  double nearest = 1;
+  for (const Point& x : tried)
+    nearest = std::min(nearest, std::hypot(x[0] - 0.8, x[1] - 0.7));
+  EXPECT_LT(nearest, 1e-2);
+  EXPECT_EQ(searched(1), tried);
+  EXPECT_NE(searched(2), tried);
+}
+
 }  // namespace
 }  // namespace gainsmith::search

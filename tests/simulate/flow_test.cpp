@@ -122,7 +122,7 @@ TEST(EventScenarioTest, DrawsStayInTheirRangeAndHaveTheirMoments) {
   problem.noise("w", model::Dynamics::NoiseKind::normal, {"2"}, "", "1");
   problem.noise("v", model::Dynamics::NoiseKind::uniform, {"-1", "3"}, "", "1");
   const hybrid::System system = problem.system();
-  hybrid::NoiseDraws draws(system, 7, 0);
+  hybrid::NoiseDraws draws(system, {}, 7, 0);
   VectorXd values = VectorXd::Zero(system.whole);
   constexpr int kDraws = 20000;
   double mean = 0;

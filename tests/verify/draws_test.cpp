@@ -126,7 +126,7 @@ TEST(EventDraws, VerticesTakeEachCombinationInTurn) {
     std::set<std::pair<double, double>> seen;
     for (std::uint64_t run = 0; run < 12; ++run) {
       VectorXd values = start(*setup, 1, run);
-      hybrid::NoiseDraws noise(setup->system, 1, run);
+      hybrid::NoiseDraws noise(setup->system, setup->scenario, 1, run);
       for (std::size_t k = 0; k < setup->system.noise.size(); ++k) noise.draw(k, values);
       const VectorXd A = part(*setup, values, "plant.A");
       const double c = part(*setup, values, "plant.c")(0);
