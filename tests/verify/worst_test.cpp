@@ -16,7 +16,7 @@
 #include "verify/draw_cube.h"
 #include "verify/judge.h"
 
-namespace gainsmith::verify {
+namespace gainsmith::verify::worst {
 namespace {
 
 using Eigen::MatrixXd;
@@ -328,4 +328,4 @@ TEST(Worst, WithoutDrawsThereIsNothingToSearch) {
 }
 
 }  // namespace
-}  // namespace gainsmith::verify
+}  // namespace gainsmith::verify::worst
