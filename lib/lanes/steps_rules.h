@@ -8,13 +8,30 @@ namespace gainsmith::lanes {
 
 namespace {
 
-using V = double __attribute__((vector_size(64)));
-using I = long long __attribute__((vector_size(64)));
+// Vectors of the width that the machine has: wider ones would live in memory.
+#if defined(__AVX512F__)
 constexpr std::size_t kWidth = 8;
+#elif defined(__AVX2__)
+constexpr std::size_t kWidth = 4;
+#else
+constexpr std::size_t kWidth = 2;
+#endif
 constexpr std::size_t kVectors = kLanes / kWidth;
+using V = double __attribute__((vector_size(8 * kWidth)));
+using I = long long __attribute__((vector_size(8 * kWidth)));
+using U = unsigned long long __attribute__((vector_size(8 * kWidth)));
 
-inline V all(double x) { return V{x, x, x, x, x, x, x, x}; }
-inline I all(long long x) { return I{x, x, x, x, x, x, x, x}; }
+#if defined(__AVX512F__)
+inline V all(double x) { return _mm512_set1_pd(x); }
+inline I all(long long x) { return (I)_mm512_set1_epi64(x); }
+#elif defined(__AVX2__)
+inline V all(double x) { return _mm256_set1_pd(x); }
+inline I all(long long x) { return (I)_mm256_set1_epi64x(x); }
+#else
+inline V all(double x) { return _mm_set1_pd(x); }
+inline I all(long long x) { return (I)_mm_set1_epi64x(x); }
+#endif
+inline U all_bits(unsigned long long x) { return (U)all(static_cast<long long>(x)); }
 inline V bits_to_number(I x) { return __builtin_bit_cast(V, x); }
 inline I number_to_bits(V x) { return __builtin_bit_cast(I, x); }
 inline V abs_of(V x) { return bits_to_number(number_to_bits(x) & all(0x7fffffffffffffffLL)); }
@@ -27,16 +44,7 @@ inline V multiply_add(V a, V b, V c) {
 #if defined(__AVX512F__)
   return _mm512_fmadd_pd(a, b, c);
 #elif defined(__FMA__)
-  using H = double __attribute__((vector_size(32)));
-  union Halves {
-    V whole;
-    H half[2];
-  };
-  const Halves x{a}, y{b}, z{c};
-  Halves out;
-  out.half[0] = _mm256_fmadd_pd(x.half[0], y.half[0], z.half[0]);
-  out.half[1] = _mm256_fmadd_pd(x.half[1], y.half[1], z.half[1]);
-  return out.whole;
+  return _mm256_fmadd_pd(a, b, c);
 #else
   return a * b + c;
 #endif
@@ -44,21 +52,21 @@ inline V multiply_add(V a, V b, V c) {
 
 inline V sqrt_of(V x) {
 #if defined(__AVX512F__)
-  return _mm512_sqrt_pd(x);
+  return _mm512_maskz_sqrt_pd(0xFF, x);
+#elif defined(__AVX2__)
+  return _mm256_sqrt_pd(x);
 #else
-  V out;
-  for (std::size_t k = 0; k < kWidth; ++k) out[k] = __builtin_sqrt(x[k]);
-  return out;
+  return _mm_sqrt_pd(x);
 #endif
 }
 
 inline V floor_of(V x) {
 #if defined(__AVX512F__)
   return _mm512_floor_pd(x);
+#elif defined(__AVX2__)
+  return _mm256_floor_pd(x);
 #else
-  V out;
-  for (std::size_t k = 0; k < kWidth; ++k) out[k] = __builtin_floor(x[k]);
-  return out;
+  return _mm_floor_pd(x);
 #endif
 }
 
@@ -185,7 +193,7 @@ struct Last {
 inline void store(const LaneStep& step, double* registers, const Last& last) {
   if (!step.stores) return;
   V* const out = reinterpret_cast<V*>(registers + step.out * kLanes);
-#pragma GCC unroll 4
+#pragma GCC unroll 16
   for (std::size_t k = 0; k < kVectors; ++k) out[k] = last.part[k];
 }
 
@@ -195,7 +203,7 @@ inline void each(const LaneStep& step, double* registers, Last& last, const Oper
   const V* const a = reinterpret_cast<const V*>(registers + step.a * kLanes);
   const V* const b = reinterpret_cast<const V*>(registers + step.b * kLanes);
   const V* const c = reinterpret_cast<const V*>(registers + step.c * kLanes);
-#pragma GCC unroll 4
+#pragma GCC unroll 16
   for (std::size_t k = 0; k < kVectors; ++k)
     last.part[k] = operation(a[k], b[k], c[k], last.part[k]);
   store(step, registers, last);
@@ -206,14 +214,14 @@ inline void polynomial(const LaneStep& step, const double* constants, double* re
   const V* const a = reinterpret_cast<const V*>(registers + step.a * kLanes);
   const double* k = constants + step.b;
   Last x, sum;
-#pragma GCC unroll 4
+#pragma GCC unroll 16
   for (std::size_t v = 0; v < kVectors; ++v) {
     x.part[v] = a[v];
     sum.part[v] = all(*k);
   }
   for (const double* const end = k + step.c; k != end;) {
     const V next = all(*++k);
-#pragma GCC unroll 4
+#pragma GCC unroll 16
     for (std::size_t v = 0; v < kVectors; ++v)
       sum.part[v] = multiply_add(sum.part[v], x.part[v], next);
   }
@@ -221,33 +229,18 @@ inline void polynomial(const LaneStep& step, const double* constants, double* re
   store(step, registers, last);
 }
 
-/// Philox4x32-10 (base/random.h) of eight counters, each word in the low half of 64 bits.
-using U = unsigned long long __attribute__((vector_size(64)));
-inline U all_bits(unsigned long long x) { return U{x, x, x, x, x, x, x, x}; }
 /// Of the low halves.
 inline U multiply_low(U a, U b) {
 #if defined(__AVX512F__)
   return (U)_mm512_maskz_mul_epu32(0xFF, (__m512i)a, (__m512i)b);
+#elif defined(__AVX2__)
+  return (U)_mm256_mul_epu32((__m256i)a, (__m256i)b);
 #else
-#if defined(__AVX2__)
-  using Part = __m256i;
-  const auto product = [](Part x, Part y) { return _mm256_mul_epu32(x, y); };
-#else
-  using Part = __m128i;
-  const auto product = [](Part x, Part y) { return _mm_mul_epu32(x, y); };
-#endif
-  constexpr std::size_t parts = sizeof(U) / sizeof(Part);
-  union Parts {
-    U whole;
-    Part part[parts];
-  };
-  const Parts x{a}, y{b};
-  Parts out;
-  for (std::size_t k = 0; k < parts; ++k) out.part[k] = product(x.part[k], y.part[k]);
-  return out.whole;
+  return (U)_mm_mul_epu32((__m128i)a, (__m128i)b);
 #endif
 }
 
+/// Philox4x32-10 (base/random.h) of a vector of counters, each word in the low half of 64 bits.
 void uniforms(std::uint64_t key, const std::uint64_t* runs, std::uint64_t draw, double* out) {
   const U low = all_bits(0xFFFFFFFFULL);
   for (std::size_t v = 0; v < kVectors; ++v) {

@@ -118,32 +118,29 @@ const bounded::Track<double>& Judge::track(std::uint64_t seed, std::uint64_t run
 RunVerdict Judge::confirm(std::uint64_t seed, std::uint64_t run) {
   if (events_) {
     constexpr double sharper = kAccuracyOfOne / kAccuracyOfMany;
-    RunVerdict verdict = last_verdict(events_->run(seed, run, sharper), checks_);
+    RunVerdict verdict = last_verdict(noted(events_->run(seed, run, sharper)), checks_);
     if (verdict.judgement != claims::Judgement::undecided ||
         !events_->can_decide_more(sharper * sharper))
       return verdict;
-    return with_decided(verdict, last_verdict(events_->run(seed, run, sharper * sharper), checks_));
+    return with_decided(verdict,
+                        last_verdict(noted(events_->run(seed, run, sharper * sharper)), checks_));
   }
-  if (!clocked_) return last_verdict(wide_->run(seed, run), wide_checks_);
+  if (!clocked_) return last_verdict(noted(wide_->run(seed, run)), wide_checks_);
   const auto rounded = [&](Rounding rounding) {
-    return last_verdict(clocked_->run(seed, run, kAccuracyOfOne, rounding), checks_);
+    return last_verdict(noted(clocked_->run(seed, run, kAccuracyOfOne, rounding)), checks_);
   };
   return agreed(rounded(Rounding::up), rounded(Rounding::down));
 }
 
 RunVerdict Judge::operator()(std::uint64_t seed, std::uint64_t run) {
-  const bounded::Track<double>& made = track(seed, run);
-  std::vector<char> happened(event_count_, 0);
-  for (const bounded::Move& move : made.moves)
-    if (move.jump) happened[move.event] = 1;
-  RunVerdict verdict = verdict_on(made, checks_);
-  verdict.happened = happened;
+  happened_.assign(event_count_, 0);
+  RunVerdict verdict = verdict_on(noted(track(seed, run)), checks_);
   const bool open = std::any_of(verdict.findings.begin(), verdict.findings.end(),
                                 [](const claims::Finding& one) { return one.undecided(); });
-  if (!open && !verdict.unfinished()) return verdict;
-  RunVerdict again = with_decided(verdict, confirm(seed, run));
-  again.happened = std::move(happened);
-  return again;
+  // A run that is repeated may go on where it ended before.
+  if (open || verdict.unfinished()) verdict = with_decided(verdict, confirm(seed, run));
+  verdict.happened = happened_;
+  return verdict;
 }
 
 }  // namespace gainsmith::verify

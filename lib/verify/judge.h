@@ -45,7 +45,17 @@ class Judge {
   std::vector<claims::ClaimCheck<double>>& checks() { return checks_; }
 
  private:
+  /// The track, whose events are noted.
+  template <class Scalar>
+  const bounded::Track<Scalar>& noted(const bounded::Track<Scalar>& track) {
+    happened_.resize(event_count_, 0);
+    for (const bounded::Move& move : track.moves)
+      if (move.jump) happened_[move.event] = 1;
+    return track;
+  }
+
   std::size_t event_count_;
+  std::vector<char> happened_;  ///< by event, in the runs made of one number
   std::optional<EventTracks> events_;
   std::optional<bounded::ClockedSimulator> clocked_;
   std::optional<bounded::BoundedSimulator<double>> narrow_;
