@@ -67,11 +67,11 @@ Wide sum_of(const std::vector<Wide>& terms, const Decimal100& share) {
   return sum;
 }
 
-Wide moved(const Wide& E, const Wide& W) {
-  return times<Decimal100>(E.transpose(), times<Decimal100>(W, E));
-}
-
 }  // namespace
+
+Wide moved(const Wide& E, const Wide& Q) {
+  return times<Decimal100>(E.transpose(), times<Decimal100>(Q, E));
+}
 
 double flow_norm(const Wide& A, double length) {
   const Wide small = balanced(A, units_of(A));

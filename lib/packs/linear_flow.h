@@ -39,6 +39,9 @@ class WideFlow {
   std::vector<std::vector<Wide>> integrals_;  ///< by form, from power 1 on
 };
 
+/// E'Q E.
+Wide moved(const Wide& E, const Wide& Q);
+
 /// The 1-norm of A times a length, in units in which it is small.
 double flow_norm(const Wide& A, double length);
 

@@ -265,10 +265,15 @@ void set_lengths(LinearModel& linear) {
 
 }  // namespace
 
-Wide LinearModel::D(const Decimal100& length, bool first) const {
+std::optional<Wide> LinearModel::D(const Decimal100& length, bool first) const {
   const auto r = static_cast<Index>(jump_rows.size());
   const Wide map = (*jump)(length, first);
-  const Wide rows = map(jump_rows, Eigen::all).leftCols(map.rows());
+  const Index n = map.rows();
+  const Wide J = map.leftCols(n);
+  const Wide rows = J(jump_rows, Eigen::all);
+  Wide rest = J - numbers::times<Decimal100>(Wide(B.topLeftCorner(n, r)), rows);
+  bounded::remove_noise(rest, bounded::largest_of(J));
+  if (!rest.isZero(0)) return std::nullopt;
   return homogeneous(rows, Wide::Zero(r, 1), constant, 1);
 }
 

@@ -3,7 +3,8 @@
 //   flow    x' = A x                    jump    x+ = B D x,  D (r x n), B (n x r)
 //   start   x = S xi,  xi what is drawn
 //
-// D may depend on clocks, and so on the length of the flow before (linear_jump.h).//
+// D may depend on clocks, and so on the length of the flow before (linear_jump.h).
+//
 // A constant is one more coordinate that stays 1, the last of x and of xi; then the last row of D is
 // (0, ..., 0, 1). Behind a jump x = B z with r numbers z. Claims are quadratic forms with factors of
 // the timer:
@@ -63,8 +64,9 @@ struct LinearModel {
   double low = 0, high = 0;              ///< lengths between jumps
   double first_low = 0, first_high = 0;  ///< up to the first jump
 
-  /// D at the end of a flow; `first`: the one from the start.
-  Wide D(const Decimal100& length, bool first) const;
+  /// D at the end of a flow; `first`: the one from the start. None where B D is not the jump: its
+  /// range is found at some lengths, and may be larger at others.
+  std::optional<Wide> D(const Decimal100& length, bool first) const;
   double longest() const { return first_high > high ? first_high : high; }
 };
 

@@ -45,7 +45,7 @@ std::vector<Wide> at_jumps(const std::vector<FallingTerm>& terms, const Wide& J,
 }
 
 /// Without rows that are 0: nothing depends on these.
-std::vector<Matrix> without_zeros(const std::vector<Wide>& S) {
+std::vector<Wide> without_zeros(const std::vector<Wide>& S) {
   double most = 0;
   const auto size_of = [](const Decimal100& x) { return std::abs(static_cast<double>(x)); };
   for (const Wide& one : S)
@@ -58,24 +58,23 @@ std::vector<Matrix> without_zeros(const std::vector<Wide>& S) {
           return false;
         }))
       kept.push_back(i);
-  std::vector<Matrix> result;
-  for (const Wide& one : S)
-    result.push_back(Wide(one(kept, kept)).unaryExpr([](const Decimal100& x) {
-      return static_cast<double>(x);
-    }));
+  std::vector<Wide> result;
+  for (const Wide& one : S) result.emplace_back(one(kept, kept));
   return result;
 }
 
-/// The polynomial around `middle`, in t = (sigma - middle)/half.
-std::vector<Matrix> around(std::vector<Matrix> S, double middle, double half) {
+/// The polynomial around `middle`, in t = (sigma - middle)/half, rounded once.
+std::vector<Matrix> around(std::vector<Wide> S, double middle, double half) {
   for (std::size_t first = 0; first + 1 < S.size(); ++first)
-    for (std::size_t k = S.size() - 1; k-- > first;) S[k] += middle * S[k + 1];
-  double power = 1;
-  for (Matrix& one : S) {
-    one *= power;
-    power *= half;
+    for (std::size_t k = S.size() - 1; k-- > first;) S[k] += Decimal100(middle) * S[k + 1];
+  std::vector<Matrix> result;
+  Decimal100 power(1);
+  for (const Wide& one : S) {
+    result.push_back(
+        Wide(one * power).unaryExpr([](const Decimal100& x) { return static_cast<double>(x); }));
+    power *= Decimal100(half);
   }
-  return S;
+  return result;
 }
 
 bool is_negative(const std::vector<Matrix>& S) {
@@ -99,7 +98,7 @@ bool is_negative(const std::vector<Matrix>& S) {
   return sum < 1 - kFlowMargin;
 }
 
-bool is_negative_on(const std::vector<Matrix>& S, double middle, double half, int halvings) {
+bool is_negative_on(const std::vector<Wide>& S, double middle, double half, int halvings) {
   if (is_negative(around(S, middle, half))) return true;
   if (halvings == 0) return false;
   return is_negative_on(S, middle - half / 2, half / 2, halvings - 1) &&
@@ -108,7 +107,7 @@ bool is_negative_on(const std::vector<Matrix>& S, double middle, double half, in
 
 /// For sigma in [-1, 1].
 bool is_negative(const std::vector<Wide>& exact) {
-  const std::vector<Matrix> S = without_zeros(exact);
+  const std::vector<Wide> S = without_zeros(exact);
   constexpr int halvings = 8;
   return S.front().size() == 0 || is_negative_on(S, 0, 1, halvings);
 }

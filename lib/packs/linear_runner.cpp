@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "base/stop.h"
 #include "bounded/tolerances.h"
@@ -17,8 +16,6 @@ namespace gainsmith::packs {
 using lanes::kLanes;
 using lanes::LaneMachine;
 using model::ClaimKind;
-
-namespace {}  // namespace
 
 /// What is drawn, over lanes.
 class LaneStarts {
@@ -41,17 +38,27 @@ class LaneStarts {
       } else if (rule.kind == model::StartKind::list) {
         for (std::size_t l = 0; l < kLanes; ++l)
           out[l] = rule.values[runs[l] % rule.values.size()](element.element);
-      } else {
-        for (std::size_t l = 0; l < kLanes; ++l) {
-          RandomStream random =
-              hybrid::draw_stream(seed, runs[l], hybrid::Purpose::start, element.variable);
-          out[l] = hybrid::draw_ellipsoid(rule, random)(element.element);
-        }
+      } else if (k == 0 || model_->drawn[k - 1].variable != element.variable) {
+        draw_ellipsoid(seed, runs, k, first, machine);
       }
     }
   }
 
  private:
+  /// All elements of the variable whose first one is number k.
+  void draw_ellipsoid(std::uint64_t seed, const LaneRuns& runs, std::size_t k, std::size_t first,
+                      LaneMachine& machine) {
+    const std::size_t variable = model_->drawn[k].variable;
+    const hybrid::StartRule& rule = *model_->scenario->starts[variable];
+    for (std::size_t l = 0; l < kLanes; ++l) {
+      RandomStream random = hybrid::draw_stream(seed, runs[l], hybrid::Purpose::start, variable);
+      const Eigen::VectorXd point = hybrid::draw_ellipsoid(rule, random);
+      for (std::size_t e = k; e < model_->drawn.size() && model_->drawn[e].variable == variable;
+           ++e)
+        machine.input(first + e)[l] = point(model_->drawn[e].element);
+    }
+  }
+
   const LinearModel* model_;
 };
 
@@ -93,7 +100,6 @@ class LinearLanes {
  private:
   // Inputs of the code.
   static constexpr std::size_t kFirstXi = 1, kStepCarried = 2, kGatherCarried = 2, kLastCarried = 4;
-  static constexpr std::int64_t kNoJumpLimit = bounded::kMostJumps;
 
   void make(std::uint64_t seed, const LaneRuns& runs, std::size_t count) {
     check_stop();
@@ -106,7 +112,7 @@ class LinearLanes {
       lengths_.advance();
       end_lanes(static_cast<double>(flows));
       if (running_ == 0) break;
-      if (flows > kNoJumpLimit) {
+      if (flows > bounded::kMostJumps) {
         open_ |= running_;
         running_ = 0;
         break;

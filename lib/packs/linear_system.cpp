@@ -54,11 +54,10 @@ void append_rows(const Wide& M, Index rows, std::vector<Decimal100>& values) {
     for (Index j = 0; j < M.cols(); ++j) values.push_back(M(i, j));
 }
 
-Wide moved(const Wide& by, const Wide& Q) {
-  return times<Decimal100>(by.transpose(), times<Decimal100>(Q, by));
-}
+/// The range of the jump is another one at some length.
+struct RangeVaries {};
 
-/// Functions of lengths in 100 digits.
+/// Functions of lengths in 100 digits. RangeVaries where they have none.
 class Functions {
  public:
   explicit Functions(const LinearModel& model)
@@ -75,9 +74,10 @@ class Functions {
   std::vector<Decimal100> of_flow(const Wide& X, const Decimal100& s, bool first) {
     const WideFlow::Values flow = flow_(s);
     const Wide end = times<Decimal100>(flow.E, X);
-    const Wide D = model_.D(s, first);
+    const auto D = model_.D(s, first);
+    if (!D) throw RangeVaries();
     std::vector<Decimal100> values;
-    append_rows(times<Decimal100>(D, end), rows(D), values);
+    append_rows(times<Decimal100>(*D, end), rows(*D), values);
     const std::vector<Decimal100> g = factors_(s);
     std::size_t k = 0;
     for (std::size_t c = 0; c < model_.claims.size(); ++c) {
@@ -155,7 +155,9 @@ bool all_fall(LinearModel& model, Functions& functions) {
   const auto along = factors(0, model.longest());
   const auto after = factors(model.low, model.high);
   if (!along || !after) return false;
-  const Wide J = times<Decimal100>(model.B, model.D(Decimal100(model.high), false));
+  const auto D = model.D(Decimal100(model.high), false);
+  if (!D) return false;
+  const Wide J = times<Decimal100>(model.B, *D);
   std::size_t k = 0;
   for (LinearClaim& claim : model.claims) {
     std::vector<FallingTerm> terms;
@@ -194,9 +196,11 @@ std::int64_t flows_of_box(double growth) {
 }
 
 std::optional<LengthTable> table(double from, double to, const WideFunctions& functions) {
-  const auto wide = make_wide_table(from, to, functions);
-  if (!wide) return std::nullopt;
-  return rounded(*wide);
+  try {
+    if (const auto wide = make_wide_table(from, to, functions)) return rounded(*wide);
+  } catch (const RangeVaries&) {
+  }
+  return std::nullopt;
 }
 
 }  // namespace

@@ -206,7 +206,7 @@ class Beside {
       first_.input(1 + static_cast<std::size_t>(k))[0] = value;
     }
     first_.run();
-    Wide z = model.D(Decimal100(first_.input(0)[0]), true) *
+    Wide z = *model.D(Decimal100(first_.input(0)[0]), true) *
              flow_(Decimal100(first_.input(0)[0])).E * model.S * xi;
     for (std::size_t k = 0; k < system_.carried; ++k)
       step_.input(2 + k)[0] = first_.result(0, k)[0];
@@ -215,7 +215,7 @@ class Beside {
       if ((k - 1) % static_cast<unsigned>(system_.flows_of_box) == 0) gather();
       step_.input(0)[0] = length(k, model.low, model.high);
       step_.run();
-      z = Wide(model.D(Decimal100(step_.input(0)[0]), false) *
+      z = Wide(*model.D(Decimal100(step_.input(0)[0]), false) *
                flow_(Decimal100(step_.input(0)[0])).E * model.B * z);
       most = std::max(most, part(z, root_));
     }
@@ -350,6 +350,27 @@ campaign: {runs: 160, horizon: 200, initial: {z: {box: [-2, 3]}}}
   const auto verdicts = packs::LinearRunner(*made.packs.linear).run(1, 0, 64);
   EXPECT_TRUE(
       std::none_of(verdicts.begin(), verdicts.end(), [](const auto& one) { return one.open; }));
+}
+
+/// A part of the jump that is 0 at the lengths at which its range is found is not lost.
+TEST(LinearPacks, DoNotRunAJumpWhoseRangeIsLargerElsewhere) {
+  const auto is_linear = [](const std::string& factor) {
+    return make(R"yaml(problem: p
+method:
+  method: m
+  plant:
+    state: {x: {shape: 2}, s: {shape: 1, start: 0}}
+    flow: {x: "[-0.1, 1; -1, -0.1]*x", s: 1}
+    jump: {x: "[x(1); )yaml" + factor +
+                R"yaml(*x(1)]", s: 0}
+  timer: {tau: {reset: [0, 1]}}
+  claims: {error: {shrinks: norm(x), to: 0.2}}
+campaign: {runs: 160, horizon: 8, initial: {x: {box: [-2, 3]}}}
+)yaml")
+               .packs.linear != nullptr;
+  };
+  EXPECT_TRUE(is_linear("s"));
+  EXPECT_FALSE(is_linear("s*(s - 0.25)*(s - 0.5)*(s - 0.75)*(s - 1)*20"));
 }
 
 TEST(LinearPacks, RunWhatTheyCan) {
