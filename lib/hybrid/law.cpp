@@ -53,8 +53,8 @@ std::vector<Law> make_laws(const std::vector<model::Design::Law>& given, double 
                               {LawKind::sinusoid, low, high, {}},
                               {LawKind::constant, low, high, {low}},
                               {LawKind::constant, low, high, {high}}};
-    // Intervals of length 0 alone never reach the horizon.
-    if (low == 0) usual.erase(usual.begin() + 3);
+    // Lengths that are 0, or fall to 0 at t = 3 pi/2 high, never reach the horizon.
+    if (low == 0) usual.erase(usual.begin() + 2, usual.begin() + 4);
     return usual;
   }
   std::vector<Law> laws;

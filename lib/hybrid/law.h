@@ -28,9 +28,9 @@ struct Law {
   double reset_value(std::size_t jump, double t, RandomStream& random) const;
 };
 
-/// Laws of a campaign for lengths in [low, high], in order; without any: uniform, extremes, sinusoid, constant low, constant high. InputError for a
-/// value outside [low, high] (1e-12 high is forgiven as rounding) and for a constant or list
-/// without a value.
+/// Laws of a campaign for lengths in [low, high], in order. Without any: uniform, extremes and
+/// constant high; where low > 0 also sinusoid and constant low. InputError for a value outside
+/// [low, high] (1e-12 high is forgiven as rounding) and for a constant or list without a value.
 std::vector<Law> make_laws(const std::vector<model::Design::Law>& given, double low, double high,
                            const System& system);
 

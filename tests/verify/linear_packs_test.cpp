@@ -395,6 +395,13 @@ Report campaign_of(const char* text, unsigned threads) {
   return run_campaign(*make_setup(instance, {}), options);
 }
 
+/// No law by default has intervals that shrink to nothing.
+TEST(LinearPacks, RunsWithIntervalsFromZeroReachTheirHorizon) {
+  std::string text = kCases[0].text;
+  text.replace(text.find("reset: [0.1, 0.6]"), 17, "reset: [0, 0.6]");
+  EXPECT_EQ(campaign_of(text.c_str(), 1).unfinished, 0U);
+}
+
 TEST(LinearPacks, ThreadsDoNotMatter) {
   const Report one = campaign_of(kCases[0].text, 1);
   const Report two = campaign_of(kCases[0].text, 2);
