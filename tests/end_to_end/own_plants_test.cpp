@@ -13,7 +13,7 @@ struct Own {
   std::string name;
   std::string method;
   std::string text;     ///< what stands below the name and the method
-  std::string refused;  ///< the assumption that it breaks; empty for a plant that the method serves
+  std::string refused;  ///< what is said of a plant that the method does not serve; empty for one that it does
 };
 
 void PrintTo(const Own& own, std::ostream* out) { *out << own.name; }
@@ -32,8 +32,8 @@ TEST_P(OwnPlants, AreServedOrRefusedWithTheAssumption) {
     EXPECT_EQ(outcome.exit, 0) << outcome.out << outcome.err;
     EXPECT_TRUE(has(outcome.out, "held in ")) << outcome.out;
   } else {
-    EXPECT_EQ(outcome.exit, 2) << outcome.out << outcome.err;
-    EXPECT_TRUE(has(outcome.out + outcome.err, "the assumption '" + own.refused + "'"))
+    EXPECT_NE(outcome.exit, 0) << outcome.out << outcome.err;
+    EXPECT_TRUE(has(outcome.out + outcome.err, own.refused))
         << outcome.out << outcome.err;
   }
 }
@@ -65,7 +65,7 @@ INSTANTIATE_TEST_SUITE_P(
             ""},
         Own{"never_shown", "hybrid-kalman-like",
             "data: {F: [[-1, 0], [0, 0.5]], Hc: [1, 0], J: eye(2), T1: 0.3, T2: 1}\n" + kStarts,
-            "uniformly observable"},
+            "the assumption 'uniformly observable'"},
         Own{"turning_rate", "hybrid-kalman-like-varying",
             "data:\n  known(t): 2 + sin(t)\n  F(v): '[0, -v; v, 0]'\n  Hc(v): '[1, 0]'\n"
             "  J(v): '[1, 0; 0, v/2]'\n  T1: 0.3\n  T2: 1\n" +
@@ -75,7 +75,7 @@ INSTANTIATE_TEST_SUITE_P(
             "data:\n  known(t): 2 + sin(t)\n  F(v): '[0, -v; v, 0]'\n  Hc(v): '[1, 0]'\n"
             "  J(v): eye(2)\n  T1: 0.3\n  T2: 1\nparameters: {gamma: 1.5}\n" +
                 kStarts,
-            "factor"}),
+            "the assumption 'factor'"}),
     name_of);
 
 INSTANTIATE_TEST_SUITE_P(
@@ -101,12 +101,84 @@ INSTANTIATE_TEST_SUITE_P(
             "data:\n  F: [[0, 1, 0], [-2, -0.1, 0], [0, 0, -0.1]]\n  Hc: [1, 0, 0]\n"
             "  J: [[1, 0, 1], [0, -0.9, 0.5], [0.2, 0, 0]]\n  T1: 0.5\n  T2: 1\n" +
                 kStarts,
-            "jumps keep the hidden part"},
+            "the assumption 'jumps keep the hidden part'"},
         Own{"never_seen", "hybrid-kkl",
             "data:\n  F: 'blkdiag(0, [0, -1; 1, 0])'\n  Hc: [1, 0, 0]\n  J: eye(3)\n"
             "  Hd: [0, 0, 0]\n  T1: 0.5\n  T2: 1\n" +
                 kStarts,
-            "backward distinguishable"}),
+            "the assumption 'backward distinguishable'"}),
+    name_of);
+
+INSTANTIATE_TEST_SUITE_P(
+    CoupledObserver, OwnPlants,
+    ::testing::Values(
+        Own{"unknown_kick", "coupled-observer",
+            "data:\n"
+            "  low:  [-1, -15]\n"
+            "  high: [10, 15]\n"
+            "  fo(z, t): \"[z(2); -9.81]\"\n"
+            "  guard(z): z\n"
+            "  Ano:  0\n"
+            "  Jo(z, t): \"[z(1); -0.5*z(2)]\"\n"
+            "  Jono(z): \"[0; 1]\"\n"
+            "  T1:   0.3\n"
+            "  T2:   3\n"
+            "campaign: {runs: 5, horizon: 12, initial: {zo: [3, 0], xi: {box: [3, 5]}}}\n",
+            ""},
+        Own{"integrate_and_fire", "coupled-observer",
+            "data:\n"
+            "  low:  -2\n"
+            "  high: 2\n"
+            "  fo(z, t): 3 - z + 0.3*sin(t)\n"
+            "  guard(z): 1 - z\n"
+            "  Ano:  0\n"
+            "  Jo(z, t): 0\n"
+            "  Jono(z): 1\n"
+            "  T1:   0.2\n"
+            "  T2:   2\n"
+            "campaign: {runs: 5, horizon: 8, initial: {zo: 0, xi: {box: [-1, 0.5]}}}\n",
+            ""},
+        Own{"turning_part", "coupled-observer",
+            "data:\n"
+            "  low:  [-6, -6]\n"
+            "  high: [6, 6]\n"
+            "  fo(z, t): \"[z(2); -4*sin(z(1)) - 0.1*z(2)]\"\n"
+            "  guard(z): \"[z(1); z(2)]\"\n"
+            "  Ano:  [[0, 1], [-1, 0]]\n"
+            "  Jo(z, t): \"[z(1); -0.6*z(2) + 0.5]\"\n"
+            "  Jono(z): \"[0, 0; 0.3, 0.1]\"\n"
+            "  T1:   0.5\n"
+            "  T2:   1.5\n"
+            "parameters: {rho: 0.85, shrink: 0.4}\n"
+            "campaign: {runs: 2, horizon: 12, initial: {zo: [1.2, 0], xi: {box: [-1, 1]}}}\n",
+            ""},
+        Own{"shown_by_a_sensor", "coupled-observer",
+            "data:\n"
+            "  low:  [-1, -15]\n"
+            "  high: [10, 15]\n"
+            "  fo(z, t): \"[z(2); -9.81]\"\n"
+            "  guard(z): z\n"
+            "  Ano:  -0.1\n"
+            "  Jo(z, t): \"[z(1); -0.5*z(2) + 4]\"\n"
+            "  Jono(z): \"[0; 0]\"\n"
+            "  Hdno(z): 2\n"
+            "  T1:   0.3\n"
+            "  T2:   3\n"
+            "campaign: {runs: 5, horizon: 12, initial: {zo: [3, 0], xi: {box: [3, 5]}}}\n",
+            ""},
+        Own{"shown_by_nothing", "coupled-observer",
+            "data:\n"
+            "  low:  [-1, -15]\n"
+            "  high: [10, 15]\n"
+            "  fo(z, t): \"[z(2); -9.81]\"\n"
+            "  guard(z): z\n"
+            "  Ano:  0\n"
+            "  Jo(z, t): \"[z(1); -0.5*z(2) + 4]\"\n"
+            "  Jono(z): \"[0; 0]\"\n"
+            "  T1:   0.3\n"
+            "  T2:   3\n"
+            "campaign: {runs: 5, horizon: 12, initial: {zo: [3, 0], xi: {box: [3, 5]}}}\n",
+            "infeasible: contraction cannot hold"}),
     name_of);
 
 }  // namespace
