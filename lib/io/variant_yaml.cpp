@@ -97,6 +97,8 @@ class Variant {
       throw InputError(reference.place, "like: " + shown + " is a gain file; expected a problem");
     other_ = shown;
     root_.reset(root);
+    method_goes_on_ =
+        other.IsMap() && other["method"] && other["method"].IsMap() && other["method"]["like"];
     return joined(root, other, {}, false);
   }
 
@@ -108,6 +110,7 @@ class Variant {
     const YAML::Node like = own["like"];
     const std::string name = file_.string(like, "like");
     other_ = "method " + name;
+    method_goes_on_ = false;
     const auto text =
         file_.sources(like).method({other_, "like", file_.place(like)}, library.text(name));
     if (!text)
@@ -177,7 +180,8 @@ class Variant {
         continue;
       }
       if (find_entry(theirs, entry.name) != nullptr) continue;
-      if (takes_away(entry, path) && !keeps_none)
+      const bool later = method_goes_on_ && !path.empty() && path[0] == "method";
+      if (takes_away(entry, path) && !keeps_none && !later)
         throw InputError(file_.place(entry.value), "there is no '" + entry.name + "' in " + other_ +
                                                        " to be taken away" +
                                                        suggestion(entry.name, entry_names(theirs)));
@@ -247,6 +251,7 @@ class Variant {
   YamlFile& file_;
   YAML::Node root_;                ///< of the problem that is like another one
   std::string other_;              ///< the file of that one
+  bool method_goes_on_ = false;    ///< its method is like a built-in one, which has more entries
   std::vector<std::string> open_;  ///< the problem, what it is like, and so on
 };
 

@@ -142,6 +142,19 @@ TEST_F(Variants, TheMethodMayBeLikeOneOfTheProgram) {
   EXPECT_EQ(bind::bind(stated).design->statement.hash, gains.statement.hash);
 }
 
+TEST_F(Variants, WhatTheMethodOfTheOtherOneTakesFromTheProgramIsRemoved) {
+  write("noisy.yaml", kNoisy);
+  const auto variant = [&](const std::string& claim) {
+    return parse_problem("problem: p\nlike: noisy.yaml\nmethod: {claims: {" + claim + ": none}}\n",
+                         path("p.yaml"), library());
+  };
+  const model::Problem noisy = parse_problem(kNoisy, path("q.yaml"), library());
+  EXPECT_EQ(variant("error").method->claims.size() + 1, noisy.method->claims.size());
+  const InputError error = input_error([&] { variant("eror"); });
+  EXPECT_EQ(error.place(), (Place{path("p.yaml"), 3, 25}));
+  EXPECT_NE(error.message().find("did you mean 'error'?"), std::string::npos) << error.message();
+}
+
 TEST_F(Variants, OfMethodsSayWhereAMistakeStands) {
   struct Case {
     std::string was, is;
