@@ -154,8 +154,9 @@ LengthTable rounded(const WideTable& wide) {
       made.powers.push_back(static_cast<double>(wide.powers[f][k]));
       const double size = std::abs(made.powers.back());
       made.size += size;
-      // The coefficient, k products and sums, and sigma^k, each factor of which is rounded twice.
-      made.error += (4 * static_cast<double>(k) + 2) * kUnitRoundoff * size;
+      // The coefficient, at most 2 k + 2 products and sums, and sigma^k, each factor of which is
+      // rounded twice.
+      made.error += (4 * static_cast<double>(k) + 3) * kUnitRoundoff * size;
     }
     made.size += made.error;
   }

@@ -22,8 +22,8 @@ using WideFunctions = std::function<std::vector<Decimal100>(const Decimal100& le
 struct LengthTable {
   struct Polynomial {
     std::vector<double> powers;  ///< c_0, c_1, ...
-    double error = 0;  ///< of Horner's rule in double, with sigma in double, over the range
-    double size = 0;   ///< at least |f| over the range
+    double error = 0;            ///< as lanes compute it, with sigma in double, over the range
+    double size = 0;             ///< at least |f| over the range
   };
   double middle = 0;
   double scale = 0;  ///< 0: there is one length, `middle`

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 #include "base/stop.h"
@@ -33,8 +34,7 @@ class LaneStarts {
         const double width = rule.values[1](element.element) - low;
         lanes::variant().uniforms(
             hybrid::stream_key(seed, hybrid::Purpose::start, element.variable), runs.data(),
-            static_cast<std::uint64_t>(element.element), out);
-        for (std::size_t l = 0; l < kLanes; ++l) out[l] = low + width * out[l];
+            static_cast<std::uint64_t>(element.element), low, width, out);
       } else if (rule.kind == model::StartKind::list) {
         for (std::size_t l = 0; l < kLanes; ++l)
           out[l] = rule.values[runs[l] % rule.values.size()](element.element);
@@ -161,9 +161,12 @@ class LinearLanes {
     if ((flows + 1) * longest_ < horizon) return;
     const LaneNumbers& due = lengths_.due();
     std::uint32_t ended = 0;
-    for (std::size_t l = 0; l < kLanes; ++l)
-      if (t_[l] >= horizon || due[l] > latest) ended |= 1U << l;
-    ended &= running_;
+    for (std::uint32_t left = lanes::variant().reached(due.data(), horizon) & running_; left != 0;
+         left &= left - 1) {
+      const int l = std::countr_zero(left);
+      const auto at = static_cast<std::size_t>(l);
+      if (t_[at] >= horizon || due[at] > latest) ended |= 1U << l;
+    }
     running_ &= ~ended;
     for (std::size_t l = 0; ended != 0 && l < kLanes; ++l) {
       if ((ended >> l & 1U) == 0) continue;
