@@ -2,8 +2,8 @@
 //
 //   f_k(s) = sum_i c_ki sigma^i,   sigma = (s - middle) scale in [-1, 1],   s in [from, to]
 //
-// They are interpolated at Chebyshev points in 100 digits, cut where what is left falls below
-// rounding, and rounded once. The functions must be smooth: those of linear flows are entire.
+// They are interpolated at Chebyshev points in 100 digits, cut where what is left is negligible, and
+// rounded once. The error of both is known. The functions must be smooth: those of linear flows are entire.
 #pragma once
 
 #include <functional>
