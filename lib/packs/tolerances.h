@@ -48,7 +48,7 @@ constexpr double kLongestFlow = 100;  ///< the norm of the matrix times the leng
         ///< not run as linear packs | LinearPacks.RunWhatTheyCan
 constexpr double kFlowMargin = 1e-9;  ///< relative | that a value falls along flows is shown in
         ///< double with so much to spare | LinearProof.NeedsMoreThanRounding
-constexpr double kMostGrowth = 100;  ///< factor | errors of linear runs are bounded for all flows
+constexpr double kMostGrowth = 4;  ///< factor | errors of linear runs are bounded for all flows
         ///< of a block at once, which may grow the bounds so much |
         ///< LinearPacks.FollowWhatFallsWhereFlowsMayGrow
 constexpr std::int64_t kMostFlowsOfBlock = 16;  ///< flows | and is no longer than so many |
