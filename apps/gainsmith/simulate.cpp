@@ -10,8 +10,10 @@
 
 #include "base/file.h"
 #include "base/number.h"
+#include "bind/stated.h"
 #include "gainsmith/campaign_text.h"
 #include "gainsmith/commands.h"
+#include "gainsmith/figures_text.h"
 #include "gainsmith/load.h"
 #include "gainsmith/notes.h"
 #include "gainsmith/output.h"
@@ -21,8 +23,10 @@
 #include "gainsmith/run_table.h"
 #include "gainsmith/terminal.h"
 #include "hybrid/idle.h"
+#include "io/figures_json.h"
 #include "io/given_run_json.h"
 #include "io/json_text.h"
+#include "verify/figure_survey.h"
 
 namespace gainsmith::app {
 
@@ -144,9 +148,9 @@ void check(const SimulateOptions& options) {
   const auto refuse = [&](const char* message) { throw InputError({options.gains}, message); };
   const PictureOptions& picture = options.picture;
   const bool several = !picture.runs.empty();
-  if (options.compare && (options.json || options.judge || !picture.file.empty() ||
-                          picture.only_drawn() || options.step > 0))
-    refuse("--compare prints figures alone, without --json, --plot, --judge or --step");
+  if (options.compare &&
+      (options.judge || !picture.file.empty() || picture.only_drawn() || options.step > 0))
+    refuse("--compare prints figures alone, without --plot, --judge or --step");
   if (!options.compare && picture.file.empty() && picture.only_drawn())
     refuse("--phase, --panels and --band say what --plot draws: give --plot FILE");
   if (!options.compare && picture.file.empty() && several)
@@ -158,22 +162,29 @@ void check(const SimulateOptions& options) {
     refuse("--runs draws several runs: without -o, --json and --judge, which are about one");
 }
 
+/// With which a consistent filter passes, of covariances among the figures.
+constexpr double kFit = 0.95;
+
 ExitCode compare(const SimulateOptions& options, const LoadedGains& loaded, std::uint64_t seed,
                  const std::vector<std::uint64_t>& runs) {
-  const std::vector<verify::Comparison> compared =
-      verify::compared_figures(loaded.stated, loaded.gains, seed, runs);
-  if (compared.front().figures.empty())
+  const std::vector<model::Figure>& figures = loaded.stated.design->compare;
+  if (figures.empty())
     throw InputError({options.gains},
                      "the problem names nothing to compare: compare: [{peak: norm(e)}, ...]");
-  write(options, comparison_text(compared));
-  const auto is_early = [](const verify::Comparison& run) { return !run.early.empty(); };
-  const auto first = std::find_if(compared.begin(), compared.end(), is_early);
-  if (first == compared.end()) return ExitCode::yes;
-  const auto count = std::count_if(first, compared.end(), is_early);
-  say(fmt::format("run {} ended before its horizon, {}\n",
-                  runs[static_cast<std::size_t>(first - compared.begin())], first->early));
-  if (count > 1) say(fmt::format("so did {} of these runs in all\n", count));
-  return ExitCode::yes;
+  const auto setup = verify::make_event_setup(bind::run_texts(loaded.stated, loaded.gains));
+  const verify::FigureSurvey survey =
+      verify::survey_figures(*setup, figures, seed, {runs.size(), runs});
+  const Telling telling;
+  // These runs were chosen, so nothing is said of others.
+  const bool drawn = !hybrid::different_runs(setup->system, setup->scenario);
+  const model::FiguresRecord record =
+      figures_record(survey, seed, std::nullopt, drawn ? std::optional(kFit) : std::nullopt);
+  if (survey.runs > 0)
+    write(options, options.json ? io::to_text(io::to_json(record)) : comparison_text(record));
+  if (survey.early > 0)
+    say(fmt::format("run {} ended before its horizon, {}\n", survey.early_run, survey.early_why));
+  if (survey.early > 1) say(fmt::format("so did {} of these runs in all\n", survey.early));
+  return survey.runs < runs.size() ? ExitCode::undecided : ExitCode::yes;
 }
 
 /// How a run ended, and its claims.

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -7,13 +8,16 @@
 #include <vector>
 
 #include "base/error.h"
+#include "bind/stated.h"
 #include "gainsmith/campaign_text.h"
 #include "gainsmith/commands.h"
+#include "gainsmith/figures_text.h"
 #include "gainsmith/load.h"
 #include "gainsmith/terminal.h"
 #include "gainsmith/worst_text.h"
 #include "io/campaign_json.h"
 #include "model/stated_file.h"
+#include "verify/figure_survey.h"
 #include "verify/statistics.h"
 #include "verify/worst.h"
 
@@ -29,9 +33,25 @@ struct VerifyOptions {
   unsigned threads = 0;
   std::optional<double> probability;
   double confidence = 0.95;
+  bool compare = false;
   bool worst = false;
   bool json = false;
 };
+
+/// Figures need whole trajectories, which the careful simulator makes.
+constexpr std::uint64_t kMostCompared = 1000;
+
+/// Over the first runs of the campaign.
+model::FiguresRecord figures_of_runs(const LoadedGains& loaded, const VerifyOptions& options,
+                                     const verify::Report& report) {
+  const std::vector<model::Figure>& figures = loaded.stated.design->compare;
+  const auto setup = verify::make_event_setup(bind::run_texts(loaded.stated, loaded.gains));
+  const verify::FigureSurvey survey = verify::survey_figures(
+      *setup, figures, report.seed, {std::min(report.runs, kMostCompared)}, options.threads);
+  std::optional<double> confidence;
+  if (!report.different) confidence = report.confidence;
+  return figures_record(survey, report.seed, confidence, confidence);
+}
 
 /// As many as are given, or as show the probability that is given.
 std::optional<std::uint64_t> runs_of(const VerifyOptions& options) {
@@ -66,15 +86,24 @@ ExitCode search_worst(const VerifyOptions& options, const LoadedGains& loaded) {
 ExitCode verify_gains(const VerifyOptions& options) {
   const LoadedGains loaded = load_run(options.gains, options.set);
   if (options.worst) return search_worst(options, loaded);
+  if (options.compare && loaded.stated.design->compare.empty())
+    throw InputError({options.gains},
+                     "the problem names nothing to compare: compare: [{peak: norm(e)}, ...]");
   const verify::CampaignOptions campaign{runs_of(options), options.seed, options.threads,
                                          options.confidence};
   const auto setup = verify::make_setup(loaded.stated, loaded.gains);
   const verify::Report report = verify::run_campaign(*setup, campaign);
+  std::optional<model::FiguresRecord> figures;
+  if (options.compare && !report.interrupted()) figures = figures_of_runs(loaded, options, report);
   const Telling telling;
-  fmt::print("{}",
-             options.json
-                 ? io::to_text(io::to_json(campaign_record(report, io::gains_hash(loaded.gains))))
-                 : campaign_summary(report, source_of(options, loaded)));
+  if (options.json) {
+    model::CampaignRecord record = campaign_record(report, io::gains_hash(loaded.gains));
+    record.figures = figures;
+    fmt::print("{}", io::to_text(io::to_json(record)));
+  } else {
+    fmt::print("{}{}", campaign_summary(report, source_of(options, loaded)),
+               figures ? figures_text(*figures) : "");
+  }
   return campaign_exit(report.verdict);
 }
 
@@ -104,6 +133,9 @@ Command verify_command() {
        Option("--threads", options->threads,
               "threads, 0: one a core; the report does not depend on it")
            .within(0, 1024),
+       Option("--compare", options->compare,
+              "also print quantiles of the figures under 'compare', over the first 1000 runs at "
+              "most, each simulated on its own"),
        Option("--json", options->json, "print the report as JSON")},
       "Exit code: 0 held, 1 violated, 2 wrong input, 3 undecided or interrupted.\n"
       "Examples:\n"

@@ -2,6 +2,7 @@
 // Nothing here may be shared with other sources: it is compiled for other machines than they are.
 #include <immintrin.h>
 
+#include "base/sine.h"
 #include "lanes/steps.h"
 
 namespace gainsmith::lanes {
@@ -128,60 +129,54 @@ inline V tanh_of(V x) {
   return x == x ? with_sign(out, x) : x;
 }
 
-/// x = k pi/2 + high + low, pi/2 in three parts of 33 bits and a rest (fdlibm).
-struct Angle {
-  V high, low;
-  I quarter;
-};
-inline Angle reduced_angle(V x) {
-  const Rounded k = rounded(x * all(6.36619772367581382433e-01));
-  const V first = x - k.value * all(1.57079632673412561417e+00);
-  const V step = k.value * all(6.07710050630396597660e-11);
-  const V second = first - step;
-  const V lost = (first - second) - step;
-  const V rest = k.value * all(2.02226624879595063154e-21) - lost;
-  const V high = second - rest;
-  return {high, (second - high) - rest, k.bits};
+inline bool any(I mask) {
+#if defined(__AVX512F__)
+  return _mm512_test_epi64_mask((__m512i)mask, (__m512i)mask) != 0;
+#elif defined(__AVX2__)
+  return _mm256_movemask_pd((__m256d)mask) != 0;
+#else
+  return _mm_movemask_pd((__m128d)mask) != 0;
+#endif
 }
 
-/// Of |x| <= pi/4, as __kernel_sin and __kernel_cos of fdlibm.
-inline V sin_kernel(V x, V low) {
-  const V z = x * x;
-  V r = all(1.58969099521155010221e-10);
-  r = multiply_add(r, z, all(-2.50507602534068634195e-08));
-  r = multiply_add(r, z, all(2.75573137070700676789e-06));
-  r = multiply_add(r, z, all(-1.98412698298579493134e-04));
-  r = multiply_add(r, z, all(8.33333333332248946124e-03));
-  const V v = z * x;
-  return x - ((z * (all(0.5) * low - v * r) - low) - v * all(-1.66666666666666324348e-01));
-}
-inline V cos_kernel(V x, V low) {
-  const V z = x * x;
-  V r = all(-1.13596475577881948265e-11);
-  r = multiply_add(r, z, all(2.08757232129817482790e-09));
-  r = multiply_add(r, z, all(-2.75573143513906633035e-07));
-  r = multiply_add(r, z, all(2.48015872894767294178e-05));
-  r = multiply_add(r, z, all(-1.38888888888741095749e-03));
-  r = multiply_add(r, z, all(4.16666666666666019037e-02));
-  const V half = all(0.5) * z;
-  const V w = all(1.0) - half;
-  return w + (((all(1.0) - w) - half) + (z * z * r - x * low));
+/// sin(r) for |r| <= pi/2: Taylor's series up to r^21.
+inline V sin_kernel(V r) {
+  constexpr double terms[] = {1.0 / 51090942171709440000.0,
+                              -1.0 / 121645100408832000.0,
+                              1.0 / 355687428096000.0,
+                              -1.0 / 1307674368000.0,
+                              1.0 / 6227020800,
+                              -1.0 / 39916800,
+                              1.0 / 362880,
+                              -1.0 / 5040,
+                              1.0 / 120,
+                              -1.0 / 6};
+  const V z = r * r;
+  V sum = all(terms[0]);
+  for (std::size_t k = 1; k < sizeof terms / sizeof *terms; ++k)
+    sum = multiply_add(sum, z, all(terms[k]));
+  return multiply_add(r * z, sum, r);
 }
 
-/// Beyond these angles the quarters are not exact.
+/// Beyond these angles the half turns are not exact.
 constexpr double kLargestAngle = 1e6;
 
+/// x = k pi + r, with k + 1/2 for the cosine, pi in three parts (fdlibm) of which the first two have
+/// 33 bits: then sin(x) = (-1)^k sin(r) and cos(x) = -(-1)^k sin(r).
 template <bool cosine>
 inline V sine(V x) {
-  const Angle angle = reduced_angle(x);
-  const V s = sin_kernel(angle.high, angle.low);
-  const V c = cos_kernel(angle.high, angle.low);
-  const I quarter = angle.quarter + all(cosine ? 1LL : 0LL);
-  V out = (quarter & all(1LL)) != all(0LL) ? c : s;
-  out = (quarter & all(2LL)) != all(0LL) ? -out : out;
+  const V shift = all(cosine ? 0.5 : 0.0);
+  const Rounded turns = rounded(x * all(3.18309886183790691216e-01) - shift);
+  const V k = turns.value + shift;
+  V r = x - k * all(0x1.921fb544p+1);
+  r = r - k * all(0x1.0b4611a6p-33);
+  r = multiply_add(k, all(-0x1.3198a2e037073p-68), r);
+  const I sign = (turns.bits + all(cosine ? 1LL : 0LL)) << 63;
+  V out = bits_to_number(number_to_bits(sin_kernel(r)) ^ sign);
   const I far = ~(abs_of(x) <= all(kLargestAngle));
-  for (std::size_t k = 0; k < kWidth; ++k)
-    if (far[k] != 0) out[k] = cosine ? __builtin_cos(x[k]) : __builtin_sin(x[k]);
+  if (any(far)) [[unlikely]]
+    for (std::size_t l = 0; l < kWidth; ++l)
+      if (far[l] != 0) out[l] = cosine ? __builtin_cos(x[l]) : __builtin_sin(x[l]);
   return out;
 }
 
@@ -209,23 +204,43 @@ inline void each(const LaneStep& step, double* registers, Last& last, const Oper
   store(step, registers, last);
 }
 
+/// Even and odd powers apart, so that twice as many sums are under way: `chunk` vectors at a time.
 inline void polynomial(const LaneStep& step, const double* constants, double* registers,
                        Last& last) {
+  constexpr std::size_t chunk = kVectors < 4 ? kVectors : 4;
   const V* const a = reinterpret_cast<const V*>(registers + step.a * kLanes);
-  const double* k = constants + step.b;
-  Last x, sum;
-#pragma GCC unroll 16
-  for (std::size_t v = 0; v < kVectors; ++v) {
-    x.part[v] = a[v];
-    sum.part[v] = all(*k);
+#pragma GCC unroll 4
+  for (std::size_t first = 0; first < kVectors; first += chunk) {
+    const double* k = constants + step.b;
+    const double* const end = k + step.c;
+    V square[chunk], one[chunk], other[chunk];
+    const V highest = all(*k), next = all(*++k);
+#pragma GCC unroll 4
+    for (std::size_t v = 0; v < chunk; ++v) {
+      square[v] = a[first + v] * a[first + v];
+      one[v] = highest;
+      other[v] = next;
+    }
+    for (; end - k >= 2; k += 2) {
+      const V even = all(k[1]), odd = all(k[2]);
+#pragma GCC unroll 4
+      for (std::size_t v = 0; v < chunk; ++v) {
+        one[v] = multiply_add(one[v], square[v], even);
+        other[v] = multiply_add(other[v], square[v], odd);
+      }
+    }
+    if (k == end) {
+#pragma GCC unroll 4
+      for (std::size_t v = 0; v < chunk; ++v)
+        last.part[first + v] = multiply_add(one[v], a[first + v], other[v]);
+    } else {
+      const V constant = all(k[1]);
+#pragma GCC unroll 4
+      for (std::size_t v = 0; v < chunk; ++v)
+        last.part[first + v] =
+            multiply_add(other[v], a[first + v], multiply_add(one[v], square[v], constant));
+    }
   }
-  for (const double* const end = k + step.c; k != end;) {
-    const V next = all(*++k);
-#pragma GCC unroll 16
-    for (std::size_t v = 0; v < kVectors; ++v)
-      sum.part[v] = multiply_add(sum.part[v], x.part[v], next);
-  }
-  last = sum;
   store(step, registers, last);
 }
 
@@ -241,32 +256,57 @@ inline U multiply_low(U a, U b) {
 }
 
 /// Philox4x32-10 (base/random.h) of a vector of counters, each word in the low half of 64 bits.
-void uniforms(std::uint64_t key, const std::uint64_t* runs, std::uint64_t draw, double* out) {
-  const U low = all_bits(0xFFFFFFFFULL);
+void uniforms(std::uint64_t key, const std::uint64_t* runs, std::uint64_t draw, double low,
+              double width, double* out) {
+  const U half = all_bits(0xFFFFFFFFULL);
   for (std::size_t v = 0; v < kVectors; ++v) {
     U run;
     __builtin_memcpy(&run, runs + v * kWidth, sizeof run);
     U w0 = all_bits(draw & 0xFFFFFFFFULL), w1 = all_bits(draw >> 32U);
-    U w2 = run & low, w3 = run >> 32;
+    U w2 = run & half, w3 = run >> 32;
     std::uint32_t k0 = static_cast<std::uint32_t>(key), k1 = static_cast<std::uint32_t>(key >> 32U);
     for (int round = 0; round < 10; ++round) {
       const U p0 = multiply_low(w0, all_bits(0xD2511F53ULL));
       const U p1 = multiply_low(w2, all_bits(0xCD9E8D57ULL));
       w0 = (p1 >> 32) ^ w1 ^ all_bits(k0);
-      w1 = p1 & low;
+      w1 = p1 & half;
       w2 = (p0 >> 32) ^ w3 ^ all_bits(k1);
-      w3 = p0 & low;
+      w3 = p0 & half;
       k0 += 0x9E3779B9U;
       k1 += 0xBB67AE85U;
     }
     // 53 bits as two whole numbers behind the exponents of 2^52 and 2^84.
     const U bits = ((w0 << 32) | w1) >> 11;
     const V high = __builtin_bit_cast(V, (bits >> 32) | all_bits(0x4530000000000000ULL));
-    const V rest = __builtin_bit_cast(V, (bits & low) | all_bits(0x4330000000000000ULL));
+    const V rest = __builtin_bit_cast(V, (bits & half) | all_bits(0x4330000000000000ULL));
     const V number = (high - all(0x1p84)) + (rest - all(0x1p52));
-    const V value = number * all(0x1p-53);
+    const V value = all(low) + all(width) * (number * all(0x1p-53));
     __builtin_memcpy(out + v * kWidth, &value, sizeof value);
   }
+}
+
+void sines(double* x) {
+  V* const all_of = reinterpret_cast<V*>(x);
+#pragma GCC unroll 4
+  for (std::size_t v = 0; v < kVectors; ++v) all_of[v] = gainsmith::sine(all_of[v]);
+}
+
+std::uint32_t reached(const double* x, double bound) {
+  const V* const all_of = reinterpret_cast<const V*>(x);
+  std::uint32_t bits = 0;
+#pragma GCC unroll 16
+  for (std::size_t v = 0; v < kVectors; ++v) {
+#if defined(__AVX512F__)
+    const unsigned before = _mm512_cmp_pd_mask(all_of[v], all(bound), _CMP_LT_OQ);
+#elif defined(__AVX2__)
+    const auto before =
+        static_cast<unsigned>(_mm256_movemask_pd(_mm256_cmp_pd(all_of[v], all(bound), _CMP_LT_OQ)));
+#else
+    const auto before = static_cast<unsigned>(_mm_movemask_pd(_mm_cmplt_pd(all_of[v], all(bound))));
+#endif
+    bits |= before << (v * kWidth);
+  }
+  return ~bits;
 }
 
 const LaneStep* run(const LaneStep* step, const LaneStep* end, const double* constants,
@@ -378,6 +418,6 @@ const LaneStep* run(const LaneStep* step, const LaneStep* end, const double* con
 }  // namespace
 
 extern const Variant GAINSMITH_VARIANT;
-const Variant GAINSMITH_VARIANT{GAINSMITH_VARIANT_NAME, run, uniforms};
+const Variant GAINSMITH_VARIANT{GAINSMITH_VARIANT_NAME, run, uniforms, sines, reached};
 
 }  // namespace gainsmith::lanes

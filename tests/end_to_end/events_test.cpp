@@ -83,7 +83,7 @@ TEST(Events, FiguresStandSideBySide) {
   EXPECT_LT(lines[0].find("fast"), lines[0].find("slow"));
   EXPECT_NE(lines[1].find("settles norm(e)"), std::string::npos);
   for (const std::vector<std::string>& more :
-       std::vector<std::vector<std::string>>{{"--json"}, {"--judge"}, {"--step", "0.1"}}) {
+       std::vector<std::vector<std::string>>{{"--judge"}, {"--step", "0.1"}}) {
     std::vector<std::string> arguments = {"simulate", file, "--compare"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     EXPECT_EQ(gainsmith(arguments).exit, 2) << more.front();
