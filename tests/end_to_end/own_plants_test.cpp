@@ -239,5 +239,116 @@ INSTANTIATE_TEST_SUITE_P(
             "the assumption 'thresholds'"}),
     name_of);
 
+INSTANTIATE_TEST_SUITE_P(
+    ConstrainedRedesign, OwnPlants,
+    ::testing::Values(
+        Own{"luenberger", "constrained-redesign",
+            "data:\n"
+            "  x0:    [1, 0]\n"
+            "  xh0:   [-1.5, 1.5]\n"
+            "  a:     \"[eye(2); -eye(2)]\"\n"
+            "  b:     2*ones(4, 1)\n"
+            "  outer: 4*ones(4, 1)\n"
+            "  f(x, t): \"[x(2); -x(1)]\"\n"
+            "  h(x, t): x(1)\n"
+            "  F(xh, S, y, t): \"[xh(2); -xh(1)] + [20; 99]*(y - xh(1))\"\n"
+            "  invP(S): \"inv(lyap([-20, 1; -100, 0]', [1, 0; 0, 0.01]))\"\n"
+            "parameters: {gamma_c: 50}\n"
+            "campaign: {runs: 1, horizon: 3}\n",
+            ""},
+        Own{"half_plane", "constrained-redesign",
+            "let: {A: \"[-0.3, 0.2; 0, -0.2]\", L: \"[4; 3]\"}\n"
+            "data:\n"
+            "  x0:    [2, 1]\n"
+            "  xh0:   [0.5, 3]\n"
+            "  a:     [[-1, 0]]\n"
+            "  b:     [0]\n"
+            "  outer: [1]\n"
+            "  f(x, t): A*x\n"
+            "  h(x, t): x(1)\n"
+            "  F(xh, S, y, t): A*xh + L*(y - xh(1))\n"
+            "  invP(S): \"inv(lyap((A - L*[1, 0])', eye(2)))\"\n"
+            "campaign: {runs: 1, horizon: 3}\n",
+            ""},
+        Own{"outside", "constrained-redesign",
+            "data:\n"
+            "  x0:    [3, 0]\n"
+            "  xh0:   [0, 0]\n"
+            "  a:     \"[eye(2); -eye(2)]\"\n"
+            "  b:     2*ones(4, 1)\n"
+            "  outer: 4*ones(4, 1)\n"
+            "  f(x, t): \"[x(2); -x(1)]\"\n"
+            "  h(x, t): x(1)\n"
+            "  F(xh, S, y, t): \"[xh(2); -xh(1)] + [20; 99]*(y - xh(1))\"\n"
+            "  invP(S): eye(2)\n"
+            "campaign: {runs: 1, horizon: 3}\n",
+            "the assumption 'the plant starts in the set'"},
+        Own{"kalman_in_steps", "{like: constrained-redesign-jumps, events: {jump: {every: 1}}}",
+            "let: {A: \"[0.9, 0.4; -0.4, 0.9]\", C: \"[1, 0]\", K(S): \"A*S*C'/(C*S*C' + 0.1)\"}\n"
+            "data:\n"
+            "  x0:  [1, 0]\n"
+            "  xh0: [-3, 3]\n"
+            "  a:   \"[eye(2); -eye(2)]\"\n"
+            "  b:   1.5*ones(4, 1)\n"
+            "  S0:  eye(2)\n"
+            "  g(x, t): A*x\n"
+            "  hd(x, t): C*x\n"
+            "  G(xh, S, y, t): A*xh + K(S)*(y - C*xh)\n"
+            "  nextS(xh, S, t): \"(A - K(S)*C)*S*(A - K(S)*C)' + 0.1*K(S)*K(S)' + 0.01*eye(2)\"\n"
+            "  invP(S): S\n"
+            "campaign: {runs: 1, horizon: 30}\n",
+            ""},
+        Own{"samples", "{like: constrained-redesign-jumps, events: {jump: {every: [0.2, 0.5]}}}",
+            "data:\n"
+            "  x0:  [1, 0]\n"
+            "  xh0: [-3, 3]\n"
+            "  a:   \"[eye(2); -eye(2)]\"\n"
+            "  b:   1.5*ones(4, 1)\n"
+            "  f(x, t): \"[x(2); -x(1)]\"\n"
+            "  hd(x, t): x(1)\n"
+            "  G(xh, S, y, t): \"xh + [0.8; 0.3]*(y - xh(1))\"\n"
+            "  invP(S): eye(2)\n"
+            "parameters: {rho: 100}\n"
+            "campaign: {runs: 5, horizon: 15}\n",
+            ""}),
+    name_of);
+
+INSTANTIATE_TEST_SUITE_P(
+    SampledDataNoise, OwnPlants,
+    ::testing::Values(
+        Own{"double_integrator", "sampled-data-noise",
+            "data: {A: [[0, 1], [0, 0]], B: [[0], [1]], C: [[1, 0]], D: 0.2, T1: 0.1, T2: 0.3}\n"
+            "campaign: {runs: 20, horizon: 40}\n"
+            "compare: [{at: {t: 40}, value: sqrt(error/spent)}, {at: {t: 40}, value: "
+            "gain/sqrt(error/spent)}]\n",
+            ""},
+        Own{"oscillator", "sampled-data-noise",
+            "data: {A: [[0, 1], [-4, -0.2]], B: [[0], [1]], C: [[1, 0]], D: 0.1, T1: 0.1, T2: "
+            "0.25}\n"
+            "campaign: {runs: 20, horizon: 40}\n"
+            "compare: [{at: {t: 40}, value: sqrt(error/spent)}, {at: {t: 40}, value: "
+            "gain/sqrt(error/spent)}]\n",
+            ""},
+        Own{"unstable", "sampled-data-noise",
+            "data: {A: 0.5, B: 1, C: 1, D: 1, T1: 0.1, T2: 0.4}\n"
+            "campaign: {runs: 20, horizon: 40}\n"
+            "compare: [{at: {t: 40}, value: sqrt(error/spent)}, {at: {t: 40}, value: "
+            "gain/sqrt(error/spent)}]\n",
+            ""},
+        Own{"two_outputs", "sampled-data-noise",
+            "data: {A: [[-1, 1, 0], [0, -0.5, 1], [0, -1, -0.5]], B: \"[eye(2); zeros(1, 2)]\", C: "
+            "[[1, 0, 0], [0, 1, 0]], D: 0.1*eye(2), T1: 0.2, T2: 0.6}\n"
+            "campaign: {runs: 20, horizon: 40}\n"
+            "compare: [{at: {t: 40}, value: sqrt(error/spent)}, {at: {t: 40}, value: "
+            "gain/sqrt(error/spent)}]\n",
+            ""},
+        Own{"hidden_mode", "sampled-data-noise",
+            "data: {A: [[0.5, 0], [0, -1]], B: [[0], [1]], C: [[0, 1]], D: 0.1, T1: 0.2, T2: 0.6}\n"
+            "campaign: {runs: 20, horizon: 40}\n"
+            "compare: [{at: {t: 40}, value: sqrt(error/spent)}, {at: {t: 40}, value: "
+            "gain/sqrt(error/spent)}]\n",
+            "infeasible: the output does not show a mode"}),
+    name_of);
+
 }  // namespace
 }  // namespace gainsmith::tests
