@@ -21,7 +21,7 @@ std::string cell(const std::optional<double>& value, int digits = 6) {
 }
 
 /// Columns as wide as they need: the first `left` are names, the others end in line.
-std::string table_text(const std::vector<Cells>& rows, std::size_t left, std::size_t least) {
+std::string table_text(const std::vector<Cells>& rows, std::size_t left) {
   std::vector<std::size_t> widths(rows.front().size(), 0);
   for (const Cells& row : rows)
     for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], row[k].size());
@@ -30,11 +30,18 @@ std::string table_text(const std::vector<Cells>& rows, std::size_t left, std::si
     std::string line;
     for (std::size_t k = 0; k < row.size(); ++k)
       line += k < left ? fmt::format("{:<{}}", row[k], widths[k] + (widths[k] > 0 ? 2 : 0))
-                       : fmt::format("{:>{}}", row[k], std::max(widths[k] + 2, least));
+                       : fmt::format("{:>{}}", row[k], widths[k] + 2);
     line.erase(line.find_last_not_of(' ') + 1);
     text += line + "\n";
   }
   return text;
+}
+
+constexpr std::size_t kColumn = 13;
+
+/// Of a column of values, which is as wide at the least.
+std::string head(const std::string& name, std::size_t width = kColumn) {
+  return fmt::format("{:>{}}", name, width);
 }
 
 /// The title where it is not that of the row above, and the observer.
@@ -52,6 +59,8 @@ std::string interval_text(const model::QuantileRecord& quantile) {
   return quantile.high ? "below " + brief(*quantile.high, kDigits) : "-";
 }
 
+std::string run_text(std::uint64_t run) { return "run " + std::to_string(run); }
+
 std::string quantiles_table(const model::FiguresRecord& record) {
   std::vector<Cells> rows = {{"", "", "least"}};
   for (const model::QuantileRecord& quantile : record.figures.front().quantiles)
@@ -61,18 +70,18 @@ std::string quantiles_table(const model::FiguresRecord& record) {
   for (std::size_t k = 0; k < record.figures.size(); ++k) {
     const model::FigureRecord& figure = record.figures[k];
     Cells values = names_of(record.figures, k);
-    Cells intervals = {"", "", ""};
+    Cells below = {"", "", run_text(figure.least_run)};
     values.push_back(cell(figure.least));
     for (const model::QuantileRecord& quantile : figure.quantiles) {
       values.push_back(cell(quantile.value));
-      intervals.push_back(interval_text(quantile));
+      below.push_back(record.confidence ? interval_text(quantile) : "");
     }
     values.push_back(cell(figure.largest));
-    intervals.emplace_back();
+    below.push_back(run_text(figure.largest_run));
     rows.push_back(values);
-    if (record.confidence && figure.runs > 0) rows.push_back(intervals);
+    if (figure.runs > 0) rows.push_back(below);
   }
-  return table_text(rows, 2, 11);
+  return table_text(rows, 2);
 }
 
 std::optional<double> median_of(const model::FigureRecord& figure) {
@@ -82,13 +91,18 @@ std::optional<double> median_of(const model::FigureRecord& figure) {
 }
 
 std::string spread_table(const std::vector<model::FigureRecord>& figures) {
-  std::vector<Cells> rows = {{"", "", "least", "median", "largest"}};
+  std::vector<Cells> rows = {
+      {"", "", head("least"), "run", head("median"), head("largest"), "run"}};
   for (std::size_t k = 0; k < figures.size(); ++k) {
+    const model::FigureRecord& figure = figures[k];
     rows.push_back(names_of(figures, k));
-    for (const auto& value : {figures[k].least, median_of(figures[k]), figures[k].largest})
-      rows.back().push_back(cell(value));
+    const auto run = [&](std::uint64_t of) { return figure.runs > 0 ? std::to_string(of) : "-"; };
+    for (const std::string& text :
+         {cell(figure.least), run(figure.least_run), cell(median_of(figure)), cell(figure.largest),
+          run(figure.largest_run)})
+      rows.back().push_back(text);
   }
-  return table_text(rows, 2, 15);
+  return table_text(rows, 2);
 }
 
 /// Of one run: a column for each observer.
@@ -102,11 +116,10 @@ std::string comparison_table(const std::vector<model::FigureRecord>& figures) {
     add(titles, figure.figure);
   }
   std::vector<Cells> rows = {{""}};
-  std::size_t column = 13;  // all are as wide
-  for (const std::string& observer : observers) {
-    rows.front().push_back(observer.empty() ? "all" : observer);
-    column = std::max(column, observer.size());
-  }
+  std::size_t column = kColumn;  // all are as wide
+  for (const std::string& observer : observers) column = std::max(column, observer.size());
+  for (const std::string& observer : observers)
+    rows.front().push_back(head(observer.empty() ? "all" : observer, column));
   bool has_all = true;
   for (const std::string& title : titles) {
     rows.push_back({title});
@@ -118,7 +131,7 @@ std::string comparison_table(const std::vector<model::FigureRecord>& figures) {
       has_all = has_all && (found == figures.end() || found->least);
     }
   }
-  return table_text(rows, 1, column + 2) +
+  return table_text(rows, 1) +
          (has_all ? ""
                   : "-: no such event in this run, a time after its end, or a value that is no "
                     "number\n");
@@ -204,17 +217,21 @@ std::string title_of(const model::FigureRecord& figure) {
   return (figure.observer.empty() ? "" : figure.observer + ": ") + figure.figure;
 }
 
-model::FiguresRecord figures_record(const verify::FigureSurvey& survey, std::uint64_t seed,
-                                    std::optional<double> confidence, std::optional<double> fit) {
-  model::FiguresRecord record{survey.runs, seed, confidence, {}};
+model::FiguresRecord figures_record(const verify::FigureSurvey& survey, std::uint64_t asked,
+                                    std::uint64_t seed, std::optional<double> confidence,
+                                    std::optional<double> fit) {
+  model::FiguresRecord record{survey.runs, asked, seed, confidence, {}};
   for (const verify::FigureSummary& summary : survey.figures)
     record.figures.push_back(figure_record(summary, confidence, fit));
   return record;
 }
 
 std::string figures_text(const model::FiguresRecord& record) {
-  std::string text =
-      fmt::format("figures     of {} run{}", record.runs, record.runs == 1 ? "" : "s");
+  std::string text = "figures     of ";
+  text += record.runs < record.asked ? fmt::format("{} of {} runs", record.runs, record.asked)
+          : record.runs == 1         ? "1 run"
+                                     : fmt::format("{} runs", record.runs);
+  if (record.runs == 0) return text + "\n";
   if (record.confidence)
     text += fmt::format(", quantiles with {} % confidence", brief(100 * *record.confidence));
   const std::string lines =

@@ -10,10 +10,11 @@
 
 namespace gainsmith::app {
 
-/// With the quantiles 5, 50 and 95 %. `confidence`: of their intervals; none where nothing is drawn.
+/// With the quantiles 5, 50 and 95 %. `asked`: how many runs were to be made. `confidence`: of their intervals; none where nothing is drawn.
 /// `fit`: the probability with which a consistent filter passes; none likewise.
-model::FiguresRecord figures_record(const verify::FigureSurvey& survey, std::uint64_t seed,
-                                    std::optional<double> confidence, std::optional<double> fit);
+model::FiguresRecord figures_record(const verify::FigureSurvey& survey, std::uint64_t asked,
+                                    std::uint64_t seed, std::optional<double> confidence,
+                                    std::optional<double> fit);
 
 /// Of `verify`: a table with quantiles and their intervals, and the fit of covariances.
 std::string figures_text(const model::FiguresRecord& record);

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -8,7 +7,6 @@
 #include <vector>
 
 #include "base/error.h"
-#include "bind/stated.h"
 #include "gainsmith/campaign_text.h"
 #include "gainsmith/commands.h"
 #include "gainsmith/figures_text.h"
@@ -38,21 +36,6 @@ struct VerifyOptions {
   bool json = false;
 };
 
-/// Figures need whole trajectories, which the careful simulator makes.
-constexpr std::uint64_t kMostCompared = 1000;
-
-/// Over the first runs of the campaign.
-model::FiguresRecord figures_of_runs(const LoadedGains& loaded, const VerifyOptions& options,
-                                     const verify::Report& report) {
-  const std::vector<model::Figure>& figures = loaded.stated.design->compare;
-  const auto setup = verify::make_event_setup(bind::run_texts(loaded.stated, loaded.gains));
-  const verify::FigureSurvey survey = verify::survey_figures(
-      *setup, figures, report.seed, {std::min(report.runs, kMostCompared)}, options.threads);
-  std::optional<double> confidence;
-  if (!report.different) confidence = report.confidence;
-  return figures_record(survey, report.seed, confidence, confidence);
-}
-
 /// As many as are given, or as show the probability that is given.
 std::optional<std::uint64_t> runs_of(const VerifyOptions& options) {
   if (!options.probability) return options.runs;
@@ -69,6 +52,8 @@ std::string source_of(const VerifyOptions& options, const LoadedGains& loaded) {
 }
 
 ExitCode search_worst(const VerifyOptions& options, const LoadedGains& loaded) {
+  if (options.compare)
+    throw InputError({options.gains}, "--compare is about runs at random, not about --worst");
   if (options.probability)
     throw InputError({options.gains}, "--probability is about runs at random, not about --worst");
   verify::WorstOptions search;
@@ -83,28 +68,40 @@ ExitCode search_worst(const VerifyOptions& options, const LoadedGains& loaded) {
   return campaign_exit(report.verdict);
 }
 
+/// Where nothing is drawn no run says anything of another.
+model::FiguresRecord record_of(const verify::FigureSurvey& survey, const verify::Report& report) {
+  std::optional<double> confidence;
+  if (!report.different) confidence = report.confidence;
+  return figures_record(survey, report.asked, report.seed, confidence, confidence);
+}
+
 ExitCode verify_gains(const VerifyOptions& options) {
   const LoadedGains loaded = load_run(options.gains, options.set);
   if (options.worst) return search_worst(options, loaded);
   if (options.compare && loaded.stated.design->compare.empty())
     throw InputError({options.gains},
                      "the problem names nothing to compare: compare: [{peak: norm(e)}, ...]");
-  const verify::CampaignOptions campaign{runs_of(options), options.seed, options.threads,
-                                         options.confidence};
   const auto setup = verify::make_setup(loaded.stated, loaded.gains);
+  verify::CampaignOptions campaign{runs_of(options), options.seed, options.threads,
+                                   options.confidence};
+  const model::Design& design = *loaded.stated.design;
+  verify::GrowingSurvey figures(*setup->events, design.compare,
+                                options.seed.value_or(design.campaign.seed), options.threads);
+  if (options.compare) campaign.between = [&](std::uint64_t runs) { figures.grow(runs); };
   const verify::Report report = verify::run_campaign(*setup, campaign);
-  std::optional<model::FiguresRecord> figures;
-  if (options.compare && !report.interrupted()) figures = figures_of_runs(loaded, options, report);
+  if (options.compare && !report.interrupted()) figures.grow(report.runs);
   const Telling telling;
   if (options.json) {
     model::CampaignRecord record = campaign_record(report, io::gains_hash(loaded.gains));
-    record.figures = figures;
+    if (options.compare) record.figures = record_of(figures.survey(), report);
     fmt::print("{}", io::to_text(io::to_json(record)));
   } else {
     fmt::print("{}{}", campaign_summary(report, source_of(options, loaded)),
-               figures ? figures_text(*figures) : "");
+               options.compare ? figures_text(record_of(figures.survey(), report)) : "");
   }
-  return campaign_exit(report.verdict);
+  const ExitCode exit = campaign_exit(report.verdict);
+  const bool whole = !options.compare || figures.survey().runs == report.asked;
+  return exit == ExitCode::yes && !whole ? ExitCode::undecided : exit;
 }
 
 }  // namespace
@@ -133,9 +130,10 @@ Command verify_command() {
        Option("--threads", options->threads,
               "threads, 0: one a core; the report does not depend on it")
            .within(0, 1024),
-       Option("--compare", options->compare,
-              "also print quantiles of the figures under 'compare', over the first 1000 runs at "
-              "most, each simulated on its own"),
+       Option(
+           "--compare", options->compare,
+           "also print quantiles of the figures under 'compare' over all runs, each simulated on "
+           "its own, which takes longer"),
        Option("--json", options->json, "print the report as JSON")},
       "Exit code: 0 held, 1 violated, 2 wrong input, 3 undecided or interrupted.\n"
       "Examples:\n"

@@ -80,6 +80,7 @@ Json to_json(const model::FiguresRecord& record) {
   Json figures = Json::array();
   for (const model::FigureRecord& figure : record.figures) figures.push_back(figure_json(figure));
   return {{"runs", record.runs},
+          {"runs_asked", record.asked},
           {"seed", record.seed},
           {"confidence", record.confidence ? Json(*record.confidence) : Json()},
           {"figures", figures}};
@@ -88,6 +89,7 @@ Json to_json(const model::FiguresRecord& record) {
 model::FiguresRecord figures_of(const JsonReader& reader) {
   model::FiguresRecord record;
   record.runs = reader.at("runs").count();
+  record.asked = reader.at("runs_asked").count();
   record.seed = reader.at("seed").count();
   const JsonReader confidence = reader.at("confidence");
   if (!confidence.is_null()) record.confidence = confidence.number();

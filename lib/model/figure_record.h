@@ -40,6 +40,7 @@ struct FigureRecord {
 
 struct FiguresRecord {
   std::uint64_t runs = 0;
+  std::uint64_t asked = 0;  ///< more than `runs` after an interruption
   std::uint64_t seed = 0;
   std::optional<double> confidence;  ///< of the intervals; none: nothing is drawn
   std::vector<FigureRecord> figures;

@@ -186,11 +186,17 @@ Tally judge_all(const Setup& setup, const Packs* packs, std::uint64_t seed, std:
   Tally sum;
   if (begun > 0) sum = judge_runs(setup, packs, seed, 0, begun);
   if (2 * sum.careful > begun) packs = nullptr;
+  const auto work_between = [&] {
+    if (options.between && sum.runs > 0) options.between(sum.runs);
+  };
+  work_between();
   // Linear packs put runs of one law together.
   const std::uint64_t block_size = packs == nullptr ? 64 : packs->linear ? 2048 : 256;
   constexpr std::uint64_t most_blocks = 4096;  // at once, so that memory does not grow with runs
+  const bool grows = options.between && packs == nullptr;
+  std::uint64_t at_once = grows ? 1 : most_blocks;
   for (std::uint64_t from = begun; from < runs;) {
-    const std::uint64_t to = std::min(runs, from + most_blocks * block_size);
+    const std::uint64_t to = std::min(runs, from + at_once * block_size);
     std::vector<Tally> blocks((to - from + block_size - 1) / block_size);
     try {
       parallel_for(blocks.size(), options.threads, [&](std::size_t block) {
@@ -203,6 +209,9 @@ Tally judge_all(const Setup& setup, const Packs* packs, std::uint64_t seed, std:
     for (const Tally& block : blocks) add(block, sum);
     if (sum.runs < to) break;
     from = to;
+    if (!grows || from == runs) continue;
+    work_between();
+    at_once = std::min(most_blocks, 2 * at_once);
   }
   return sum;
 }

@@ -116,12 +116,30 @@ void FigureSurvey::add(const FigureSurvey& more) {
 FigureSurvey survey_figures(const EventSetup& setup, const std::vector<model::Figure>& figures,
                             std::uint64_t seed, const RunNumbers& runs, unsigned threads) {
   FigureSurvey all = empty_survey(figures);
+  const bool counted = Doing::now().empty();  // not amid a campaign, which counts its own runs
   const Doing doing("figures", runs.count);
   sum_over_runs(
       runs.count, threads, [&] { return Surveyor(setup, figures, seed); },
-      [&](Surveyor& surveyor, std::uint64_t k) { surveyor.add(runs[k]); },
+      [&](Surveyor& surveyor, std::uint64_t k) {
+        surveyor.add(runs[k]);
+        if (counted) Doing::step();
+      },
       [&](Surveyor& surveyor) { all.add(surveyor.result()); });
   return all;
+}
+
+GrowingSurvey::GrowingSurvey(const EventSetup& setup, const std::vector<model::Figure>& figures,
+                             std::uint64_t seed, unsigned threads)
+    : setup_(setup),
+      figures_(figures),
+      seed_(seed),
+      threads_(threads),
+      survey_(empty_survey(figures)) {}
+
+void GrowingSurvey::grow(std::uint64_t runs) {
+  if (runs <= survey_.runs) return;
+  survey_.add(
+      survey_figures(setup_, figures_, seed_, {runs - survey_.runs, {}, survey_.runs}, threads_));
 }
 
 }  // namespace gainsmith::verify

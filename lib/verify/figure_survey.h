@@ -51,13 +51,14 @@ struct FigureSurvey {
   bool operator==(const FigureSurvey&) const = default;
 };
 
-/// Numbers of runs: those that are listed, or all below the count.
+/// Numbers of runs: those that are listed, or so many from the first on.
 struct RunNumbers {
   std::uint64_t count = 0;
   std::vector<std::uint64_t> listed{};
+  std::uint64_t first = 0;
 
   std::uint64_t operator[](std::uint64_t k) const {
-    return listed.empty() ? k : listed[static_cast<std::size_t>(k)];
+    return listed.empty() ? first + k : listed[static_cast<std::size_t>(k)];
   }
 };
 
@@ -65,5 +66,24 @@ struct RunNumbers {
 /// the first that was not made. InputError where a name of a figure has no value.
 FigureSurvey survey_figures(const EventSetup& setup, const std::vector<model::Figure>& figures,
                             std::uint64_t seed, const RunNumbers& runs, unsigned threads = 0);
+
+/// Survey of the first runs of a campaign, which grows with it.
+class GrowingSurvey {
+ public:
+  /// The setup and the figures must outlive it.
+  GrowingSurvey(const EventSetup& setup, const std::vector<model::Figure>& figures,
+                std::uint64_t seed, unsigned threads);
+
+  /// Goes on until it has so many runs. A stop (base/stop.h) ends it before.
+  void grow(std::uint64_t runs);
+  const FigureSurvey& survey() const { return survey_; }
+
+ private:
+  const EventSetup& setup_;
+  const std::vector<model::Figure>& figures_;
+  std::uint64_t seed_;
+  unsigned threads_;
+  FigureSurvey survey_;
+};
 
 }  // namespace gainsmith::verify

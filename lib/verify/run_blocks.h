@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "base/progress.h"
 #include "base/stop.h"
 
 namespace gainsmith::verify {
@@ -36,7 +35,6 @@ void sum_over_runs(std::uint64_t count, unsigned threads, const Make& make, cons
           for (std::uint64_t k = first; k < last; ++k) {
             check_stop();
             work(*blocks[b].worker, k);
-            Doing::step();
           }
           blocks[b].whole = true;
         } catch (const Stopped&) {

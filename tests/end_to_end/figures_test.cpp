@@ -144,6 +144,70 @@ compare: [{nees: x, covariance: "COVARIANCE", at: {t: 0.5}}]
   EXPECT_TRUE(singular["mean"].is_null());
 }
 
+TEST(FiguresOverRuns, OfAStoppedCampaignAreOfTheRunsThatAreDone) {
+  const Outcome outcome = gainsmith(
+      {"verify", problem(kFilter), "--compare", "--json", "--runs", "1000000", "--time", "4"});
+  EXPECT_EQ(outcome.exit, 3) << outcome.err;
+  EXPECT_TRUE(has(outcome.err, "(--time)")) << outcome.err;
+  const Json report = outcome.json();
+  const Json& figures = report["figures"];
+  EXPECT_EQ(figures["runs_asked"], 1000000);
+  EXPECT_GE(figures["runs"], 1);
+  EXPECT_LE(figures["runs"], report["runs"]);
+  const std::uint64_t runs = figures["runs"];
+  EXPECT_EQ(figure_of(figures, "nees e at t = 10", "right")["runs"], runs);
+  // The same as of a campaign of so many runs.
+  const Json whole =
+      gainsmith({"verify", problem(kFilter), "--compare", "--json", "--runs", std::to_string(runs)})
+          .json();
+  EXPECT_EQ(whole["figures"]["figures"], figures["figures"]);
+}
+
+TEST(FiguresOverRuns, OfManyRunsSayHowExactTheyAre) {
+  const Folder folder;
+  const std::string file = folder.file("p.yaml", with(kDecay, ", {settles: x, below: 0.5}", ""));
+  const Json figures =
+      gainsmith({"verify", file, "--compare", "--json", "--runs", "9000"}).json()["figures"];
+  EXPECT_EQ(figures["runs"], 9000);
+  const Json peak = figure_of(figures, "peak x");
+  EXPECT_GT(peak["resolution"], 0);
+  EXPECT_LT(peak["resolution"], 1e-3);
+  // The start is uniform on [1, 2].
+  for (const Json& quantile : peak["quantiles"])
+    EXPECT_NEAR(quantile["value"], 1 + quantile["probability"].get<double>(), 0.03);
+  EXPECT_TRUE(has(gainsmith({"verify", file, "--compare", "--runs", "9000"}).out,
+                  "quantiles are computed to "));
+  EXPECT_EQ(gainsmith({"simulate", file, "--compare", "--runs", "0:299"}).exit, 0);
+}
+
+TEST(FiguresOverRuns, AreDrawn) {
+  const Folder folder;
+  const std::string picture = folder.path("h.svg");
+  const Outcome outcome =
+      gainsmith({"simulate", problem(kFilter), "--compare", "--runs", "0:39", "--plot", picture});
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+  EXPECT_TRUE(has(outcome.out, "right: nees e at t = 10: "));
+  const std::string svg = text_of(picture);
+  for (const char* text : {">nees e at t = 10<", ">bold<", ">runs<"})
+    EXPECT_TRUE(has(svg, text)) << text;
+}
+
+TEST(FiguresOverRuns, AnEnvelopeLiesAroundTheRuns) {
+  const Folder folder;
+  const std::string file = folder.file("p.yaml", kDecay);
+  const std::string picture = folder.path("e.svg");
+  const std::vector<std::string> draw = {"simulate", file,     "--envelope", "--runs",
+                                         "0:199",    "--plot", picture};
+  const Outcome outcome = gainsmith(draw);
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+  EXPECT_TRUE(has(outcome.out, "quantiles of 200 runs of seed 1")) << outcome.out;
+  const std::string svg = text_of(picture);
+  for (const char* text : {">x: median<", ">5 to 95 % of the runs<", ">least, largest<"})
+    EXPECT_TRUE(has(svg, text)) << text;
+  EXPECT_TRUE(has(gainsmith({"simulate", file, "--envelope", "--plot", picture}).err,
+                  "give --runs and --plot FILE"));
+}
+
 TEST(FiguresOverRuns, NeedSomethingToCompare) {
   const Outcome outcome =
       gainsmith({"verify", problem("own-systems/pendulum-ekf.yaml"), "--compare"});

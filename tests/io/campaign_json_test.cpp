@@ -52,7 +52,7 @@ model::CampaignRecord campaign() {
   model::FigureRecord squares;
   squares.figure = "nees e at t = 1";
   squares.consistency = {"undecided", 3, 2, 1.0625, 2, 0.5, std::nullopt, 0.95};
-  record.figures = {9, 5, 0.95, {settles, squares}};
+  record.figures = {9, 10, 5, 0.95, {settles, squares}};
   return record;
 }
 
