@@ -7,9 +7,14 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/file.h"
+#include "gainsmith/campaign_parts.h"
 #include "gainsmith/campaign_text.h"
 #include "gainsmith/commands.h"
+#include "gainsmith/kept_folder.h"
 #include "gainsmith/load.h"
+#include "gainsmith/output.h"
+#include "gainsmith/shard_option.h"
 #include "gainsmith/terminal.h"
 #include "gainsmith/worst_text.h"
 #include "io/campaign_json.h"
@@ -30,6 +35,9 @@ struct VerifyOptions {
   std::optional<double> probability;
   double confidence = 0.95;
   bool worst = false;
+  std::string shard;
+  std::string resume;
+  std::string output;
   bool json = false;
 };
 
@@ -63,19 +71,71 @@ ExitCode search_worst(const VerifyOptions& options, const LoadedGains& loaded) {
   return campaign_exit(report.verdict);
 }
 
+/// Makes the runs of the part; with --resume those that its folder has not yet.
+void make_runs(const VerifyOptions& options, const verify::Campaign& campaign,
+               const verify::RunRange& range, PartFile& file) {
+  if (options.resume.empty()) return campaign.make_runs(range, file.part);
+  io::Json statement = file.statement;
+  statement["shard"] = to_text(file.shard);
+  KeptFolder folder(options.resume, std::move(statement));
+  if (folder.kept()) take_kept(folder.kept()->done, folder.kept()->file, file.part);
+  const auto keep = [&](const verify::RunSet& runs, const verify::Tally& tally) {
+    folder.keep(kept_json(runs, tally));
+  };
+  // Whether the folder can be written to is known before the work.
+  keep(file.part.runs, file.part.tally);
+  campaign.make_runs(range, file.part, keep);
+  if (file.part.runs.count() < range.count())
+    say(fmt::format("gainsmith: {} keeps {} of {} runs; the same command goes on from there\n",
+                    options.resume, file.part.runs.count(), range.count()));
+}
+
+/// 0 for a part that is whole, whatever its runs are; otherwise nothing is written.
+ExitCode write_part(const VerifyOptions& options, const verify::Campaign& campaign,
+                    const verify::RunRange& range, PartFile& file) {
+  if (file.part.runs.count() == range.count()) {
+    campaign.repeat_worst(file.part);
+    const Telling telling;
+    if (options.output == "-") {
+      fmt::print("{}", to_text(file));
+    } else {
+      write_atomically(options.output, to_text(file));
+      say(fmt::format("wrote {}: part {}, {} of {} runs\n", options.output, to_text(file.shard),
+                      range.count(), campaign.asked()));
+    }
+    return ExitCode::yes;
+  }
+  const Telling telling;
+  say(fmt::format("interrupted after {} of {} runs of part {}: it was not written\n",
+                  file.part.runs.count(), range.count(), to_text(file.shard)));
+  return ExitCode::undecided;
+}
+
 ExitCode verify_gains(const VerifyOptions& options) {
+  if (!options.shard.empty() && options.output.empty())
+    throw InputError({},
+                     "--shard needs -o FILE, where the part is written (- for standard output)");
+  prepare_outputs(options.gains, {options.output});
   const LoadedGains loaded = load_run(options.gains, options.set);
   if (options.worst) return search_worst(options, loaded);
-  const verify::CampaignOptions campaign{runs_of(options), options.seed, options.threads,
-                                         options.confidence};
   const auto setup = verify::make_setup(loaded.stated, loaded.gains);
-  const verify::Report report = verify::run_campaign(*setup, campaign);
-  const Telling telling;
-  fmt::print("{}",
-             options.json
-                 ? io::to_text(io::to_json(campaign_record(report, io::gains_hash(loaded.gains))))
-                 : campaign_summary(report, source_of(options, loaded)));
-  return campaign_exit(report.verdict);
+  const verify::Campaign campaign(
+      *setup, {runs_of(options), options.seed, options.threads, options.confidence});
+  PartFile file;
+  file.part = campaign.begin();
+  file.statement = campaign_statement(file.part.facts, io::gains_hash(loaded.gains));
+  file.source = source_of(options, loaded);
+  file.shard = parse_shard(options.shard);
+  const verify::RunRange range =
+      verify::shard_of(campaign.asked(), file.shard.index, file.shard.of);
+  make_runs(options, campaign, range, file);
+  if (!options.shard.empty()) return write_part(options, campaign, range, file);
+  try {
+    campaign.repeat_worst(file.part);
+  } catch (const Stopped&) {
+    // Then no violation is confirmed.
+  }
+  return tell_campaign(file, options.output, options.json);
 }
 
 }  // namespace
@@ -104,12 +164,27 @@ Command verify_command() {
        Option("--threads", options->threads,
               "threads, 0: one a core; the report does not depend on it")
            .within(0, 1024),
-       Option("--json", options->json, "print the report as JSON")},
-      "Exit code: 0 held, 1 violated, 2 wrong input, 3 undecided or interrupted.\n"
+       shard_option(options->shard,
+                    "make only part I of N of the runs, and write it with -o for 'merge'")
+           .excludes({"--worst"}),
+       Option("--resume", options->resume,
+              "keep in this folder what is done: after a stop of any kind the same command goes on "
+              "from it")
+           .excludes({"--worst"}),
+       Option("-o,--output", options->output,
+              "write the report as JSON here, or the part; - for standard output")
+           .excludes({"--worst"}),
+       Option("--json", options->json, "print the report as JSON").excludes({"--shard"})},
+      "Exit code: 0 held, 1 violated, 2 wrong input, 3 undecided or interrupted. With --shard: 0 "
+      "the "
+      "part\n"
+      "is whole, 3 interrupted.\n"
       "Examples:\n"
       "  gainsmith verify gains.json --runs 10000\n"
       "  gainsmith verify gains.json --probability 1e-4 --confidence 0.999\n"
       "  gainsmith verify gains.json --worst\n"
+      "  gainsmith verify gains.json --runs 1e9 --resume kept\n"
+      "  gainsmith verify gains.json --runs 1e9 --shard 3/8 -o part3.json\n"
       "  gainsmith verify gains.json --json | jq .worst_run",
       [options] { return verify_gains(*options); }};
 }

@@ -34,6 +34,7 @@ class JsonReader {
   bool has(const std::string& key) const;
   bool is_null() const { return value_.is_null(); }
   bool is_list() const { return value_.is_array(); }
+  bool is_text() const { return value_.is_string(); }
 
   std::string text() const;
   double number() const;

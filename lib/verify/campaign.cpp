@@ -41,23 +41,27 @@ class Collector {
   }
 
  private:
-  /// A slow disk takes a small part of the time.
+  /// A kill loses a tenth of what was done at most. A slow disk takes a small part of the time, and
+  /// many programs on one disk do not wear it out.
   void save() {
     if (!save_) return;
-    constexpr Seconds kPause(1);
-    constexpr double kShare = 0.05;
+    constexpr Seconds kLeast(0.2), kMost(10);
+    constexpr double kLost = 0.1, kOfDisk = 0.05;
     const auto begin = Clock::now();
     save_(part_.runs, part_.tally);
     unsaved_ = false;
-    const Seconds pause = std::max(kPause, Seconds(Clock::now() - begin) / kShare);
-    next_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(pause);
+    const auto end = Clock::now();
+    const Seconds usual = std::clamp(kLost * Seconds(end - begin_), kLeast, kMost);
+    const Seconds pause = std::max(usual, Seconds(end - begin) / kOfDisk);
+    next_ = end + std::chrono::duration_cast<Clock::duration>(pause);
   }
 
   std::mutex mutex_;
   CampaignPart& part_;
   const Save& save_;
   bool unsaved_ = false;
-  Clock::time_point next_ = Clock::now();
+  const Clock::time_point begin_ = Clock::now();
+  Clock::time_point next_ = begin_;
 };
 
 /// Makes these runs, or those until the campaign is stopped. Slow runs are handed over as they come.
@@ -107,8 +111,7 @@ CampaignFacts facts_of(const Setup& setup, const CampaignOptions& options) {
   facts.asked = options.runs.value_or(texts.campaign.runs);
   if (facts.different) facts.asked = std::min(facts.asked, *facts.different);
   facts.seed = options.seed.value_or(texts.campaign.seed);
-  if (facts.asked == 0)
-    throw InputError(texts.campaign.place, "a campaign needs at least one run");
+  if (facts.asked == 0) throw InputError(texts.campaign.place, "a campaign needs at least one run");
   facts.confidence = options.confidence;
   facts.horizon = setup.horizon();
   facts.integrated = setup.integrated();

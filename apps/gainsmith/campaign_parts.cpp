@@ -1,0 +1,151 @@
+#include "gainsmith/campaign_parts.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/isa.h"
+#include "base/version.h"
+#include "gainsmith/campaign_json.h"
+#include "gainsmith/campaign_text.h"
+#include "gainsmith/kept_folder.h"
+#include "gainsmith/sealed.h"
+#include "gainsmith/terminal.h"
+#include "io/campaign_json.h"
+#include "verify/campaign.h"
+
+namespace gainsmith::app {
+
+namespace {
+
+constexpr const char* kWhat = "a part that 'gainsmith verify --shard' writes";
+constexpr const char* kKind = "campaign";
+
+std::string range_text(const verify::RunRange& range) {
+  if (range.count() == 1) return fmt::format("run {}", range.first);
+  return fmt::format("runs {} to {}", range.first, range.last - 1);
+}
+
+PartFile read_part(const std::string& file) {
+  const std::string text = read_text(file);
+  const io::Json document = unsealed(text, file, kWhat);
+  const io::JsonReader reader(document, file, text);
+  if (!reader.has("part") || reader.at("part").text() != kKind)
+    throw InputError({file}, std::string("expected ") + kWhat);
+  PartFile read;
+  reader.at("statement");
+  read.statement = document["statement"];
+  // The statement of another version is all that is understood of it.
+  if (read.statement.value("gainsmith", "") != kVersion) return read;
+  read.source = reader.at("source").text();
+  read.shard = parse_shard(reader.at("shard").text());
+  read.part.facts = facts_from(reader.at("campaign"));
+  read_runs(reader.at("runs"), read.part);
+  read_repeats(reader.at("repeats"), read.part);
+  return read;
+}
+
+/// Which file has some of these runs.
+std::string owner_of(const verify::RunRange& range,
+                     const std::vector<std::pair<std::string, verify::RunSet>>& known) {
+  for (const auto& [file, runs] : known)
+    if (verify::RunSet copy = runs; copy.add(range).count() > 0) return file;
+  return "?";
+}
+
+/// The parts of a campaign cut into as many as the first was that have these runs: "3/8, 5/8".
+std::string shards_with(const std::vector<verify::RunRange>& missing, const PartFile& whole) {
+  constexpr int kMost = 5;
+  std::string text;
+  int found = 0;
+  for (std::uint64_t k = 1; k <= whole.shard.of; ++k) {
+    const verify::RunRange shard = verify::shard_of(whole.part.facts.asked, k, whole.shard.of);
+    verify::RunSet own;
+    own.add(shard);
+    bool lacks = false;
+    for (const verify::RunRange& range : missing)
+      lacks = lacks || verify::RunSet(own).add(range).count() > 0;
+    if (!lacks) continue;
+    if (++found > kMost) return text + ", ...";
+    text += (found > 1 ? ", " : "") + to_text(Shard{k, whole.shard.of});
+  }
+  return text;
+}
+
+void require_all_runs(const PartFile& whole) {
+  const auto missing = whole.part.runs.missing_in({0, whole.part.facts.asked});
+  if (missing.empty()) return;
+  throw InputError(
+      {}, fmt::format(
+              "{} {} in no part{}; make what is missing with --shard {}",
+              range_text(missing.front()), missing.front().count() == 1 ? "is" : "are",
+              missing.size() > 1 ? fmt::format(", nor {} other ranges", missing.size() - 1) : "",
+              shards_with(missing, whole)));
+}
+
+}  // namespace
+
+io::Json campaign_statement(const verify::CampaignFacts& facts, const std::string& gains_hash) {
+  // Machines without fused products round otherwise.
+  return {{"gainsmith", kVersion},
+          {"gains_sha256", gains_hash},
+          {"seed", facts.seed},
+          {"runs", facts.asked},
+          {"confidence", facts.confidence},
+          {"machine", isa() == "v2" ? "without fused products" : "with fused products"}};
+}
+
+std::string to_text(const PartFile& file) {
+  return sealed({{"part", kKind},
+                 {"shard", to_text(file.shard)},
+                 {"statement", file.statement},
+                 {"source", file.source},
+                 {"campaign", to_json(file.part.facts)},
+                 {"runs", to_json(file.part.runs, file.part.tally)},
+                 {"repeats", repeats_json(file.part)}});
+}
+
+PartFile merged_parts(const std::vector<std::string>& files) {
+  PartFile whole = read_part(files.front());
+  if (const std::string version = whole.statement.value("gainsmith", ""); version != kVersion)
+    throw InputError({files.front()}, "this part was made by gainsmith " + version +
+                                          ", and this is " + kVersion + ": make it again");
+  std::vector<std::pair<std::string, verify::RunSet>> known{{files.front(), whole.part.runs}};
+  for (std::size_t k = 1; k < files.size(); ++k) {
+    const PartFile next = read_part(files[k]);
+    const std::string different = difference_of(next.statement, whole.statement);
+    if (!different.empty())
+      throw InputError({files[k]},
+                       "this part is of another campaign than " + files.front() + ": " + different);
+    const verify::RunRange twice = add(next.part, whole.part);
+    if (twice.count() > 0)
+      throw InputError({files[k]}, range_text(twice) + " of this part are in " +
+                                       owner_of(twice, known) +
+                                       " too; each run may be in one part only");
+    known.emplace_back(files[k], next.part.runs);
+  }
+  require_all_runs(whole);
+  return whole;
+}
+
+ExitCode tell_campaign(const PartFile& whole, const std::string& output, bool json) {
+  const verify::Report report = verify::conclude(whole.part);
+  const Telling telling;
+  const std::string hash = whole.statement.value("gains_sha256", "");
+  const std::string text = io::to_text(io::to_json(campaign_record(report, hash)));
+  if (!output.empty() && output != "-") write_atomically(output, text);
+  fmt::print("{}", json || output == "-" ? text : campaign_summary(report, whole.source));
+  return campaign_exit(report.verdict);
+}
+
+io::Json kept_json(const verify::RunSet& runs, const verify::Tally& tally) {
+  return to_json(runs, tally);
+}
+
+void take_kept(const io::Json& kept, const std::string& file, verify::CampaignPart& part) {
+  read_runs(io::JsonReader(kept, file), part);
+}
+
+}  // namespace gainsmith::app
