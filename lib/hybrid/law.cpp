@@ -33,7 +33,7 @@ double Law::reset_value(std::size_t jump, double t, RandomStream& random) const 
     case LawKind::extremes:
       return random.uniform() < 0.5 ? low : high;
     case LawKind::sinusoid:
-      return sinusoid(t, low, high);
+      return sinusoid_of(sine(t / high), low, high);
     case LawKind::list:
       return values[jump % values.size()];
     case LawKind::golden: {

@@ -11,9 +11,9 @@
 
 namespace gainsmith::hybrid {
 
-/// The length of the law `sinusoid` at time t.
-inline double sinusoid(double t, double low, double high) {
-  return std::min(std::max((high - low) / 2 * sine(t / high) + (high + low) / 2, low), high);
+/// The length of the law `sinusoid` at time t, of sine(t / high).
+inline double sinusoid_of(double sine, double low, double high) {
+  return std::min(std::max((high - low) / 2 * sine + (high + low) / 2, low), high);
 }
 
 /// A sampling law with its numbers, for reset values in [low, high].

@@ -28,7 +28,8 @@ enum class LaneOp : std::uint8_t {
   multiply_constant_add_last,  ///< constant a * b + last
   multiply_last_add,           ///< last b + c
   copy,
-  polynomial,  ///< by Horner's rule: of register a, with the c + 1 constants from constant b on
+  polynomial,  ///< of register a, with the c + 1 constants from constant b on, the highest power first;
+               ///< even and odd powers by Horner's rule of the square
   divide,
   negate,
   minimum,  ///< b < a ? b : a
@@ -59,14 +60,23 @@ struct LaneStep {
 using RunSteps = const LaneStep* (*)(const LaneStep* step, const LaneStep* end,
                                      const double* constants, double* registers, double* faults);
 
-/// Draw `draw` of the streams (key, runs[l]) of base/random.h, uniform in [0, 1), of all lanes.
+/// low + width u of all lanes, u draw `draw` of the streams (key, runs[l]) of base/random.h, uniform
+/// in [0, 1).
 using Uniforms = void (*)(std::uint64_t key, const std::uint64_t* runs, std::uint64_t draw,
-                          double* out);
+                          double low, double width, double* out);
+
+/// The sine of base/sine.h of all lanes, in place.
+using Sines = void (*)(double* x);
+
+/// The lanes in which x < bound does not hold, as bits.
+using Reached = std::uint32_t (*)(const double* x, double bound);
 
 struct Variant {
   const char* name;
   RunSteps run;
   Uniforms uniforms;
+  Sines sines;
+  Reached reached;
 };
 
 /// The best that this machine has, or that GAINSMITH_ISA names: v2, v3 or v4. InputError for

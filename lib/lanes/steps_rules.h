@@ -2,6 +2,7 @@
 // Nothing here may be shared with other sources: it is compiled for other machines than they are.
 #include <immintrin.h>
 
+#include "base/sine.h"
 #include "lanes/steps.h"
 
 namespace gainsmith::lanes {
@@ -209,23 +210,43 @@ inline void each(const LaneStep& step, double* registers, Last& last, const Oper
   store(step, registers, last);
 }
 
+/// Even and odd powers apart, so that twice as many sums are under way: `chunk` vectors at a time.
 inline void polynomial(const LaneStep& step, const double* constants, double* registers,
                        Last& last) {
+  constexpr std::size_t chunk = kVectors < 4 ? kVectors : 4;
   const V* const a = reinterpret_cast<const V*>(registers + step.a * kLanes);
-  const double* k = constants + step.b;
-  Last x, sum;
-#pragma GCC unroll 16
-  for (std::size_t v = 0; v < kVectors; ++v) {
-    x.part[v] = a[v];
-    sum.part[v] = all(*k);
+#pragma GCC unroll 4
+  for (std::size_t first = 0; first < kVectors; first += chunk) {
+    const double* k = constants + step.b;
+    const double* const end = k + step.c;
+    V square[chunk], one[chunk], other[chunk];
+    const V highest = all(*k), next = all(*++k);
+#pragma GCC unroll 4
+    for (std::size_t v = 0; v < chunk; ++v) {
+      square[v] = a[first + v] * a[first + v];
+      one[v] = highest;
+      other[v] = next;
+    }
+    for (; end - k >= 2; k += 2) {
+      const V even = all(k[1]), odd = all(k[2]);
+#pragma GCC unroll 4
+      for (std::size_t v = 0; v < chunk; ++v) {
+        one[v] = multiply_add(one[v], square[v], even);
+        other[v] = multiply_add(other[v], square[v], odd);
+      }
+    }
+    if (k == end) {
+#pragma GCC unroll 4
+      for (std::size_t v = 0; v < chunk; ++v)
+        last.part[first + v] = multiply_add(one[v], a[first + v], other[v]);
+    } else {
+      const V constant = all(k[1]);
+#pragma GCC unroll 4
+      for (std::size_t v = 0; v < chunk; ++v)
+        last.part[first + v] =
+            multiply_add(other[v], a[first + v], multiply_add(one[v], square[v], constant));
+    }
   }
-  for (const double* const end = k + step.c; k != end;) {
-    const V next = all(*++k);
-#pragma GCC unroll 16
-    for (std::size_t v = 0; v < kVectors; ++v)
-      sum.part[v] = multiply_add(sum.part[v], x.part[v], next);
-  }
-  last = sum;
   store(step, registers, last);
 }
 
@@ -241,32 +262,57 @@ inline U multiply_low(U a, U b) {
 }
 
 /// Philox4x32-10 (base/random.h) of a vector of counters, each word in the low half of 64 bits.
-void uniforms(std::uint64_t key, const std::uint64_t* runs, std::uint64_t draw, double* out) {
-  const U low = all_bits(0xFFFFFFFFULL);
+void uniforms(std::uint64_t key, const std::uint64_t* runs, std::uint64_t draw, double low,
+              double width, double* out) {
+  const U half = all_bits(0xFFFFFFFFULL);
   for (std::size_t v = 0; v < kVectors; ++v) {
     U run;
     __builtin_memcpy(&run, runs + v * kWidth, sizeof run);
     U w0 = all_bits(draw & 0xFFFFFFFFULL), w1 = all_bits(draw >> 32U);
-    U w2 = run & low, w3 = run >> 32;
+    U w2 = run & half, w3 = run >> 32;
     std::uint32_t k0 = static_cast<std::uint32_t>(key), k1 = static_cast<std::uint32_t>(key >> 32U);
     for (int round = 0; round < 10; ++round) {
       const U p0 = multiply_low(w0, all_bits(0xD2511F53ULL));
       const U p1 = multiply_low(w2, all_bits(0xCD9E8D57ULL));
       w0 = (p1 >> 32) ^ w1 ^ all_bits(k0);
-      w1 = p1 & low;
+      w1 = p1 & half;
       w2 = (p0 >> 32) ^ w3 ^ all_bits(k1);
-      w3 = p0 & low;
+      w3 = p0 & half;
       k0 += 0x9E3779B9U;
       k1 += 0xBB67AE85U;
     }
     // 53 bits as two whole numbers behind the exponents of 2^52 and 2^84.
     const U bits = ((w0 << 32) | w1) >> 11;
     const V high = __builtin_bit_cast(V, (bits >> 32) | all_bits(0x4530000000000000ULL));
-    const V rest = __builtin_bit_cast(V, (bits & low) | all_bits(0x4330000000000000ULL));
+    const V rest = __builtin_bit_cast(V, (bits & half) | all_bits(0x4330000000000000ULL));
     const V number = (high - all(0x1p84)) + (rest - all(0x1p52));
-    const V value = number * all(0x1p-53);
+    const V value = all(low) + all(width) * (number * all(0x1p-53));
     __builtin_memcpy(out + v * kWidth, &value, sizeof value);
   }
+}
+
+void sines(double* x) {
+  V* const all_of = reinterpret_cast<V*>(x);
+#pragma GCC unroll 4
+  for (std::size_t v = 0; v < kVectors; ++v) all_of[v] = gainsmith::sine(all_of[v]);
+}
+
+std::uint32_t reached(const double* x, double bound) {
+  const V* const all_of = reinterpret_cast<const V*>(x);
+  std::uint32_t bits = 0;
+#pragma GCC unroll 16
+  for (std::size_t v = 0; v < kVectors; ++v) {
+#if defined(__AVX512F__)
+    const unsigned before = _mm512_cmp_pd_mask(all_of[v], all(bound), _CMP_LT_OQ);
+#elif defined(__AVX2__)
+    const auto before =
+        static_cast<unsigned>(_mm256_movemask_pd(_mm256_cmp_pd(all_of[v], all(bound), _CMP_LT_OQ)));
+#else
+    const auto before = static_cast<unsigned>(_mm_movemask_pd(_mm_cmplt_pd(all_of[v], all(bound))));
+#endif
+    bits |= before << (v * kWidth);
+  }
+  return ~bits;
 }
 
 const LaneStep* run(const LaneStep* step, const LaneStep* end, const double* constants,
@@ -378,6 +424,6 @@ const LaneStep* run(const LaneStep* step, const LaneStep* end, const double* con
 }  // namespace
 
 extern const Variant GAINSMITH_VARIANT;
-const Variant GAINSMITH_VARIANT{GAINSMITH_VARIANT_NAME, run, uniforms};
+const Variant GAINSMITH_VARIANT{GAINSMITH_VARIANT_NAME, run, uniforms, sines, reached};
 
 }  // namespace gainsmith::lanes

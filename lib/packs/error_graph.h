@@ -71,6 +71,11 @@ class Sizes {
   std::vector<std::vector<double>> size_, error_;
 };
 
+/// Of M v with M computed, as a part of |M| |v|.
+inline double rounding_of_product(std::size_t columns) {
+  return (static_cast<double>(columns) + 4) * kUnitRoundoff;
+}
+
 /// Nodes of numbers and of bounds of their errors.
 class ErrorGraph {
  public:
@@ -125,16 +130,16 @@ class ErrorGraph {
   }
 
   /// M v of the functions from `next` on, `rows` times as many as v; what their errors and rounding
-  /// add to that of v, with more rounding `beside`; and M, |M|.
+  /// add to that of v; and M, |M|.
   struct Product {
     Nodes value, added;
     std::vector<Nodes> M;
     std::vector<std::vector<double>> sizes;
   };
   Product product(const LengthTable& table, std::size_t& next, int sigma, std::size_t rows,
-                  const Numbers& v, double beside = 0) {
+                  const Numbers& v) {
     Product made;
-    const double rounding = (static_cast<double>(v.count()) + 4) * kUnitRoundoff + beside;
+    const double rounding = rounding_of_product(v.count());
     for (std::size_t i = 0; i < rows; ++i) {
       int value = constant(0), added = constant(kTiny);
       made.M.emplace_back();
@@ -156,19 +161,26 @@ class ErrorGraph {
 
   /// v'F v with F the functions from `next` on.
   Known form(const LengthTable& table, std::size_t& next, int sigma, const Numbers& v) {
-    Known made{constant(0), 0};
-    Sizes sizes(v.count());
-    for (std::size_t j = 0; j < v.count(); ++j) {
+    std::size_t same = next;
+    const int error = form_error(table, same, v);
+    return {form_value(table, next, sigma, v.value), error};
+  }
+  int form_value(const LengthTable& table, std::size_t& next, int sigma, const Nodes& v) {
+    int value = constant(0);
+    for (std::size_t j = 0; j < v.size(); ++j) {
       int sum = constant(0);
-      for (std::size_t i = 0; i <= j; ++i, ++next) {
-        const LengthTable::Polynomial& function = table.functions[next];
-        sum = add(multiply(polynomial(table, next, sigma), v.value[i]), sum);
-        sizes.set(i, j, function.size, function.error);
-      }
-      made.value = add(multiply(sum, v.value[j]), made.value);
+      for (std::size_t i = 0; i <= j; ++i, ++next)
+        sum = add(multiply(polynomial(table, next, sigma), v[i]), sum);
+      value = add(multiply(sum, v[j]), value);
     }
-    made.error = error(sizes, v);
-    return made;
+    return value;
+  }
+  int form_error(const LengthTable& table, std::size_t& next, const Numbers& v) {
+    Sizes sizes(v.count());
+    for (std::size_t j = 0; j < v.count(); ++j)
+      for (std::size_t i = 0; i <= j; ++i, ++next)
+        sizes.set(i, j, table.functions[next].size, table.functions[next].error);
+    return error(sizes, v);
   }
   /// v'Q v with a constant Q.
   Known form(const Wide& Q, const Numbers& v) {

@@ -23,8 +23,7 @@ void LaneLengths::begin(std::uint64_t seed, const LaneRuns& runs) {
   } else {
     const auto [low, high] = *clock_->first;
     lanes::variant().uniforms(hybrid::stream_key(seed, hybrid::Purpose::first, 0), runs_.data(), 0,
-                              length_.data());
-    for (double& one : length_) one = low == high ? low : low + (high - low) * one;
+                              low, high - low, length_.data());
   }
   due_ = first_ = length_;
 }
@@ -37,12 +36,11 @@ void LaneLengths::draw_lengths(std::uint64_t number) {
   }
   const LawKind kind = law_ == nullptr ? LawKind::uniform : law_->kind;
   if (kind == LawKind::uniform || kind == LawKind::extremes) {
-    lanes::variant().uniforms(key_, runs_.data(), drawn_++, length_.data());
-    if (kind == LawKind::uniform) {
-      for (double& one : length_) one = low + (high - low) * one;
-    } else {
+    const bool between = kind == LawKind::uniform;
+    lanes::variant().uniforms(key_, runs_.data(), drawn_++, between ? low : 0,
+                              between ? high - low : 1, length_.data());
+    if (!between)
       for (double& one : length_) one = one < 0.5 ? low : high;
-    }
     return;
   }
   // Without draws.
@@ -51,7 +49,9 @@ void LaneLengths::draw_lengths(std::uint64_t number) {
     length_.fill(law_->reset_value(number, 0, none));
     return;
   }
-  for (std::size_t l = 0; l < kLanes; ++l) length_[l] = hybrid::sinusoid(due_[l], low, high);
+  for (std::size_t l = 0; l < kLanes; ++l) length_[l] = due_[l] / high;
+  lanes::variant().sines(length_.data());
+  for (double& one : length_) one = hybrid::sinusoid_of(one, low, high);
 }
 
 void LaneLengths::advance() {

@@ -34,7 +34,7 @@ class LaneLengths {
   LaneRuns runs_{};
   std::uint64_t key_ = 0;  ///< of the stream of lengths
   std::uint64_t occurrences_ = 0, numbers_ = 0, drawn_ = 0;
-  LaneNumbers length_{}, due_{}, first_{};
+  alignas(64) LaneNumbers length_{}, due_{}, first_{};
 };
 
 }  // namespace gainsmith::packs

@@ -94,13 +94,13 @@ Series in_powers(const Series& series, std::size_t degree) {
   return powers;
 }
 
-/// The series to where the rest is below rounding, and that rest.
+/// The series to where the rest is negligible, and that rest.
 std::size_t cut_degree(const Series& series, double& rest) {
   double most = 0;
   for (const Decimal100& one : series) most = std::max(most, size_of(one));
   std::size_t degree = series.size() - 1;
   rest = 0;
-  while (degree > 0 && rest + size_of(series[degree]) <= kUnitRoundoff / 16 * most)
+  while (degree > 0 && rest + size_of(series[degree]) <= kLengthRest * most)
     rest += size_of(series[degree--]);
   return degree;
 }
@@ -154,8 +154,9 @@ LengthTable rounded(const WideTable& wide) {
       made.powers.push_back(static_cast<double>(wide.powers[f][k]));
       const double size = std::abs(made.powers.back());
       made.size += size;
-      // The coefficient, k products and sums, and sigma^k, each factor of which is rounded twice.
-      made.error += (4 * static_cast<double>(k) + 2) * kUnitRoundoff * size;
+      // The coefficient, at most 2 k + 2 products and sums, and sigma^k, each factor of which is
+      // rounded twice.
+      made.error += (4 * static_cast<double>(k) + 3) * kUnitRoundoff * size;
     }
     made.size += made.error;
   }

@@ -2,8 +2,8 @@
 //
 //   f_k(s) = sum_i c_ki sigma^i,   sigma = (s - middle) scale in [-1, 1],   s in [from, to]
 //
-// They are interpolated at Chebyshev points in 100 digits, cut where what is left falls below
-// rounding, and rounded once. The functions must be smooth: those of linear flows are entire.
+// They are interpolated at Chebyshev points in 100 digits, cut where what is left is negligible, and
+// rounded once. The error of both is known. The functions must be smooth: those of linear flows are entire.
 #pragma once
 
 #include <functional>
@@ -22,8 +22,8 @@ using WideFunctions = std::function<std::vector<Decimal100>(const Decimal100& le
 struct LengthTable {
   struct Polynomial {
     std::vector<double> powers;  ///< c_0, c_1, ...
-    double error = 0;  ///< of Horner's rule in double, with sigma in double, over the range
-    double size = 0;   ///< at least |f| over the range
+    double error = 0;            ///< as lanes compute it, with sigma in double, over the range
+    double size = 0;             ///< at least |f| over the range
   };
   double middle = 0;
   double scale = 0;  ///< 0: there is one length, `middle`

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "packs/error_graph.h"
+#include "packs/linear_block.h"
 
 namespace gainsmith::packs {
 
@@ -72,24 +73,59 @@ void add_cost(const Known& cost, Nodes& claim, ErrorGraph& graph) {
   claim[1] = graph.add(cost.error, claim[1]);
 }
 
-/// The claims over a flow and the jump at its end. `values`: gets those just after its start.
-void follow_claims(const LinearSystem& system, const LengthTable& table, std::size_t next,
-                   int sigma, const Numbers& v, std::vector<Nodes>& claims, Nodes* values,
-                   ErrorGraph& graph) {
-  const std::size_t size = v.count() * (v.count() + 1) / 2;
+/// A form of z with the error that the claim has in this block.
+Known form_in_block(const LengthTable& table, std::size_t& next, int sigma, const Nodes& z,
+                    const Nodes& claim, ErrorGraph& graph) {
+  return {graph.form_value(table, next, sigma, z), claim[kBlockError]};
+}
+
+/// The claims over the first flow and the jump at its end, and their values just after its start.
+Nodes start_claims(const LinearSystem& system, const LengthTable& table, std::size_t next,
+                   int sigma, const Numbers& xi, std::vector<Nodes>& claims, ErrorGraph& graph) {
+  Nodes values;
   for (std::size_t c = 0; c < claims.size(); ++c) {
-    const bool compared = is_compared(system.model.claims[c]);
-    if (values == nullptr && !compared) {
-      next += size;
-    } else {
-      const Known start = graph.form(table, next, sigma, v);
-      if (values != nullptr) values->insert(values->end(), {start.value, start.error});
-      if (values == nullptr) compare(start, claims[c], graph);
-    }
-    // It has fallen along the flow.
-    if (compared) keep_least(graph.form(table, next, sigma, v), claims[c], graph);
+    const Known start = graph.form(table, next, sigma, xi);
+    values.insert(values.end(), {start.value, start.error});
+    if (is_compared(system.model.claims[c]))
+      keep_least(graph.form(table, next, sigma, xi), claims[c], graph);
     if (system.model.claims[c].kind == ClaimKind::cost)
-      add_cost(graph.form(table, next, sigma, v), claims[c], graph);
+      add_cost(graph.form(table, next, sigma, xi), claims[c], graph);
+  }
+  return values;
+}
+
+/// The claims over another flow and the jump at its end.
+void follow_claims(const LinearSystem& system, const LengthTable& table, std::size_t next,
+                   int sigma, const Nodes& z, std::vector<Nodes>& claims, ErrorGraph& graph) {
+  const std::size_t size = z.size() * (z.size() + 1) / 2;
+  for (std::size_t c = 0; c < claims.size(); ++c) {
+    if (is_compared(system.model.claims[c])) {
+      compare(form_in_block(table, next, sigma, z, claims[c], graph), claims[c], graph);
+      // It has fallen along the flow.
+      keep_least(form_in_block(table, next, sigma, z, claims[c], graph), claims[c], graph);
+    } else {
+      next += size;
+    }
+    if (system.model.claims[c].kind == ClaimKind::cost)
+      claims[c][0] = graph.add(graph.form_value(table, next, sigma, z), claims[c][0]);
+  }
+}
+
+/// The errors of claims over a block, with bounds of z and its errors for all its flows.
+void bound_claims(const LinearSystem& system, const LengthTable& table, std::size_t next,
+                  const Numbers& z, std::vector<Nodes>& claims, ErrorGraph& graph) {
+  const std::size_t size = z.count() * (z.count() + 1) / 2;
+  for (std::size_t c = 0; c < claims.size(); ++c) {
+    if (is_compared(system.model.claims[c])) {
+      const int start = graph.form_error(table, next, z);
+      claims[c][kBlockError] = graph.maximum(start, graph.form_error(table, next, z));
+    } else {
+      next += size;
+    }
+    if (system.model.claims[c].kind == ClaimKind::cost)
+      claims[c][1] = graph.add(graph.scaled(static_cast<double>(system.flows_of_block),
+                                            graph.form_error(table, next, z)),
+                               claims[c][1]);
   }
 }
 
@@ -103,50 +139,48 @@ lanes::LaneCode first_code(const LinearSystem& system, const LengthTable& table)
   Carried carried{z.value, Nodes(system.rank * system.rank, graph.constant(0)), z.added, {}};
   const int most = graph.constant(1e300), least = graph.constant(-1e300), zero = graph.constant(0);
   for (const CarriedClaim& claim : system.claims)
-    carried.claims.push_back(claim.count == 4   ? Nodes{most, most, least, least}
-                             : claim.count == 2 ? Nodes{zero, zero}
-                                                : Nodes{});
-  Nodes values;
-  follow_claims(system, table, next, sigma, xi, carried.claims, &values, graph);
+    carried.claims.push_back(claim.count == kComparedNumbers ? Nodes{most, most, least, least, zero}
+                             : claim.count == kCostNumbers   ? Nodes{zero, zero}
+                                                             : Nodes{});
+  const Nodes values = start_claims(system, table, next, sigma, xi, carried.claims, graph);
   return graph.code({all_of(carried), values});
 }
 
 lanes::LaneCode step_code(const LinearSystem& system, const LengthTable& table) {
   ErrorGraph graph(system.model.constant);
   const std::size_t r = system.rank;
-  const int length = graph.input(), root = graph.input();
+  const int length = graph.input();
   Carried carried = carried_inputs(system, graph);
   const int sigma = graph.sigma(table, length);
-  const Numbers z = known_z(system, carried, root, graph);
+  const Nodes z = graph.exact(carried.z).value;
   // Claims first, so that what they read may then be written over.
-  const std::size_t maps = r * z.count();
-  follow_claims(system, table, maps, sigma, z, carried.claims, nullptr, graph);
-  // The rounding of M G is a part of the sizes of z, as that of M z is.
-  std::size_t next = 0;
-  const double rounding = 4 * (static_cast<double>(r) + 2) * kUnitRoundoff;
-  const ErrorGraph::Product moved = graph.product(table, next, sigma, r, z, rounding);
+  const std::size_t maps = r * z.size();
+  follow_claims(system, table, maps, sigma, z, carried.claims, graph);
   Carried after = carried;
-  after.z = moved.value;
+  const auto dot = [&](const Nodes& row, const auto& element, std::size_t count) {
+    int sum = graph.constant(0);
+    for (std::size_t k = 0; k < count; ++k)
+      sum = graph.add(graph.multiply(row[k], element(k)), sum);
+    return sum;
+  };
+  std::size_t next = 0;
   for (std::size_t i = 0; i < r; ++i) {
-    after.b[i] = moved.added[i];
-    for (std::size_t k = 0; k < r; ++k)
-      after.b[i] = graph.add(graph.scaled(moved.sizes[i][k], carried.b[k]), after.b[i]);
-    for (std::size_t j = 0; j < r; ++j) {
-      int sum = graph.constant(0);
-      for (std::size_t k = 0; k < r; ++k)
-        sum = graph.add(graph.multiply(moved.M[i][k], carried.G[j * r + k]), sum);
-      after.G[j * r + i] = sum;
-    }
+    Nodes row;
+    for (std::size_t j = 0; j < z.size(); ++j)
+      row.push_back(graph.polynomial(table, next++, sigma));
+    after.z[i] = dot(
+        row, [&](std::size_t k) { return z[k]; }, z.size());
+    for (std::size_t j = 0; j < r; ++j)
+      after.G[j * r + i] = dot(
+          row, [&](std::size_t k) { return carried.G[j * r + k]; }, r);
   }
-  return graph.code({all_of(after)}, 2);
+  return graph.code({all_of(after)}, 1);
 }
 
-/// R of [G, sqrt(r) diag(b)]' = Q R by Gram and Schmidt: R' is the new G.
-lanes::LaneCode gather_code(const LinearSystem& system) {
-  ErrorGraph graph(system.model.constant);
+/// R of [G, sqrt(r) diag(b)]' = Q R by Gram and Schmidt, by rows.
+std::vector<Nodes> triangulated(const LinearSystem& system, const Carried& carried,
+                                ErrorGraph& graph) {
   const std::size_t r = system.rank;
-  const int scale = graph.input(), root = graph.input();
-  Carried carried = carried_inputs(system, graph);
   const double spread = std::sqrt(static_cast<double>(r)) * bounded::kBoundSlack;
   std::vector<Nodes> columns;  // of the matrix on the left: rows of G, then of b
   for (std::size_t i = 0; i < r; ++i) {
@@ -171,21 +205,61 @@ lanes::LaneCode gather_code(const LinearSystem& system) {
         columns[k][e] = graph.subtract(columns[k][e], graph.multiply(R[j][k], columns[j][e]));
     }
   }
+  return R;
+}
+
+/// rho, and what b is at the start of a block: the rounding of R. Then b, and z with its bounds, over
+/// the block.
+Numbers over_block(const LinearSystem& system, const BlockBounds& bounds, int root,
+                   Carried& carried, ErrorGraph& graph) {
+  const std::size_t r = system.rank;
   const double rounding = 200 * static_cast<double>(r * r) * kUnitRoundoff;
+  Nodes rho, size, b;
+  for (std::size_t i = 0; i < r; ++i) {
+    rho.push_back(graph.multiply(root, row_of(system, carried.G, i, graph)));
+    b.push_back(graph.add(graph.scaled(rounding, rho[i]), graph.constant(16 * kLeastRow)));
+    size.push_back(graph.add(graph.add(graph.abs(carried.z[i]), rho[i]), b[i]));
+  }
+  if (system.model.constant) size.push_back(graph.constant(1));
+  const auto grown = [&](const numbers::Matrix& by, std::size_t i, const Nodes& of, int sum) {
+    for (std::size_t k = 0; k < of.size(); ++k) {
+      const double one = by(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
+      if (one != 0) sum = graph.add(graph.scaled(one, of[k]), sum);
+    }
+    return sum;
+  };
+  Numbers z;
+  for (std::size_t i = 0; i < r; ++i) {
+    const int zero = graph.constant(0);
+    carried.b[i] = grown(bounds.added, i, size, grown(bounds.growth, i, b, zero));
+    z.value.push_back(carried.z[i]);
+    z.radius.push_back(grown(bounds.growth, i, rho, carried.b[i]));
+    z.size.push_back(grown(bounds.growth, i, size, zero));
+  }
+  graph.append_one(z);
+  return z;
+}
+
+/// R' is the new G.
+lanes::LaneCode gather_code(const LinearSystem& system, const LengthTable& table) {
+  ErrorGraph graph(system.model.constant);
+  const std::size_t r = system.rank;
+  const int scale = graph.input();
+  const int root = graph.scaled(bounded::kBoundSlack, graph.input());
+  Carried carried = carried_inputs(system, graph);
+  const std::vector<Nodes> R = triangulated(system, carried, graph);
   for (std::size_t i = 0; i < r; ++i) {
     carried.z[i] = graph.multiply(carried.z[i], scale);
-    int sizes = graph.constant(0);
-    for (std::size_t j = 0; j < r; ++j) {
-      const int one = j <= i ? graph.multiply(R[j][i], scale) : graph.constant(0);
-      carried.G[j * r + i] = one;
-      sizes = graph.add(graph.abs(one), sizes);
-    }
-    carried.b[i] = graph.add(graph.scaled(rounding, graph.multiply(sizes, root)),
-                             graph.constant(16 * kLeastRow));
+    for (std::size_t j = 0; j < r; ++j)
+      carried.G[j * r + i] = j <= i ? graph.multiply(R[j][i], scale) : graph.constant(0);
   }
   const int square = graph.multiply(scale, scale);
   for (Nodes& claim : carried.claims)
     for (int& one : claim) one = graph.multiply(one, square);
+  const Numbers z =
+      over_block(system, block_bounds(table, r, system.model.constant, system.flows_of_block), root,
+                 carried, graph);
+  bound_claims(system, table, r * z.count(), z, carried.claims, graph);
   return graph.code({all_of(carried)});
 }
 
@@ -246,7 +320,7 @@ lanes::LaneCode last_code(const LinearSystem& system, const LinearTables& tables
 void add_code(const LinearTables& tables, LinearSystem& system) {
   system.first.emplace(first_code(system, tables.first));
   system.step.emplace(step_code(system, tables.step));
-  system.gather.emplace(gather_code(system));
+  system.gather.emplace(gather_code(system, tables.step));
   system.last.emplace(last_code(system, tables));
 }
 

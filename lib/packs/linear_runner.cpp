@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 #include "base/stop.h"
@@ -33,8 +34,7 @@ class LaneStarts {
         const double width = rule.values[1](element.element) - low;
         lanes::variant().uniforms(
             hybrid::stream_key(seed, hybrid::Purpose::start, element.variable), runs.data(),
-            static_cast<std::uint64_t>(element.element), out);
-        for (std::size_t l = 0; l < kLanes; ++l) out[l] = low + width * out[l];
+            static_cast<std::uint64_t>(element.element), low, width, out);
       } else if (rule.kind == model::StartKind::list) {
         for (std::size_t l = 0; l < kLanes; ++l)
           out[l] = rule.values[runs[l] % rule.values.size()](element.element);
@@ -99,13 +99,13 @@ class LinearLanes {
 
  private:
   // Inputs of the code.
-  static constexpr std::size_t kFirstXi = 1, kStepCarried = 2, kGatherCarried = 2, kLastCarried = 4;
+  static constexpr std::size_t kFirstXi = 1, kStepCarried = 1, kGatherCarried = 2, kLastCarried = 4;
 
   void make(std::uint64_t seed, const LaneRuns& runs, std::size_t count) {
     check_stop();
     begin(seed, runs, count);
     for (std::int64_t flows = 1; running_ != 0; ++flows) {
-      if ((flows - 1) % system_.flows_of_box == 0) {
+      if ((flows - 1) % system_.flows_of_block == 0) {
         check_stop();
         gather();
       }
@@ -161,9 +161,12 @@ class LinearLanes {
     if ((flows + 1) * longest_ < horizon) return;
     const LaneNumbers& due = lengths_.due();
     std::uint32_t ended = 0;
-    for (std::size_t l = 0; l < kLanes; ++l)
-      if (t_[l] >= horizon || due[l] > latest) ended |= 1U << l;
-    ended &= running_;
+    for (std::uint32_t left = lanes::variant().reached(due.data(), horizon) & running_; left != 0;
+         left &= left - 1) {
+      const int l = std::countr_zero(left);
+      const auto at = static_cast<std::size_t>(l);
+      if (t_[at] >= horizon || due[at] > latest) ended |= 1U << l;
+    }
     running_ &= ~ended;
     for (std::size_t l = 0; ended != 0 && l < kLanes; ++l) {
       if ((ended >> l & 1U) == 0) continue;
@@ -172,19 +175,18 @@ class LinearLanes {
       last_.input(0)[l] = rest;
       last_.input(1)[l] = length;
       last_.input(2)[l] = length - rest;
-      last_.input(3)[l] = step_.input(1)[l];
+      last_.input(3)[l] = root_;
       for (std::size_t k = 0; k < system_.carried; ++k)
         last_.input(kLastCarried + k)[l] = step_.input(kStepCarried + k)[l];
       flows_[l] = flows;
     }
   }
 
-  /// Costs go to their sums; z near 1; new errors into G.
+  /// A block begins: z near 1, new errors in G.
   void gather() {
     ++gathered_;
     const double root = std::sqrt(static_cast<double>(gathered_));
-    for (std::size_t c = 0; c < system_.claims.size(); ++c)
-      if (system_.model.claims[c].kind == ClaimKind::cost) add_costs(c);
+    root_ = root * bounded::kBoundSlack;
     rescale(gather_.input(0));
     std::fill_n(gather_.input(1), kLanes, root);
     for (std::size_t k = 0; k < system_.carried; ++k)
@@ -193,18 +195,18 @@ class LinearLanes {
     open_ |= gather_.faults() & running_;
     for (std::size_t k = 0; k < system_.carried; ++k)
       std::copy_n(gather_.result(0, k), kLanes, step_.input(kStepCarried + k));
-    std::fill_n(step_.input(1), kLanes, root * bounded::kBoundSlack);
   }
 
-  void add_costs(std::size_t c) {
-    double* const sum = step_.input(kStepCarried + system_.claims[c].first);
-    double* const error = step_.input(kStepCarried + system_.claims[c].first + 1);
-    for (std::size_t l = 0; l < kLanes; ++l) {
-      if ((running_ >> l & 1U) == 0) continue;
-      const double unit = unit_of(l);
-      costs_[c].sum[l] += unit * sum[l];
-      costs_[c].error[l] += unit * error[l];
-      sum[l] = error[l] = 0;
+  /// What has been added in another unit than what comes.
+  void keep_costs(std::size_t l) {
+    const double unit = unit_of(l);
+    for (std::size_t c = 0; c < system_.claims.size(); ++c) {
+      if (system_.model.claims[c].kind != ClaimKind::cost) continue;
+      double& sum = step_.input(kStepCarried + system_.claims[c].first)[l];
+      double& error = step_.input(kStepCarried + system_.claims[c].first + 1)[l];
+      costs_[c].sum[l] += unit * sum;
+      costs_[c].error[l] += unit * error;
+      sum = error = 0;
     }
   }
 
@@ -229,6 +231,7 @@ class LinearLanes {
       if (most[l] < 1 / far) open_ |= 1U << l;
       int exponent = 0;
       std::frexp(most[l], &exponent);
+      keep_costs(l);
       exponent_[l] -= exponent;
       scale[l] = std::ldexp(1.0, -exponent);
     }
@@ -292,6 +295,7 @@ class LinearLanes {
   std::uint64_t first_run_ = 0;
   std::uint32_t running_ = 0, open_ = 0;
   std::uint64_t gathered_ = 0;
+  double root_ = 0;
   std::array<int, kLanes> exponent_{};  ///< z is 2^exponent times the true one
   LaneNumbers t_{}, flows_{};
   std::vector<Costs> costs_;

@@ -187,12 +187,12 @@ double growth_of(const LengthTable& step, std::size_t rank, std::size_t columns)
   return growth;
 }
 
-/// So many that the box grows by kMostGrowth at most, and kMostFlowsOfBox at most.
-std::int64_t flows_of_box(double growth) {
-  if (growth <= 1) return kMostFlowsOfBox;
+/// So many that errors grow by kMostGrowth at most, and kMostFlowsOfBlock at most.
+std::int64_t flows_of_block(double growth) {
+  if (growth <= 1) return kMostFlowsOfBlock;
   const double flows = std::log(kMostGrowth) / std::log(growth);
   return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::min(flows, 1e3)), 1,
-                                  kMostFlowsOfBox);
+                                  kMostFlowsOfBlock);
 }
 
 std::optional<LengthTable> table(double from, double to, const WideFunctions& functions) {
@@ -214,7 +214,9 @@ std::unique_ptr<const LinearSystem> make_linear_system(LinearModel given) {
   system->rank = model.jump_rows.size();
   system->carried = system->rank * (system->rank + 2);
   for (const LinearClaim& claim : model.claims) {
-    const std::size_t count = is_compared(claim) ? 4 : claim.kind == ClaimKind::cost ? 2 : 0;
+    const std::size_t count = is_compared(claim)              ? kComparedNumbers
+                              : claim.kind == ClaimKind::cost ? kCostNumbers
+                                                              : 0;
     system->claims.push_back({system->carried, count});
     system->carried += count;
   }
@@ -231,8 +233,8 @@ std::unique_ptr<const LinearSystem> make_linear_system(LinearModel given) {
   const auto left =
       table(0, model.high, [&](const Decimal100& tau) { return functions.factors()(tau); });
   if (!first || !step || !rest || !length || !left) return nullptr;
-  system->flows_of_box =
-      flows_of_box(growth_of(*step, system->rank, static_cast<std::size_t>(model.B.cols())));
+  system->flows_of_block =
+      flows_of_block(growth_of(*step, system->rank, static_cast<std::size_t>(model.B.cols())));
   add_code({*first, *step, *rest, *length, *left}, *system);
   return system;
 }

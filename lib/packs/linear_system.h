@@ -9,18 +9,21 @@
 // so all that a run needs are polynomials of s (length_table.h), 100 digits rounded once. The error
 // e of z has e+ = M e + d with |d| <= K (|z| + r), r bounds of e, K constant. They are
 //
-//   r_i = root |row i of G| + b_i,   G+ = M G,   b+ = |M| b + K (|z| + r) + the rounding of G
+//   r_i = root |row i of G| + b_i,   G+ = M G,   root^2 the number of errors that G holds
 //
-// with root^2 the number of errors that G holds (bounded/error_ellipsoid.h); `gather` makes one more
-// of b, every few flows, and scales all by a power of 2. A form has the error that its
-// table, its rounding and r make of it.
+// (bounded/error_ellipsoid.h). Every few flows, a block, `gather` makes one more error of b, scales
+// all by a power of 2, and bounds for all flows of the next block at once (linear_block.h)
+//
+//   b, which no flow of the block makes larger
+//   the errors that forms have by their tables, their rounding and r
 //
 // What a lane carries from flow to flow: z, G by columns, b, and of each claim
 //
 //   nonincreasing   low, high    the least v - error and v + error so far; nothing where it falls
 //                                in all runs
 //                   open, rise   the largest (v + error) - low and (v - error) - high so far
-//   cost            sum, error
+//                   error        of v, in this block
+//   cost            sum, error   with that of the whole block
 #pragma once
 
 #include <memory>
@@ -30,6 +33,11 @@
 #include "packs/linear_model.h"
 
 namespace gainsmith::packs {
+
+/// How many numbers a lane carries of a claim that is compared at jumps, and of a cost.
+constexpr std::size_t kComparedNumbers = 5, kCostNumbers = 2;
+/// Which of the former is the error in this block.
+constexpr std::size_t kBlockError = 4;
 
 /// Of the numbers that a lane carries.
 struct CarriedClaim {
@@ -42,12 +50,12 @@ struct LinearSystem {
   std::size_t rank = 0;     ///< numbers z
   std::size_t carried = 0;  ///< numbers
   std::vector<CarriedClaim> claims;
-  std::int64_t flows_of_box = 1;  ///< after which b is gathered: fewer where |M| grows faster
+  std::int64_t flows_of_block = 1;  ///< fewer where |M| grows faster
 
   /// Inputs and results of the code. carried: as above. values: of each claim its value and error.
   ///
   ///   first    length, xi              -> carried, values at the start
-  ///   step     length, root, carried   -> carried, which takes the place of what it was before
+  ///   step     length, carried         -> carried, which takes the place of what it was before
   ///   gather   scale, root, carried    -> carried; root is that after it
   ///   last     rest, length, left, root, carried -> carried, values at the end
   ///

@@ -40,16 +40,18 @@ constexpr int kMostLengthDegree = 96;  ///< degree | functions of a length that 
 constexpr double kLengthTail = 1e-25;  ///< of the largest coefficient | the last quarter of the
         ///< coefficients is below, so that what no coefficient shows is rounding |
         ///< LengthTable.RefusesWhatItDoesNotFollow
+constexpr double kLengthRest = 1e-14;  ///< of the largest coefficient | what a polynomial may leave out,
+        ///< which is part of all bounds | Systems/LinearPacks.NoErrorIsBeyondItsBound
 constexpr double kLengthNoise = 1e-70;  ///< of the largest coefficient of all functions | a function
         ///< below is the rounding of 0 | LengthTable.WhatIsRoundingIsNothing
 constexpr double kLongestFlow = 100;  ///< the norm of the matrix times the length | longer flows are
         ///< not run as linear packs | LinearPacks.RunWhatTheyCan
 constexpr double kFlowMargin = 1e-9;  ///< relative | that a value falls along flows is shown in
         ///< double with so much to spare | LinearProof.NeedsMoreThanRounding
-constexpr double kMostGrowth = 100;  ///< factor | new errors of linear runs are bounded element by
-        ///< element until that grows their bounds so much |
+constexpr double kMostGrowth = 4;  ///< factor | errors of linear runs are bounded for all flows
+        ///< of a block at once, which may grow the bounds so much |
         ///< LinearPacks.FollowWhatFallsWhereFlowsMayGrow
-constexpr std::int64_t kMostFlowsOfBox = 8;  ///< flows | and no longer than so many |
+constexpr std::int64_t kMostFlowsOfBlock = 16;  ///< flows | and is no longer than so many |
         ///< Systems/LinearPacks.NoErrorIsBeyondItsBound
 constexpr int kMostShortFlows = 3;  ///< flows in a row | more of them within an instant are left to
         ///< the careful run | UnusualRuns.AreLeftOpen

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <random>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "base/random.h"
+#include "base/sine.h"
 #include "numbers/tape.h"
 
 namespace gainsmith::lanes {
@@ -30,7 +32,7 @@ struct RandomGraph {
   ScalarGraph graph;
   std::vector<std::vector<int>> results;
 
-  explicit RandomGraph(unsigned seed) {
+  explicit RandomGraph(unsigned seed, bool polynomials = true) {
     std::mt19937 random(seed);
     std::vector<int> nodes;
     for (int k = 0; k < kInputs; ++k) nodes.push_back(graph.input(k));
@@ -67,7 +69,7 @@ struct RandomGraph {
           // A polynomial by Horner's rule.
           const int x = any();
           int sum = graph.constant(0.5);
-          for (unsigned power = 0; power < 1 + seed % 4; ++power)
+          for (unsigned power = 0; power < (polynomials ? 1 + seed % 4 : 1); ++power)
             sum = graph.add(graph.multiply(sum, x), graph.constant(0.25 * power - 0.3));
           nodes.push_back(sum);
           break;
@@ -106,7 +108,7 @@ std::vector<std::vector<double>> run_all(const RandomGraph& one, const LaneCode&
 
 TEST(LaneMachine, HasTheBitsOfOneRunAtATimeWithoutFusedProducts) {
   for (unsigned seed = 0; seed < 200; ++seed) {
-    const RandomGraph one(seed);
+    const RandomGraph one(seed, false);
     const LaneCode code(one.graph, one.results, RandomGraph::kInputs);
     const auto lanes = run_all(one, code, *find_variant("v2"), seed);
     numbers::Tape tape(one.graph, one.results, RandomGraph::kInputs);
@@ -171,6 +173,64 @@ TEST(LaneMachine, FeedsResultsBackToInputs) {
   }
 }
 
+TEST(LaneMachine, PolynomialsAreThoseOfHornerToRounding) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> number(-1, 1);
+  for (int degree = 1; degree <= 12; ++degree) {
+    std::vector<double> powers;
+    for (int k = 0; k <= degree; ++k) powers.push_back(number(random));
+    ScalarGraph graph;
+    int sum = graph.constant(powers.back());
+    for (int k = degree; k-- > 0;)
+      sum = graph.add(graph.multiply(sum, graph.input(0)),
+                      graph.constant(powers[static_cast<std::size_t>(k)]));
+    const LaneCode code(graph, {{sum}}, 1);
+    for (const Variant* const variant : variants()) {
+      LaneMachine machine(code, *variant);
+      for (std::size_t l = 0; l < kLanes; ++l) machine.input(0)[l] = number(random);
+      machine.run();
+      for (std::size_t l = 0; l < kLanes; ++l) {
+        const double x = machine.input(0)[l];
+        long double exact = 0;
+        double error = 0;
+        for (int k = degree; k >= 0; --k) {
+          exact = exact * x + powers[static_cast<std::size_t>(k)];
+          error += (2 * k + 3) * 0x1p-53 * std::abs(powers[static_cast<std::size_t>(k)]) *
+                   std::pow(std::abs(x), k);
+        }
+        EXPECT_LE(std::abs(static_cast<double>(machine.result(0, 0)[l] - exact)), error)
+            << variant->name << ", degree " << degree;
+      }
+    }
+  }
+}
+
+TEST(Sines, AreThoseOfOneNumberAtATime) {
+  std::mt19937 random(5);
+  for (const double range : {1.0, 1e3, 1e6}) {
+    std::uniform_real_distribution<double> number(-range, range);
+    for (int k = 0; k < 100; ++k) {
+      alignas(64) std::array<double, kLanes> x{};
+      for (double& one : x) one = number(random);
+      for (const Variant* const variant : variants()) {
+        alignas(64) std::array<double, kLanes> y = x;
+        variant->sines(y.data());
+        for (std::size_t l = 0; l < kLanes; ++l) EXPECT_EQ(y[l], sine(x[l])) << variant->name;
+      }
+    }
+  }
+}
+
+TEST(Reached, AreTheLanesThatAreNotBelow) {
+  alignas(64) std::array<double, kLanes> x{};
+  for (std::size_t l = 0; l < kLanes; ++l) x[l] = static_cast<double>(l * 11 % kLanes);
+  x[7] = NAN;
+  for (const Variant* const variant : variants()) {
+    const std::uint32_t bits = variant->reached(x.data(), 20);
+    for (std::size_t l = 0; l < kLanes; ++l) EXPECT_EQ(bits >> l & 1U, x[l] < 20 ? 0U : 1U) << l;
+  }
+}
+
 TEST(Uniforms, AreThoseOfTheStreams) {
   std::vector<std::uint64_t> runs(kLanes);
   for (std::size_t l = 0; l < kLanes; ++l) runs[l] = l * 0x123456789ULL + (l % 3);
@@ -178,9 +238,10 @@ TEST(Uniforms, AreThoseOfTheStreams) {
   for (const Variant* const variant : variants())
     for (const std::uint64_t key : {0ULL, 1ULL, 0xfedcba9876543210ULL})
       for (const std::uint64_t draw : {0ULL, 7ULL, 0x100000003ULL}) {
-        variant->uniforms(key, runs.data(), draw, out.data());
+        variant->uniforms(key, runs.data(), draw, 0.1, 0.7, out.data());
         for (std::size_t l = 0; l < kLanes; ++l)
-          EXPECT_EQ(out[l], RandomStream(key, runs[l]).uniform_at(draw)) << variant->name;
+          EXPECT_EQ(out[l], 0.1 + 0.7 * RandomStream(key, runs[l]).uniform_at(draw))
+              << variant->name;
       }
 }
 
