@@ -148,7 +148,7 @@ Command run_command() {
        Option("--runs", options->job.runs, "runs of each campaign (default: the problem's)")
            .within<std::uint64_t>(1, 1000000000000000),
        Option("--seed", options->job.seed, "seed (default: the problem's)"),
-       Option("--threads", options->threads, "threads, 0: one a core; results do not depend on it")
+       Option("--threads", options->threads, "threads, 0: as many as cores it may use; results do not depend on it")
            .within(0, 1024),
        Option("--junit", options->junit, "write JUnit XML here"),
        Option("--report", options->report, "write report.html into the folder of the results"),

@@ -244,7 +244,7 @@ Command scan_command() {
        Option("--show", options->show,
               "a column more: an expression such as trace(P1) or norm(L); may be repeated"),
        Option("--threads", options->threads,
-              "threads, 0: one a core; the table does not depend on it")
+              "threads, 0: as many as cores it may use; the table does not depend on it")
            .within(0, 1024),
        Option("-o,--output", options->output, "write the table as CSV here; - for standard output"),
        Option("--plot", options->plot,

@@ -162,7 +162,7 @@ Command verify_command() {
               "losses, noise and uncertain data; --runs: of the search (default: 3000, or 600 "
               "where flows are integrated)"),
        Option("--threads", options->threads,
-              "threads, 0: one a core; the report does not depend on it")
+              "threads, 0: as many as cores it may use; the report does not depend on it")
            .within(0, 1024),
        shard_option(options->shard,
                     "make only part I of N of the runs, and write it with -o for 'merge'")
