@@ -1,13 +1,11 @@
 #include "gainsmith/campaign_json.h"
 
 #include <array>
-#include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
 
-#include "base/number.h"
+#include "gainsmith/exact_number.h"
 
 namespace gainsmith::app {
 
@@ -15,24 +13,6 @@ namespace {
 
 using io::Json;
 using io::JsonReader;
-
-/// JSON has no infinity, no NaN and no sign of zero: they are texts.
-Json bits(double value) {
-  const bool plain = std::isfinite(value) && !(value == 0 && std::signbit(value));
-  return plain ? Json(value) : Json(decimal17(value));
-}
-
-double from_bits(const JsonReader& reader) {
-  if (!reader.is_text()) return reader.number();
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  const std::array<std::pair<const char*, double>, 5> known = {
-      std::pair("inf", kInfinity), std::pair("-inf", -kInfinity), std::pair("-0", -0.0),
-      std::pair("nan", std::numeric_limits<double>::quiet_NaN()),
-      std::pair("-nan", -std::numeric_limits<double>::quiet_NaN())};
-  for (const auto& [text, value] : known)
-    if (reader.text() == text) return value;
-  reader.fail("expected a number");
-}
 
 /// The value of a text among those that are possible.
 template <class Value, std::size_t N>

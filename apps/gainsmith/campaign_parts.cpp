@@ -10,8 +10,6 @@
 #include "base/version.h"
 #include "gainsmith/campaign_json.h"
 #include "gainsmith/campaign_text.h"
-#include "gainsmith/kept_folder.h"
-#include "gainsmith/sealed.h"
 #include "gainsmith/terminal.h"
 #include "io/campaign_json.h"
 #include "verify/campaign.h"
@@ -20,27 +18,17 @@ namespace gainsmith::app {
 
 namespace {
 
-constexpr const char* kWhat = "a part that 'gainsmith verify --shard' writes";
-constexpr const char* kKind = "campaign";
-
 std::string range_text(const verify::RunRange& range) {
   if (range.count() == 1) return fmt::format("run {}", range.first);
   return fmt::format("runs {} to {}", range.first, range.last - 1);
 }
 
-PartFile read_part(const std::string& file) {
-  const std::string text = read_text(file);
-  const io::Json document = unsealed(text, file, kWhat);
-  const io::JsonReader reader(document, file, text);
-  if (!reader.has("part") || reader.at("part").text() != kKind)
-    throw InputError({file}, std::string("expected ") + kWhat);
+PartFile part_from(const io::Json& document, const std::string& file) {
+  const io::JsonReader reader(document, file);
   PartFile read;
-  reader.at("statement");
-  read.statement = document["statement"];
-  // The statement of another version is all that is understood of it.
-  if (read.statement.value("gainsmith", "") != kVersion) return read;
+  read.statement = document.at("statement");
   read.source = reader.at("source").text();
-  read.shard = parse_shard(reader.at("shard").text());
+  read.shard = shard_of(document);
   read.part.facts = facts_from(reader.at("campaign"));
   read_runs(reader.at("runs"), read.part);
   read_repeats(reader.at("repeats"), read.part);
@@ -97,28 +85,23 @@ io::Json campaign_statement(const verify::CampaignFacts& facts, const std::strin
           {"machine", isa() == "v2" ? "without fused products" : "with fused products"}};
 }
 
-std::string to_text(const PartFile& file) {
-  return sealed({{"part", kKind},
-                 {"shard", to_text(file.shard)},
-                 {"statement", file.statement},
-                 {"source", file.source},
-                 {"campaign", to_json(file.part.facts)},
-                 {"runs", to_json(file.part.runs, file.part.tally)},
-                 {"repeats", repeats_json(file.part)}});
+io::Json document_of(const PartFile& file) {
+  io::Json document = part_head(PartKind::campaign, file.shard, file.statement);
+  document["source"] = file.source;
+  document["campaign"] = to_json(file.part.facts);
+  document["runs"] = to_json(file.part.runs, file.part.tally);
+  document["repeats"] = repeats_json(file.part);
+  return document;
 }
 
-PartFile merged_parts(const std::vector<std::string>& files) {
-  PartFile whole = read_part(files.front());
-  if (const std::string version = whole.statement.value("gainsmith", ""); version != kVersion)
-    throw InputError({files.front()}, "this part was made by gainsmith " + version +
-                                          ", and this is " + kVersion + ": make it again");
+PartFile merged_campaign(const std::vector<std::string>& files) {
+  const io::Json first = read_part(files.front());
+  PartFile whole = part_from(first, files.front());
   std::vector<std::pair<std::string, verify::RunSet>> known{{files.front(), whole.part.runs}};
   for (std::size_t k = 1; k < files.size(); ++k) {
-    const PartFile next = read_part(files[k]);
-    const std::string different = difference_of(next.statement, whole.statement);
-    if (!different.empty())
-      throw InputError({files[k]},
-                       "this part is of another campaign than " + files.front() + ": " + different);
+    const io::Json document = read_part(files[k]);
+    require_same_work(document, files[k], first, files.front());
+    const PartFile next = part_from(document, files[k]);
     const verify::RunRange twice = add(next.part, whole.part);
     if (twice.count() > 0)
       throw InputError({files[k]}, range_text(twice) + " of this part are in " +

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "gainsmith/shard_option.h"
+#include "gainsmith/part_file.h"
 #include "io/json_text.h"
 #include "verify/campaign_part.h"
 
@@ -21,12 +21,13 @@ struct PartFile {
 /// What the bytes of a campaign's report follow from, key by key.
 io::Json campaign_statement(const verify::CampaignFacts& facts, const std::string& gains_hash);
 
-std::string to_text(const PartFile& file);
+/// As write_part() takes it.
+io::Json document_of(const PartFile& file);
 
 /// The whole campaign of its parts, in any order. InputError that names the file which is no part,
 /// damaged, of another campaign than the first, or has runs that another one has; and where runs are
 /// missing.
-PartFile merged_parts(const std::vector<std::string>& files);
+PartFile merged_campaign(const std::vector<std::string>& files);
 
 /// Concludes a campaign and prints the report; as JSON also into `output`, unless that is empty, or
 /// "-" for standard output.

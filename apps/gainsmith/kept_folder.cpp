@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "gainsmith/part_file.h"
 #include "gainsmith/sealed.h"
 #include "gainsmith/terminal.h"
 
@@ -21,14 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kLock = "gainsmith.lock";
-constexpr const char* kWhat = "what --resume keeps";
-
-std::string said(const io::Json& statement, const std::string& key) {
-  const auto found = statement.find(key);
-  if (found == statement.end()) return "none";
-  if (found->is_string()) return found->get<std::string>();
-  return io::is_number(*found) ? io::decimal_of(*found) : found->dump();
-}
+constexpr const char* kKept = "what --resume keeps";
 
 /// The process that holds the lock, as it wrote it there: " (process 1234)".
 std::string holder_text(const fs::path& lock) {
@@ -110,7 +104,7 @@ std::optional<KeptFolder::Kept> KeptFolder::read_turn(std::uint64_t turn) {
   if (!fs::exists(path, error)) return std::nullopt;
   const std::string text = read_text(path);
   try {
-    return Kept{unsealed(text, path.string(), kWhat), path.string()};
+    return Kept{unsealed(text, path.string(), kKept), path.string()};
   } catch (const InputError& damage) {
     say("gainsmith: " + std::string(damage.what()) + "; it does not count\n");
     return std::nullopt;
@@ -146,15 +140,6 @@ void KeptFolder::keep(io::Json done) {
                                         "goes on from it");
   }
   saved_ = next;
-}
-
-std::string difference_of(const io::Json& found, const io::Json& expected) {
-  for (const io::Json* one : {&expected, &found})
-    for (const auto& item : one->items()) {
-      const std::string a = said(found, item.key()), b = said(expected, item.key());
-      if (a != b) return item.key() + " " + a + ", not " + b;
-    }
-  return "";
 }
 
 }  // namespace gainsmith::app

@@ -48,8 +48,4 @@ class KeptFolder {
   int lock_ = -1;
 };
 
-/// The first key of which two statements say different things: "seed 7, not 1"; empty when they are
-/// equal. `found` is 7.
-std::string difference_of(const io::Json& found, const io::Json& expected);
-
 }  // namespace gainsmith::app

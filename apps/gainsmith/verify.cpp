@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/file.h"
 #include "gainsmith/campaign_parts.h"
 #include "gainsmith/campaign_text.h"
 #include "gainsmith/commands.h"
 #include "gainsmith/kept_folder.h"
 #include "gainsmith/load.h"
 #include "gainsmith/output.h"
+#include "gainsmith/part_file.h"
 #include "gainsmith/shard_option.h"
 #include "gainsmith/terminal.h"
 #include "gainsmith/worst_text.h"
@@ -91,24 +91,17 @@ void make_runs(const VerifyOptions& options, const verify::Campaign& campaign,
 }
 
 /// 0 for a part that is whole, whatever its runs are; otherwise nothing is written.
-ExitCode write_part(const VerifyOptions& options, const verify::Campaign& campaign,
-                    const verify::RunRange& range, PartFile& file) {
-  if (file.part.runs.count() == range.count()) {
-    campaign.repeat_worst(file.part);
-    const Telling telling;
-    if (options.output == "-") {
-      fmt::print("{}", to_text(file));
-    } else {
-      write_atomically(options.output, to_text(file));
-      say(fmt::format("wrote {}: part {}, {} of {} runs\n", options.output, to_text(file.shard),
-                      range.count(), campaign.asked()));
-    }
-    return ExitCode::yes;
+ExitCode tell_campaign_part(const VerifyOptions& options, const verify::Campaign& campaign,
+                            const verify::RunRange& range, PartFile& file) {
+  const std::uint64_t done = file.part.runs.count();
+  if (done < range.count()) {
+    say_unwritten(file.shard, done, range.count(), "runs");
+    return ExitCode::undecided;
   }
-  const Telling telling;
-  say(fmt::format("interrupted after {} of {} runs of part {}: it was not written\n",
-                  file.part.runs.count(), range.count(), to_text(file.shard)));
-  return ExitCode::undecided;
+  campaign.repeat_worst(file.part);
+  write_part(document_of(file), options.output,
+             fmt::format("{} of {} runs", range.count(), campaign.asked()));
+  return ExitCode::yes;
 }
 
 ExitCode verify_gains(const VerifyOptions& options) {
@@ -129,7 +122,7 @@ ExitCode verify_gains(const VerifyOptions& options) {
   const verify::RunRange range =
       verify::shard_of(campaign.asked(), file.shard.index, file.shard.of);
   make_runs(options, campaign, range, file);
-  if (!options.shard.empty()) return write_part(options, campaign, range, file);
+  if (!options.shard.empty()) return tell_campaign_part(options, campaign, range, file);
   try {
     campaign.repeat_worst(file.part);
   } catch (const Stopped&) {

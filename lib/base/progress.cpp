@@ -26,8 +26,10 @@ std::string duration(double seconds) {
   constexpr double kMinute = 60, kHour = 3600, kDay = 86400;
   if (seconds < 2 * kMinute) return std::to_string(std::llround(seconds)) + " s";
   if (seconds < 2 * kHour) return std::to_string(std::llround(seconds / kMinute)) + " min";
-  if (seconds < 2 * kDay) return brief(seconds / kHour, 2) + " h";
-  return brief(seconds / kDay, 2) + " days";
+  const bool days = seconds >= 2 * kDay;
+  const double units = seconds / (days ? kDay : kHour);
+  return (units < 10 ? brief(units, 2) : std::to_string(std::llround(units))) +
+         (days ? " days" : " h");
 }
 
 /// "0.31", "47", "120000".
@@ -52,11 +54,12 @@ std::optional<double> Progress::left() const {
 
 std::string to_text(const Progress& progress) {
   if (progress.of == 0) return progress.what;
-  std::string text = progress.what + " " + std::to_string(progress.done) + "/" +
-                     std::to_string(progress.of);
+  std::string text =
+      progress.what + " " + std::to_string(progress.done) + "/" + std::to_string(progress.of);
   const auto left = progress.left();
   if (!left) return text;
-  return text + ", " + rate_text(*progress.rate()) + " a second, about " + duration(*left) + " left";
+  return text + ", " + rate_text(*progress.rate()) + " a second, about " + duration(*left) +
+         " left";
 }
 
 Doing::Doing(const char* what, std::uint64_t of) : shown_(all == 0) {

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "base/save_pace.h"
 #include "base/stop.h"
 #include "hybrid/idle.h"
 
@@ -32,7 +33,7 @@ class Collector {
     part_.runs.add(range);
     verify::add(tally, part_.tally);
     unsaved_ = true;
-    if (Clock::now() >= next_) save();
+    if (pace_.is_due()) save();
   }
 
   void finish() {
@@ -41,27 +42,17 @@ class Collector {
   }
 
  private:
-  /// A kill loses a tenth of what was done at most. A slow disk takes a small part of the time, and
-  /// many programs on one disk do not wear it out.
   void save() {
     if (!save_) return;
-    constexpr Seconds kLeast(0.2), kMost(10);
-    constexpr double kLost = 0.1, kOfDisk = 0.05;
-    const auto begin = Clock::now();
-    save_(part_.runs, part_.tally);
+    pace_.save([&] { save_(part_.runs, part_.tally); });
     unsaved_ = false;
-    const auto end = Clock::now();
-    const Seconds usual = std::clamp(kLost * Seconds(end - begin_), kLeast, kMost);
-    const Seconds pause = std::max(usual, Seconds(end - begin) / kOfDisk);
-    next_ = end + std::chrono::duration_cast<Clock::duration>(pause);
   }
 
   std::mutex mutex_;
   CampaignPart& part_;
   const Save& save_;
   bool unsaved_ = false;
-  const Clock::time_point begin_ = Clock::now();
-  Clock::time_point next_ = begin_;
+  SavePace pace_;
 };
 
 /// Makes these runs, or those until the campaign is stopped. Slow runs are handed over as they come.

@@ -106,7 +106,7 @@ TEST_F(Shards, ThatDoNotFitAreRefusedByName) {
   refused(files, second + ":");
   folder_.file("part2of3.json", with(text_of(third), "\"violations\": 0", "\"violations\": 1"));
   refused(files, second + ": this file is damaged");
-  refused({first, gains_}, gains_ + ": expected a part that 'gainsmith verify --shard' writes");
+  refused({first, gains_}, gains_ + ": expected a part that --shard of 'gainsmith verify' or 'gainsmith scan' writes");
 }
 
 TEST_F(Shards, OfOtherGainsAreRefused) {
