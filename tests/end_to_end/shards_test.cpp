@@ -76,6 +76,16 @@ TEST_F(Shards, AreTheCampaignInAnyOrder) {
   }
 }
 
+TEST_F(Shards, AreTheFilesOfAFolder) {
+  const std::vector<std::string> files = parts("3000", 3);
+  const std::string folder = folder_.path("parts");
+  fs::create_directory(folder);
+  EXPECT_TRUE(has(merge({folder}).err, folder + ": this folder has no parts"));
+  for (const std::string& file : files)
+    fs::rename(file, fs::path(folder) / fs::path(file).filename());
+  EXPECT_EQ(merge({folder}, {"--json"}).out, verify("3000", {"--json"}).out);
+}
+
 TEST_F(Shards, MayBeMoreThanRuns) {
   EXPECT_EQ(merge(parts("5", 8), {"--json"}).out, verify("5", {"--json"}).out);
 }
@@ -106,7 +116,9 @@ TEST_F(Shards, ThatDoNotFitAreRefusedByName) {
   refused(files, second + ":");
   folder_.file("part2of3.json", with(text_of(third), "\"violations\": 0", "\"violations\": 1"));
   refused(files, second + ": this file is damaged");
-  refused({first, gains_}, gains_ + ": expected a part that --shard of 'gainsmith verify' or 'gainsmith scan' writes");
+  refused(
+      {first, gains_},
+      gains_ + ": expected a part that --shard of 'gainsmith verify' or 'gainsmith scan' writes");
 }
 
 TEST_F(Shards, OfOtherGainsAreRefused) {
