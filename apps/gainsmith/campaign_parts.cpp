@@ -10,6 +10,7 @@
 #include "base/version.h"
 #include "gainsmith/campaign_json.h"
 #include "gainsmith/campaign_text.h"
+#include "gainsmith/figures_text.h"
 #include "gainsmith/terminal.h"
 #include "io/campaign_json.h"
 #include "verify/campaign.h"
@@ -113,14 +114,22 @@ PartFile merged_campaign(const std::vector<std::string>& files) {
   return whole;
 }
 
-ExitCode tell_campaign(const PartFile& whole, const std::string& output, bool json) {
+ExitCode tell_campaign(const PartFile& whole, const std::string& output, bool json,
+                       const std::optional<model::FiguresRecord>& figures) {
   const verify::Report report = verify::conclude(whole.part);
   const Telling telling;
-  const std::string hash = whole.statement.value("gains_sha256", "");
-  const std::string text = io::to_text(io::to_json(campaign_record(report, hash)));
+  model::CampaignRecord record = campaign_record(report, whole.statement.value("gains_sha256", ""));
+  record.figures = figures;
+  const std::string text = io::to_text(io::to_json(record));
   if (!output.empty() && output != "-") write_atomically(output, text);
-  fmt::print("{}", json || output == "-" ? text : campaign_summary(report, whole.source));
-  return campaign_exit(report.verdict);
+  if (json || output == "-")
+    fmt::print("{}", text);
+  else
+    fmt::print("{}{}", campaign_summary(report, whole.source),
+               figures ? figures_text(*figures) : "");
+  const ExitCode exit = campaign_exit(report.verdict);
+  const bool lacks_figures = figures && figures->runs < report.asked;
+  return exit == ExitCode::yes && lacks_figures ? ExitCode::undecided : exit;
 }
 
 io::Json kept_json(const verify::RunSet& runs, const verify::Tally& tally) {

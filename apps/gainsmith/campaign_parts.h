@@ -1,12 +1,14 @@
 // Parts of a campaign as files: what `verify --shard` writes and `merge` reads.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
 #include "gainsmith/part_file.h"
 #include "io/json_text.h"
+#include "model/figure_record.h"
 #include "verify/campaign_part.h"
 
 namespace gainsmith::app {
@@ -31,7 +33,9 @@ PartFile merged_campaign(const std::vector<std::string>& files);
 
 /// Concludes a campaign and prints the report; as JSON also into `output`, unless that is empty, or
 /// "-" for standard output.
-ExitCode tell_campaign(const PartFile& whole, const std::string& output, bool json);
+/// `figures`: over its runs, where they were asked for.
+ExitCode tell_campaign(const PartFile& whole, const std::string& output, bool json,
+                       const std::optional<model::FiguresRecord>& figures = {});
 
 /// What --resume keeps of a part: its runs. Those that `kept`, from `file`, has.
 io::Json kept_json(const verify::RunSet& runs, const verify::Tally& tally);

@@ -36,23 +36,31 @@ std::vector<std::string> names_of(const std::string& text, char mark, const char
   return names;
 }
 
+constexpr std::uint64_t kMostDrawn = 100;
+constexpr std::uint64_t kMostCompared = 1000000;
+
 /// "3" or "0:9".
-void add_runs(const std::string& part, const std::string& text, std::vector<std::uint64_t>& runs) {
-  constexpr std::uint64_t kMost = 100;
+void add_runs(const std::string& part, const std::string& text, bool compared,
+              std::vector<std::uint64_t>& runs) {
+  const std::uint64_t most = compared ? kMostCompared : kMostDrawn;
   const std::vector<std::string> ends = parts_of(part, ':');
   const auto first = parse_whole(ends.front()), last = parse_whole(ends.back());
   if (ends.size() > 2 || !first || !last || *last < *first)
     throw InputError({"--runs"},
                      "expected numbers of runs, such as 0,3,17 or 0:9, not '" + text + "'");
-  if (*last - *first >= kMost || runs.size() + (*last - *first) >= kMost)
-    throw InputError({"--runs"},
-                     "at most 100 runs are drawn or compared: name fewer of them; for the claims "
-                     "of many runs 'gainsmith verify --runs N' has no such limit");
-  for (std::uint64_t run = *first; run <= *last; ++run) {
-    if (std::find(runs.begin(), runs.end(), run) != runs.end())
-      throw InputError({"--runs"}, "run " + std::to_string(run) + " is named twice");
-    runs.push_back(run);
-  }
+  if (*last - *first >= most || runs.size() + (*last - *first) >= most)
+    throw InputError({"--runs"}, "at most " + std::to_string(most) + " runs are " +
+                                     (compared ? "compared" : "drawn over each other") +
+                                     ": name fewer of them; 'gainsmith verify --runs N --compare' "
+                                     "has no such limit");
+  for (std::uint64_t run = *first; run <= *last; ++run) runs.push_back(run);
+}
+
+void require_different(std::vector<std::uint64_t> runs) {
+  std::sort(runs.begin(), runs.end());
+  const auto twice = std::adjacent_find(runs.begin(), runs.end());
+  if (twice != runs.end())
+    throw InputError({"--runs"}, "run " + std::to_string(*twice) + " is named twice");
 }
 
 }  // namespace
@@ -79,11 +87,13 @@ RunView view_of(const PictureOptions& options, const model::Design& design) {
   return view;
 }
 
-std::vector<std::uint64_t> runs_of(const PictureOptions& options, std::uint64_t otherwise,
-                                   std::uint64_t runs) {
+std::vector<std::uint64_t> runs_of(const PictureOptions& options, bool compared,
+                                   std::uint64_t otherwise, std::uint64_t runs) {
   if (options.runs.empty()) return {otherwise};
   std::vector<std::uint64_t> chosen;
-  for (const std::string& part : parts_of(options.runs, ',')) add_runs(part, options.runs, chosen);
+  for (const std::string& part : parts_of(options.runs, ','))
+    add_runs(part, options.runs, compared, chosen);
+  require_different(chosen);
   for (const std::uint64_t run : chosen)
     if (run >= runs)
       throw InputError({"--runs"},

@@ -25,8 +25,9 @@ struct PictureOptions {
 RunView view_of(const PictureOptions& options, const model::Design& design);
 
 /// The runs of --runs, or `otherwise` without it. InputError for texts of another form, a run twice,
-/// more than 100, and runs that a campaign of `runs` does not have.
-std::vector<std::uint64_t> runs_of(const PictureOptions& options, std::uint64_t otherwise,
-                                   std::uint64_t runs);
+/// more than a picture shows, or a comparison takes, and runs that a campaign of `runs` does not
+/// have.
+std::vector<std::uint64_t> runs_of(const PictureOptions& options, bool compared,
+                                   std::uint64_t otherwise, std::uint64_t runs);
 
 }  // namespace gainsmith::app

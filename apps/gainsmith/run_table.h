@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "io/json_text.h"
-#include "verify/expected_run.h"
 #include "verify/replay.h"
 
 namespace gainsmith::app {
@@ -25,9 +24,5 @@ io::Json events_json(const verify::Replay& replay, const RunView& view);
 /// problem states.
 std::string run_picture(const model::Design& design, const verify::Setup& setup, std::uint64_t seed,
                         std::uint64_t run);
-
-/// Figures of observers side by side, of a run; of several runs a line for each figure and
-/// observer, with its least, median and largest value.
-std::string comparison_text(const std::vector<verify::Comparison>& runs);
 
 }  // namespace gainsmith::app

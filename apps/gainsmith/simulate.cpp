@@ -10,8 +10,13 @@
 
 #include "base/file.h"
 #include "base/number.h"
+#include "base/progress.h"
+#include "bind/stated.h"
 #include "gainsmith/campaign_text.h"
 #include "gainsmith/commands.h"
+#include "gainsmith/envelope_figure.h"
+#include "gainsmith/figures_picture.h"
+#include "gainsmith/figures_text.h"
 #include "gainsmith/load.h"
 #include "gainsmith/notes.h"
 #include "gainsmith/output.h"
@@ -21,8 +26,10 @@
 #include "gainsmith/run_table.h"
 #include "gainsmith/terminal.h"
 #include "hybrid/idle.h"
+#include "io/figures_json.h"
 #include "io/given_run_json.h"
 #include "io/json_text.h"
+#include "verify/figure_survey.h"
 
 namespace gainsmith::app {
 
@@ -38,6 +45,7 @@ struct SimulateOptions {
   PictureOptions picture;
   double step = 0;
   bool compare = false;
+  bool envelope = false;
   bool judge = false;
   bool json = false;
 };
@@ -144,9 +152,13 @@ void check(const SimulateOptions& options) {
   const auto refuse = [&](const char* message) { throw InputError({options.gains}, message); };
   const PictureOptions& picture = options.picture;
   const bool several = !picture.runs.empty();
-  if (options.compare && (options.json || options.judge || !picture.file.empty() ||
-                          picture.only_drawn() || options.step > 0))
-    refuse("--compare prints figures alone, without --json, --plot, --judge or --step");
+  if (options.compare && (options.judge || picture.only_drawn() || options.step > 0))
+    refuse(
+        "--compare is about figures alone, without --judge, --step and what --plot draws of runs");
+  if (options.envelope && (!several || picture.file.empty()))
+    refuse("--envelope draws quantiles of several runs: give --runs and --plot FILE");
+  if (options.envelope && (options.compare || !picture.planes.empty() || !picture.bands.empty()))
+    refuse("--envelope draws quantiles over time, without --compare, --phase and --band");
   if (!options.compare && picture.file.empty() && picture.only_drawn())
     refuse("--phase, --panels and --band say what --plot draws: give --plot FILE");
   if (!options.compare && picture.file.empty() && several)
@@ -158,22 +170,57 @@ void check(const SimulateOptions& options) {
     refuse("--runs draws several runs: without -o, --json and --judge, which are about one");
 }
 
+/// With which a consistent filter passes, of covariances among the figures.
+constexpr double kFit = 0.95;
+
 ExitCode compare(const SimulateOptions& options, const LoadedGains& loaded, std::uint64_t seed,
                  const std::vector<std::uint64_t>& runs) {
-  const std::vector<verify::Comparison> compared =
-      verify::compared_figures(loaded.stated, loaded.gains, seed, runs);
-  if (compared.front().figures.empty())
+  const std::vector<model::Figure>& figures = loaded.stated.design->compare;
+  if (figures.empty())
     throw InputError({options.gains},
                      "the problem names nothing to compare: compare: [{peak: norm(e)}, ...]");
-  write(options, comparison_text(compared));
-  const auto is_early = [](const verify::Comparison& run) { return !run.early.empty(); };
-  const auto first = std::find_if(compared.begin(), compared.end(), is_early);
-  if (first == compared.end()) return ExitCode::yes;
-  const auto count = std::count_if(first, compared.end(), is_early);
-  say(fmt::format("run {} ended before its horizon, {}\n",
-                  runs[static_cast<std::size_t>(first - compared.begin())], first->early));
-  if (count > 1) say(fmt::format("so did {} of these runs in all\n", count));
-  return ExitCode::yes;
+  const auto setup = verify::make_event_setup(bind::run_texts(loaded.stated, loaded.gains));
+  const verify::FigureSurvey survey =
+      verify::survey_figures(*setup, figures, seed, {runs.size(), runs});
+  const Telling telling;
+  // These runs were chosen, so nothing is said of others.
+  const bool drawn = !hybrid::different_runs(setup->system, setup->scenario);
+  const model::FiguresRecord record = figures_record(survey, runs.size(), seed, std::nullopt,
+                                                     drawn ? std::optional(kFit) : std::nullopt);
+  if (survey.runs > 0)
+    write(options, options.json ? io::to_text(io::to_json(record)) : comparison_text(record));
+  if (survey.runs > 0 && !options.picture.file.empty())
+    write_picture(options.picture.file, histograms(loaded.stated.design->name, survey));
+  if (survey.early > 0)
+    say(fmt::format("run {} ended before its horizon, {}\n", survey.early_run, survey.early_why));
+  if (survey.early > 1) say(fmt::format("so did {} of these runs in all\n", survey.early));
+  return survey.runs < runs.size() ? ExitCode::undecided : ExitCode::yes;
+}
+
+ExitCode draw_envelope(const SimulateOptions& options, const model::Design& design,
+                       const verify::Setup& setup, std::uint64_t seed,
+                       const std::vector<std::uint64_t>& runs) {
+  EnvelopeFigure figure(setup.horizon(), view_of(options.picture, design));
+  const double step = options.step > 0 ? options.step : figure.step();
+  std::uint64_t made = 0, early = 0;
+  {
+    const Doing doing("runs", runs.size());
+    for (const std::uint64_t run : runs) {
+      const verify::Replay replay = verify::table_of_run(setup, seed, run, step, true);
+      if (replay.run.ending == hybrid::Ending::interrupted) break;
+      figure.add(replay);
+      early += is_complete(replay.run.ending) ? 0 : 1;
+      ++made;
+      Doing::step();
+    }
+  }
+  const Telling telling;
+  std::string text = fmt::format("quantiles of {} runs of seed {}\n", made, seed);
+  if (early > 0) text += fmt::format("{} of them ended before the horizon\n", early);
+  if (made > 0)
+    write_picture(options.picture.file, figure.svg(fmt::format("{}, {} runs", design.name, made)));
+  print_report(text, false);
+  return made < runs.size() ? ExitCode::undecided : ExitCode::yes;
 }
 
 /// How a run ended, and its claims.
@@ -199,14 +246,15 @@ ExitCode simulate(const SimulateOptions& options) {
   const LoadedGains loaded = load_run(options.gains, options.set);
   const model::Design& design = *loaded.stated.design;
   const std::uint64_t seed = options.seed.value_or(design.campaign.seed);
-  const std::vector<std::uint64_t> runs =
-      runs_of(options.picture, options.run, design.campaign.runs);
+  const std::vector<std::uint64_t> runs = runs_of(
+      options.picture, options.compare || options.envelope, options.run, design.campaign.runs);
   if (options.compare) return compare(options, loaded, seed, runs);
   std::vector<hybrid::GivenRun> given;
   if (!options.given.empty())
     given.push_back(io::parse_given_run(options.given, "--given", *design.dynamics));
   const auto setup =
       verify::make_setup(loaded.stated, loaded.gains, given.empty() ? nullptr : &given);
+  if (options.envelope) return draw_envelope(options, design, *setup, seed, runs);
   std::vector<verify::Replay> replays;
   for (const std::uint64_t run : runs) {
     replays.push_back(verify::replay_run(*setup, seed, run, options.step, options.judge));
@@ -259,11 +307,14 @@ Command simulate_command() {
               "with --plot: xh:P: +-2 sigma around an estimate, from its covariance (default: "
               "'covariance' of the problem); may be repeated"),
        Option("--runs", options->picture.runs,
-              "several runs, 0,3,17 or 0:9, at most 100 (for claims of more: verify); with --plot: "
-              "over "
-              "each other; with --compare: the least, median and largest value of each figure"),
+              "several runs, 0,3,17 or 0:9; with --plot: at most 100, over each other; with "
+              "--compare: the least, median and largest value of each figure"),
+       Option("--envelope", options->envelope,
+              "with --plot and --runs: over time the median, the band from 5 to 95 % of the runs, "
+              "the least and the largest value, in place of each run"),
        Option("--compare", options->compare,
-              "print the figures under 'compare' of all observers, of one run or of --runs"),
+              "print the figures under 'compare' of all observers, of one run or of --runs; with "
+              "--plot: histograms"),
        Option("--judge", options->judge,
               "check the run against the texts, by computations of its own; exit code 1 if it "
               "finds a fault"),
@@ -274,7 +325,8 @@ Command simulate_command() {
       "  gainsmith simulate gains.json --run 17 -o run-17.csv\n"
       "  gainsmith simulate problem.yaml --plot run.svg --step 0.01\n"
       "  gainsmith simulate gains.json --plot plane.pdf --phase x1,x2 --runs 0:9\n"
-      "  gainsmith simulate gains.json --compare --runs 0:99",
+      "  gainsmith simulate gains.json --compare --runs 0:99\n"
+      "  gainsmith simulate gains.json --plot spread.svg --runs 0:199 --envelope",
       [options] { return simulate(*options); }};
 }
 

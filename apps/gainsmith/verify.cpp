@@ -10,6 +10,7 @@
 #include "gainsmith/campaign_parts.h"
 #include "gainsmith/campaign_text.h"
 #include "gainsmith/commands.h"
+#include "gainsmith/figures_text.h"
 #include "gainsmith/kept_folder.h"
 #include "gainsmith/load.h"
 #include "gainsmith/output.h"
@@ -19,6 +20,7 @@
 #include "gainsmith/worst_text.h"
 #include "io/campaign_json.h"
 #include "model/stated_file.h"
+#include "verify/figure_survey.h"
 #include "verify/statistics.h"
 #include "verify/worst.h"
 
@@ -34,6 +36,7 @@ struct VerifyOptions {
   unsigned threads = 0;
   std::optional<double> probability;
   double confidence = 0.95;
+  bool compare = false;
   bool worst = false;
   std::string shard;
   std::string resume;
@@ -57,6 +60,8 @@ std::string source_of(const VerifyOptions& options, const LoadedGains& loaded) {
 }
 
 ExitCode search_worst(const VerifyOptions& options, const LoadedGains& loaded) {
+  if (options.compare)
+    throw InputError({options.gains}, "--compare is about runs at random, not about --worst");
   if (options.probability)
     throw InputError({options.gains}, "--probability is about runs at random, not about --worst");
   verify::WorstOptions search;
@@ -104,6 +109,41 @@ ExitCode tell_campaign_part(const VerifyOptions& options, const verify::Campaign
   return ExitCode::yes;
 }
 
+/// Figures over all runs, beside a campaign that is made here and now.
+class Comparison {
+ public:
+  /// None unless --compare asks for it. All arguments must outlive it.
+  Comparison(const VerifyOptions& options, const LoadedGains& loaded, const verify::Setup& setup) {
+    if (!options.compare) return;
+    if (!options.shard.empty() || !options.resume.empty())
+      throw InputError({},
+                       "--compare simulates the whole campaign at once: not with --shard or "
+                       "--resume");
+    const model::Design& design = *loaded.stated.design;
+    if (design.compare.empty())
+      throw InputError({options.gains},
+                       "the problem names nothing to compare: compare: [{peak: norm(e)}, ...]");
+    figures_.emplace(*setup.events, design.compare, options.seed.value_or(design.campaign.seed),
+                     options.threads);
+  }
+
+  void grow(std::uint64_t runs) {
+    if (figures_) figures_->grow(runs);
+  }
+  explicit operator bool() const { return figures_.has_value(); }
+
+  /// Where nothing is drawn no run says anything of another.
+  std::optional<model::FiguresRecord> record(const verify::CampaignFacts& facts) const {
+    if (!figures_) return std::nullopt;
+    std::optional<double> confidence;
+    if (!facts.different) confidence = facts.confidence;
+    return figures_record(figures_->survey(), facts.asked, facts.seed, confidence, confidence);
+  }
+
+ private:
+  std::optional<verify::GrowingSurvey> figures_;
+};
+
 ExitCode verify_gains(const VerifyOptions& options) {
   if (!options.shard.empty() && options.output.empty())
     throw InputError({},
@@ -112,8 +152,11 @@ ExitCode verify_gains(const VerifyOptions& options) {
   const LoadedGains loaded = load_run(options.gains, options.set);
   if (options.worst) return search_worst(options, loaded);
   const auto setup = verify::make_setup(loaded.stated, loaded.gains);
-  const verify::Campaign campaign(
-      *setup, {runs_of(options), options.seed, options.threads, options.confidence});
+  Comparison comparison(options, loaded, *setup);
+  verify::CampaignOptions asked{runs_of(options), options.seed, options.threads,
+                                options.confidence};
+  if (comparison) asked.between = [&](std::uint64_t runs) { comparison.grow(runs); };
+  const verify::Campaign campaign(*setup, asked);
   PartFile file;
   file.part = campaign.begin();
   file.statement = campaign_statement(file.part.facts, io::gains_hash(loaded.gains));
@@ -128,7 +171,8 @@ ExitCode verify_gains(const VerifyOptions& options) {
   } catch (const Stopped&) {
     // Then no violation is confirmed.
   }
-  return tell_campaign(file, options.output, options.json);
+  if (file.part.runs.count() == campaign.asked()) comparison.grow(campaign.asked());
+  return tell_campaign(file, options.output, options.json, comparison.record(file.part.facts));
 }
 
 }  // namespace
@@ -157,6 +201,10 @@ Command verify_command() {
        Option("--threads", options->threads,
               "threads, 0: as many as cores it may use; the report does not depend on it")
            .within(0, 1024),
+       Option(
+           "--compare", options->compare,
+           "also print quantiles of the figures under 'compare' over all runs, each simulated on "
+           "its own, which takes longer"),
        shard_option(options->shard,
                     "make only part I of N of the runs, and write it with -o for 'merge'")
            .excludes({"--worst"}),

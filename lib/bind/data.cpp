@@ -291,6 +291,7 @@ void add_definitions(Binding& binding) {
 
 void add_assumption(Binding& binding, const model::Named& assumption) {
   model::Design::Assumption bound;
+  bound.name = assumption.name;
   bound.text = assumption.value.text->str();
   for (const expr::Expression& part : conjuncts(assumption.value))
     for (const auto& relation : compile_relations(part, binding.names->known)) {

@@ -50,11 +50,14 @@ std::size_t event_of(const Binding& binding, const model::FigureText& text,
 std::vector<model::Figure> figures(const Binding& binding, const model::FigureText& text) {
   if (!binding.design->dynamics)
     throw InputError(text.place, "figures are of runs, and the method has no dynamics");
+  std::vector<expr::Expression> texts;
+  if (text.value) texts.push_back(*text.value);
+  if (text.error) texts.push_back(*text.error);
   std::vector<Reading> readings = {{text.observer, {}}};
   if (text.value && !text.observer.empty())
-    readings = {binding.dynamics_names->of_observer(text.observer, {*text.value}, text.place)};
+    readings = {binding.dynamics_names->of_observer(text.observer, texts, text.place)};
   else if (text.value)
-    readings = binding.dynamics_names->outside(std::vector{*text.value});
+    readings = binding.dynamics_names->outside(texts);
   std::vector<model::Figure> result;
   for (const Reading& reading : readings) {
     model::Figure bound;
@@ -64,6 +67,9 @@ std::vector<model::Figure> figures(const Binding& binding, const model::FigureTe
     bound.count = text.count;
     bound.after = text.after;
     bound.place = text.place;
+    // Of the error first: its messages are about what was written.
+    if (text.error)
+      bound.elements = formula(reading.texts.back(), binding.names->running).program.shape().size();
     if (text.value) bound.value = scalar(reading.texts.front(), binding.names->running);
     if (bound.value && estimate(*binding.design, bound.value->program) != expr::Estimate::none)
       bound.title += " (from estimates)";

@@ -23,6 +23,15 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
+void Squares::add(double square) {
+  if (!(square >= 0 && std::isfinite(square))) {
+    ++improper;
+    return;
+  }
+  ++count;
+  sum += square;
+}
+
 FigureOf::FigureOf(model::FigureKind kind, std::optional<RunValue> value,
                    std::vector<double> numbers, std::size_t event, std::int64_t count, bool after,
                    std::optional<Eigen::Index> passes)
@@ -39,11 +48,12 @@ std::optional<double> FigureOf::operator()(const Trajectory& run) {
   const auto finite = [](std::optional<double> value) {
     return value && std::isnan(*value) ? std::nullopt : value;
   };
+  squares_ = {};
   switch (kind_) {
     case Kind::at_event:
-      return finite(at_event(run));
+      return finite(counted(at_event(run)));
     case Kind::at_time:
-      return finite(at_time(run));
+      return finite(counted(at_time(run)));
     case Kind::peak:
       return finite(extreme(run, 1));
     case Kind::least:
@@ -52,8 +62,15 @@ std::optional<double> FigureOf::operator()(const Trajectory& run) {
       const double time = settled(run);
       return std::isinf(time) && !is_complete(run.ending) ? std::nullopt : finite(time);
     }
-    case Kind::rms:
-      return finite(root_mean_square(run));
+    case Kind::rms: {
+      const auto squares = integral(run, [](double value) { return value * value; });
+      if (!squares) return std::nullopt;
+      return finite(std::sqrt(*squares / (numbers_.back() - numbers_.front())));
+    }
+    case Kind::integral:
+      return finite(integral(run, [](double value) { return value; }));
+    case Kind::nis:
+      return finite(mean_before(run));
     case Kind::count:
     case Kind::passes:
     case Kind::lost:
@@ -63,6 +80,11 @@ std::optional<double> FigureOf::operator()(const Trajectory& run) {
       break;
   }
   return std::nullopt;
+}
+
+std::optional<double> FigureOf::counted(std::optional<double> square) {
+  if (square) squares_.add(*square);
+  return square;
 }
 
 std::optional<double> FigureOf::at_event(const Trajectory& run) {
@@ -175,8 +197,25 @@ double FigureOf::settled(const Trajectory& run) {
   return value_->number(run.start) < level ? 0 : (run.parts.empty() ? infinity : 0);
 }
 
-/// Gauss' rule with five nodes on pieces of the series of each part.
-std::optional<double> FigureOf::root_mean_square(const Trajectory& run) {
+/// The mean of the values just before the jumps that are not lost.
+std::optional<double> FigureOf::mean_before(const Trajectory& run) {
+  double sum = 0;
+  for (const auto& part : run.parts) {
+    const auto* jump = std::get_if<JumpPoint>(&part);
+    if (jump == nullptr || jump->event != event_ || jump->lost) continue;
+    const double square = value_->number(jump->before);
+    sum += square;
+    squares_.add(square);
+  }
+  const std::uint64_t terms = squares_.count + squares_.improper;
+  if (terms == 0) return std::nullopt;
+  return sum / static_cast<double>(terms);
+}
+
+/// The integral of a function of the value: Gauss' rule with five nodes on pieces of the series of
+/// each part.
+template <class Rate>
+std::optional<double> FigureOf::integral(const Trajectory& run, const Rate& rate) {
   constexpr std::array<std::pair<double, double>, 5> rule = {
       {{-0.906179845938664, 0.236926885056189},
        {-0.538469310105683, 0.478628670499366},
@@ -195,13 +234,11 @@ std::optional<double> FigureOf::root_mean_square(const Trajectory& run) {
       const double half = (std::min(to, part.to) - low) / (2 * pieces);
       if (part.undefined) sum = std::numeric_limits<double>::quiet_NaN();
       for (int piece = 0; half > 0 && piece < pieces; ++piece)
-        for (const auto& [node, weight] : rule) {
-          const double value = part(low + half * (2 * piece + 1 + node));
-          sum += half * weight * value * value;
-        }
+        for (const auto& [node, weight] : rule)
+          sum += half * weight * rate(part(low + half * (2 * piece + 1 + node)));
     }
   });
-  return std::sqrt(sum / (to - from));
+  return sum;
 }
 
 double FigureOf::number_of(const Trajectory& run) const {

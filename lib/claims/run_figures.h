@@ -1,6 +1,7 @@
 // Figures of a run (model/figure.h), on its dense output.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,15 @@
 #include "model/figure.h"
 
 namespace gainsmith::claims {
+
+/// The numbers e'*inv(P)*e of a run, of `nees` and `nis`.
+struct Squares {
+  std::uint64_t count = 0;     ///< that are finite and not negative
+  double sum = 0;              ///< of these
+  std::uint64_t improper = 0;  ///< the others: no covariance gives them
+
+  void add(double square);
+};
 
 /// The number of a figure; infinite where a value never settles. None where the run has none: an
 /// event that did not happen so often, a time beyond its end, a value that is no number. `ended` is
@@ -20,15 +30,20 @@ class FigureOf {
            std::size_t event, std::int64_t count, bool after, std::optional<Eigen::Index> passes);
 
   std::optional<double> operator()(const hybrid::Trajectory& run);
+  /// Of the last run; only of figures `nees` and `nis` they have a meaning.
+  const Squares& squares() const { return squares_; }
 
  private:
+  std::optional<double> counted(std::optional<double> square);
   std::optional<double> at_event(const hybrid::Trajectory& run);
   std::optional<double> at_time(const hybrid::Trajectory& run);
   double extreme(const hybrid::Trajectory& run, double sign);
   double extreme(const hybrid::DenseStep& step, double sign, double most);
   double settled(const hybrid::Trajectory& run);
   double last_above(const hybrid::DenseStep& step, double level);
-  std::optional<double> root_mean_square(const hybrid::Trajectory& run);
+  template <class Rate>
+  std::optional<double> integral(const hybrid::Trajectory& run, const Rate& rate);
+  std::optional<double> mean_before(const hybrid::Trajectory& run);
   double number_of(const hybrid::Trajectory& run) const;
 
   model::FigureKind kind_;
@@ -38,6 +53,7 @@ class FigureOf {
   std::int64_t count_;
   bool after_;
   std::optional<Eigen::Index> passes_;
+  Squares squares_;
 };
 
 }  // namespace gainsmith::claims

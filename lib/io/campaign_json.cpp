@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "base/hash.h"
+#include "io/figures_json.h"
 #include "io/gains_json.h"
 #include "io/json_reader.h"
 
@@ -111,6 +112,7 @@ Json to_json(const model::CampaignRecord& record) {
     document["runs_asked"] = record.runs_asked;
     document["message"] = record.message;
   }
+  if (record.figures) document["figures"] = to_json(*record.figures);
   document["gainsmith"] = record.version;
   document["gains_sha256"] = record.gains_hash;
   return document;
@@ -147,6 +149,7 @@ model::CampaignRecord parse_campaign(const std::string& text, const std::string&
   record.notes = texts(reader.at("notes"));
   for (const JsonReader& check : reader.at("checks").items())
     record.checks.push_back(check_of(check));
+  if (reader.has("figures")) record.figures = figures_of(reader.at("figures"));
   record.first_unfinished = open_run(reader, "first_unfinished");
   record.first_undecided = open_run(reader, "first_undecided");
   record.runs_asked = reader.has("runs_asked") ? reader.at("runs_asked").count() : record.runs;

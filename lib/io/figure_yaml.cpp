@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/nearest.h"
+#include "expr/parser.h"
 #include "io/expectation_yaml.h"
 
 namespace gainsmith::io {
@@ -16,8 +17,10 @@ using model::FigureText;
 
 constexpr const char* kForms =
     "a figure is one of {at: {event: ..., count: ..., side: before}, value: v}, {at: {t: ...}, "
-    "value: v}, {peak: v}, {least: v}, {settles: v, below: b}, {rms: v, over: [a, b]}, {count: "
-    "event}, {passes: event}, {lost: event}, {ended: why}";
+    "value: v}, {peak: v}, {least: v}, {settles: v, below: b}, {rms: v, over: [a, b]}, {integral: "
+    "v, "
+    "over: [a, b]}, {nees: e, covariance: P, at: {t: ...}}, {nis: r, covariance: S, at: {event: "
+    "...}}, {count: event}, {passes: event}, {lost: event}, {ended: why}";
 
 constexpr const char* kOfRun = "it belongs in expect.run alone: all observers end with the run";
 
@@ -55,14 +58,37 @@ void read_moment(const YamlFile& file, const YamlItem& item, FigureText& figure)
                  std::to_string(figure.count);
 }
 
+/// "nees" with the covariance and a moment, "nis" with an event. The number is e'*inv(P)*e.
+void read_squares(const YamlFile& file, const YamlMap& map, const YamlItem& item,
+                  const std::optional<YamlItem>& covariance, const std::optional<YamlItem>& at,
+                  FigureText& figure) {
+  if (!at || !covariance) throw InputError(map.place(), kForms);
+  read_moment(file, *at, figure);
+  const bool of_samples = item.key == "nis";
+  if (of_samples) {
+    YamlMap moment(file, at->value, "at", keys::moment);
+    if (figure.kind != FigureKind::at_event || moment.find("count") || moment.find("side"))
+      throw InputError(at->place, "nis: it is of all samples, 'at: {event: ...}'");
+    figure.kind = FigureKind::nis;
+    figure.title = "at " + figure.event;
+  }
+  figure.error = file.expression(item.value, item.key);
+  const std::string e = figure.error->text->str();
+  const std::string P = file.expression(covariance->value, covariance->key).text->str();
+  figure.value = expr::parse(expr::Text::generated("(" + e + ")'*inv(" + P + ")*(" + e + ")",
+                                                   figure.error->place(*figure.error->root)));
+  figure.title = item.key + " " + e + " " + figure.title;
+}
+
 /// The figure of a mapping. `ending`: where its word goes, of a mapping of `expect`, which takes
 /// other keys besides; null for others.
 FigureText figure(const YamlFile& file, YamlMap& map, std::string* ending) {
-  static const std::array<std::pair<const char*, FigureKind>, 7> kOfValues = {
+  static const std::array<std::pair<const char*, FigureKind>, 8> kOfValues = {
       {{"peak", FigureKind::peak},
        {"least", FigureKind::least},
        {"settles", FigureKind::settles},
        {"rms", FigureKind::rms},
+       {"integral", FigureKind::integral},
        {"count", FigureKind::count},
        {"passes", FigureKind::passes},
        {"lost", FigureKind::lost}}};
@@ -74,7 +100,12 @@ FigureText figure(const YamlFile& file, YamlMap& map, std::string* ending) {
   const auto value = map.find("value");
   const auto below = map.find("below");
   const auto over = map.find("over");
-  if (const auto at = map.find("at")) {
+  const auto at = map.find("at");
+  const auto nees = map.find("nees"), nis = map.find("nis"), covariance = map.find("covariance");
+  if (nees || nis) {
+    found += (nees ? 1 : 0) + (nis ? 1 : 0) + (value ? 1 : 0);
+    read_squares(file, map, nees ? *nees : *nis, covariance, at, result);
+  } else if (at) {
     ++found;
     read_moment(file, *at, result);
     if (!value) throw InputError(at->place, "at: with the wanted value, 'value: ...'");
@@ -111,9 +142,9 @@ FigureText figure(const YamlFile& file, YamlMap& map, std::string* ending) {
     for (const char* key : {"is", "relative", "absolute"}) map.find(key);
     map.finish();  // names what was misspelt
   }
-  if (found != 1) throw InputError(map.place(), kForms);
+  if (found != 1 || (covariance && !nees && !nis)) throw InputError(map.place(), kForms);
   if ((result.kind == FigureKind::settles) != below.has_value() ||
-      (result.kind == FigureKind::rms) != over.has_value())
+      (result.kind == FigureKind::rms || result.kind == FigureKind::integral) != over.has_value())
     throw InputError(map.place(), kForms);
   if (below) {
     result.numbers = {file.expression(below->value, "below")};

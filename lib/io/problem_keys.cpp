@@ -107,15 +107,24 @@ constexpr std::array kFigure = {
     Key{"settles", "text", "the time from which on it stays below a bound"},
     Key{"below", "text", "that bound"},
     Key{"rms", "text", "the root of the mean square"},
+    Key{"integral", "text", "the integral"},
     Key{"over", "range", "of these times"},
+    Key{"nees", "text", "e'*inv(P)*e of this error e"},
+    Key{"nis", "text", "its mean over the samples of this innovation"},
+    Key{"covariance", "text", "P"},
     Key{"count", "text", "how often an event came"},
     Key{"passes", "text", "passes of the loops of an event"},
     Key{"lost", "text", "how often an event was lost"}};
-constexpr std::array kFigureParts = {Rule::needs("at", "value"), Rule::needs("settles", "below"),
-                                     Rule::needs("below", "settles"), Rule::needs("rms", "over"),
-                                     Rule::needs("over", "rms")};
-constexpr auto kFigureRules = joined(
-    kFigureParts, std::array{Rule::exactly_one("at,peak,least,settles,rms,count,passes,lost")});
+constexpr std::array kFigureParts = {
+    Rule::needs("at", "value,nees,nis"), Rule::needs("value", "at"),
+    Rule::needs("settles", "below"),     Rule::needs("below", "settles"),
+    Rule::needs("rms", "over"),          Rule::needs("integral", "over"),
+    Rule::needs("over", "rms,integral"), Rule::needs("nees", "at"),
+    Rule::needs("nees", "covariance"),   Rule::needs("nis", "at"),
+    Rule::needs("nis", "covariance"),    Rule::needs("covariance", "nees,nis")};
+constexpr auto kFigureRules =
+    joined(kFigureParts, std::array{Rule::exactly_one(
+                             "value,peak,least,settles,rms,integral,nees,nis,count,passes,lost")});
 
 constexpr auto kExpectedFigure = joined(
     kFigure,
@@ -128,8 +137,9 @@ constexpr auto kExpectedFigure = joined(
         Key{"absolute", "number", "tolerance"}});
 constexpr auto kExpectedFigureRules = joined(
     kFigureParts,
-    std::array{Rule::exactly_one("at,peak,least,settles,rms,count,passes,lost,ended"),
-               Rule::exactly_one("is,ended"), Rule::excludes("ended", "is,relative,absolute")});
+    std::array{
+        Rule::exactly_one("value,peak,least,settles,rms,integral,nees,nis,count,passes,lost,ended"),
+        Rule::exactly_one("is,ended"), Rule::excludes("ended", "is,relative,absolute")});
 
 constexpr std::array kMoment = {Key{"event", "text"}, Key{"t", "text", "a time"},
                                 Key{"count", "whole", "which one of the event"},

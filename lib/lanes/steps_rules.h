@@ -129,60 +129,54 @@ inline V tanh_of(V x) {
   return x == x ? with_sign(out, x) : x;
 }
 
-/// x = k pi/2 + high + low, pi/2 in three parts of 33 bits and a rest (fdlibm).
-struct Angle {
-  V high, low;
-  I quarter;
-};
-inline Angle reduced_angle(V x) {
-  const Rounded k = rounded(x * all(6.36619772367581382433e-01));
-  const V first = x - k.value * all(1.57079632673412561417e+00);
-  const V step = k.value * all(6.07710050630396597660e-11);
-  const V second = first - step;
-  const V lost = (first - second) - step;
-  const V rest = k.value * all(2.02226624879595063154e-21) - lost;
-  const V high = second - rest;
-  return {high, (second - high) - rest, k.bits};
+inline bool any(I mask) {
+#if defined(__AVX512F__)
+  return _mm512_test_epi64_mask((__m512i)mask, (__m512i)mask) != 0;
+#elif defined(__AVX2__)
+  return _mm256_movemask_pd((__m256d)mask) != 0;
+#else
+  return _mm_movemask_pd((__m128d)mask) != 0;
+#endif
 }
 
-/// Of |x| <= pi/4, as __kernel_sin and __kernel_cos of fdlibm.
-inline V sin_kernel(V x, V low) {
-  const V z = x * x;
-  V r = all(1.58969099521155010221e-10);
-  r = multiply_add(r, z, all(-2.50507602534068634195e-08));
-  r = multiply_add(r, z, all(2.75573137070700676789e-06));
-  r = multiply_add(r, z, all(-1.98412698298579493134e-04));
-  r = multiply_add(r, z, all(8.33333333332248946124e-03));
-  const V v = z * x;
-  return x - ((z * (all(0.5) * low - v * r) - low) - v * all(-1.66666666666666324348e-01));
-}
-inline V cos_kernel(V x, V low) {
-  const V z = x * x;
-  V r = all(-1.13596475577881948265e-11);
-  r = multiply_add(r, z, all(2.08757232129817482790e-09));
-  r = multiply_add(r, z, all(-2.75573143513906633035e-07));
-  r = multiply_add(r, z, all(2.48015872894767294178e-05));
-  r = multiply_add(r, z, all(-1.38888888888741095749e-03));
-  r = multiply_add(r, z, all(4.16666666666666019037e-02));
-  const V half = all(0.5) * z;
-  const V w = all(1.0) - half;
-  return w + (((all(1.0) - w) - half) + (z * z * r - x * low));
+/// sin(r) for |r| <= pi/2: Taylor's series up to r^21.
+inline V sin_kernel(V r) {
+  constexpr double terms[] = {1.0 / 51090942171709440000.0,
+                              -1.0 / 121645100408832000.0,
+                              1.0 / 355687428096000.0,
+                              -1.0 / 1307674368000.0,
+                              1.0 / 6227020800,
+                              -1.0 / 39916800,
+                              1.0 / 362880,
+                              -1.0 / 5040,
+                              1.0 / 120,
+                              -1.0 / 6};
+  const V z = r * r;
+  V sum = all(terms[0]);
+  for (std::size_t k = 1; k < sizeof terms / sizeof *terms; ++k)
+    sum = multiply_add(sum, z, all(terms[k]));
+  return multiply_add(r * z, sum, r);
 }
 
-/// Beyond these angles the quarters are not exact.
+/// Beyond these angles the half turns are not exact.
 constexpr double kLargestAngle = 1e6;
 
+/// x = k pi + r, with k + 1/2 for the cosine, pi in three parts (fdlibm) of which the first two have
+/// 33 bits: then sin(x) = (-1)^k sin(r) and cos(x) = -(-1)^k sin(r).
 template <bool cosine>
 inline V sine(V x) {
-  const Angle angle = reduced_angle(x);
-  const V s = sin_kernel(angle.high, angle.low);
-  const V c = cos_kernel(angle.high, angle.low);
-  const I quarter = angle.quarter + all(cosine ? 1LL : 0LL);
-  V out = (quarter & all(1LL)) != all(0LL) ? c : s;
-  out = (quarter & all(2LL)) != all(0LL) ? -out : out;
+  const V shift = all(cosine ? 0.5 : 0.0);
+  const Rounded turns = rounded(x * all(3.18309886183790691216e-01) - shift);
+  const V k = turns.value + shift;
+  V r = x - k * all(0x1.921fb544p+1);
+  r = r - k * all(0x1.0b4611a6p-33);
+  r = multiply_add(k, all(-0x1.3198a2e037073p-68), r);
+  const I sign = (turns.bits + all(cosine ? 1LL : 0LL)) << 63;
+  V out = bits_to_number(number_to_bits(sin_kernel(r)) ^ sign);
   const I far = ~(abs_of(x) <= all(kLargestAngle));
-  for (std::size_t k = 0; k < kWidth; ++k)
-    if (far[k] != 0) out[k] = cosine ? __builtin_cos(x[k]) : __builtin_sin(x[k]);
+  if (any(far)) [[unlikely]]
+    for (std::size_t l = 0; l < kWidth; ++l)
+      if (far[l] != 0) out[l] = cosine ? __builtin_cos(x[l]) : __builtin_sin(x[l]);
   return out;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "model/figure_record.h"
 #include "model/words.h"
 
 namespace gainsmith::model {
@@ -62,10 +63,11 @@ struct CampaignRecord {
   std::optional<double> violation_probability;  ///< at most, with that confidence
   std::vector<std::string> notes;
   std::vector<ClaimRecord> checks;
-  std::uint64_t runs_asked = 0;  ///< more than `runs` after an interruption
-  std::string message;           ///< of an interruption
-  std::string version;           ///< of gainsmith
-  std::string gains_hash;        ///< of the gain file that was verified (io::gains_hash)
+  std::optional<FiguresRecord> figures;  ///< when they were asked for
+  std::uint64_t runs_asked = 0;          ///< more than `runs` after an interruption
+  std::string message;                   ///< of an interruption
+  std::string version;                   ///< of gainsmith
+  std::string gains_hash;                ///< of the gain file that was verified (io::gains_hash)
 };
 
 }  // namespace gainsmith::model

@@ -76,6 +76,7 @@ struct Design {
 
   /// A comparison of scalars that data and parameters must satisfy.
   struct Assumption {
+    std::string name;
     std::vector<std::pair<expr::Program, bool>> differences;  ///< to be > 0 (true) or >= 0
     std::string text;
     std::vector<std::string> scalars;  ///< that stand in it

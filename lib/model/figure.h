@@ -5,6 +5,10 @@
 //   {peak: v}, {least: v}      the largest and the smallest value, along flows too
 //   {settles: v, below: b}     the time from which on v stays below b; infinite when it does not
 //   {rms: v, over: [a, b]}     the root of the mean of v^2 over these times
+//   {integral: v, over: [a, b]}     the integral of v over these times
+//   {nees: e, covariance: P, at: ...}     e' P^-1 e of an error and its covariance, at a moment
+//   {nis: r, covariance: S, at: {event: sample}}     the mean of r' S^-1 r just before the jumps of
+//                              an event that the observer sees
 //   {count: event}, {passes: event}   how often it jumped; how often its loops ran in all
 //   {lost: event}              how many of these jumps no observer saw
 //   {ended: zeno}              why the run ended
@@ -20,7 +24,20 @@
 
 namespace gainsmith::model {
 
-enum class FigureKind { at_event, at_time, peak, least, settles, rms, count, passes, lost, ended };
+enum class FigureKind {
+  at_event,  ///< of `nees` too
+  at_time,   ///< of `nees` too
+  peak,
+  least,
+  settles,
+  rms,
+  integral,
+  nis,
+  count,
+  passes,
+  lost,
+  ended
+};
 
 /// A figure as read.
 struct FigureText {
@@ -28,6 +45,7 @@ struct FigureText {
   std::string title;     ///< as it is shown: "peak norm(e)"
   std::string observer;  ///< of which it is; empty: of each that has the names, or of none
   std::optional<expr::Expression> value;
+  std::optional<expr::Expression> error;  ///< of `nees` and `nis`: then value is e' P^-1 e
   std::string event;
   std::int64_t count = 1;
   bool after = false;
@@ -49,6 +67,7 @@ struct Figure {
   std::string title;
   std::string observer;
   std::optional<Formula> value;  ///< 1 x 1
+  std::int64_t elements = 0;     ///< of `nees` and `nis`: those of the error
   std::size_t event = 0;
   std::int64_t count = 1;
   bool after = false;

@@ -29,7 +29,8 @@ void check_assumption(const Design& design, const Design::Assumption& assumption
     for (const std::string& name : assumption.scalars)
       found += (found.empty() ? "" : ", ") + name + " = " + brief(values.at(name)(0, 0));
     const Place place = assumption.place.file.empty() ? Place{design.file} : assumption.place;
-    throw InputError(place, (found.empty() ? "" : found + ": ") + "expected " + assumption.text);
+    throw InputError(place, (found.empty() ? "" : found + ": ") + "expected " + assumption.text +
+                                ", the assumption '" + assumption.name + "'");
   }
 }
 

@@ -31,10 +31,12 @@ void check(const Figure& figure) {
   }
 }
 
+bool is_plane(const Panel& panel) { return panel.across && !panel.bars; }
+
 double height_of(const Panel& panel, std::size_t panels) {
   constexpr double heights[] = {320, 220, 180, 150}, of_row = 24, of_plane = 440;
   if (!panel.rows.empty()) return of_row * static_cast<double>(panel.rows.size());
-  return panel.across ? of_plane : heights[std::clamp<std::size_t>(panels, 1, 4) - 1];
+  return is_plane(panel) ? of_plane : heights[std::clamp<std::size_t>(panels, 1, 4) - 1];
 }
 
 bool has_marks(const Panel& panel) {
@@ -114,7 +116,7 @@ std::string svg(const Figure& figure) {
   check(figure);
   const auto planes = static_cast<std::size_t>(
       std::count_if(figure.panels.begin(), figure.panels.end(),
-                    [](const Panel& panel) { return panel.across || !panel.rows.empty(); }));
+                    [](const Panel& panel) { return is_plane(panel) || !panel.rows.empty(); }));
   std::vector<Axis> values;
   std::vector<double> heights;
   double beside = 30;

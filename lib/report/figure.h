@@ -48,6 +48,8 @@ struct Panel {
   /// A plane: t of its curves is another quantity of this name, in any order, with an axis of its
   /// own. A dot stands at the start of each curve, a ring at its end.
   std::optional<std::string> across{};
+  bool bars =
+      false;  ///< a plane whose curves are outlines of bars: as high as other panels, no ends
 };
 
 /// Panels one above the other. Those that are no planes stand first and share one axis.

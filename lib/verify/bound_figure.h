@@ -17,6 +17,8 @@ class BoundFigure {
   BoundFigure& operator=(const BoundFigure&) = delete;
 
   std::optional<double> of(const hybrid::Trajectory& run) { return (*number_)(run); }
+  /// Of the last run, of `nees` and `nis`.
+  const claims::Squares& squares() const { return number_->squares(); }
 
  private:
   std::optional<expr::Program> program_;  ///< that the value of the figure reads

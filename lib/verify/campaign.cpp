@@ -162,7 +162,7 @@ RunRange add(const CampaignPart& more, CampaignPart& sum) {
 }
 
 Campaign::Campaign(const Setup& setup, const CampaignOptions& options)
-    : setup_(&setup), threads_(options.threads) {
+    : setup_(&setup), threads_(options.threads), between_(options.between) {
   require_a_claim(setup.events->texts.method, setup.claims());
   facts_ = facts_of(setup, options);
   packs_ = make_packs(setup, facts_.asked);
@@ -190,15 +190,29 @@ void Campaign::make_runs(RunRange range, CampaignPart& part, const Save& save) c
     const Packs* const packs = packs_go_on() ? &packs_ : nullptr;
     // Linear packs put runs of one law together.
     const std::uint64_t size = packs == nullptr ? kFirstRuns : packs->linear ? 2048 : 256;
+    const bool grows = between_ && packs == nullptr;
+    const auto work_between = [&](std::uint64_t runs) {
+      if (between_ && runs > 0) between_(runs);
+    };
     for (const RunRange& one : missing) {
       const RunRange early{one.first, std::min(one.last, kFirstRuns)};
       const RunRange late{std::max(one.first, kFirstRuns), one.last};
       if (early.count() > 0) judge_runs(*setup_, first, facts_.seed, early, collector);
-      parallel_for((late.count() + size - 1) / size, threads_, [&](std::size_t block) {
-        const std::uint64_t from = late.first + block * size;
-        judge_runs(*setup_, packs, facts_.seed, {from, std::min(late.last, from + size)},
-                   collector);
-      });
+      work_between(part.tally.runs);
+      std::uint64_t at_once = grows ? size : late.count();
+      for (std::uint64_t first_run = late.first; first_run < late.last;) {
+        const std::uint64_t last_run = std::min(late.last, first_run + at_once);
+        parallel_for((last_run - first_run + size - 1) / size, threads_, [&](std::size_t block) {
+          const std::uint64_t from = first_run + block * size;
+          judge_runs(*setup_, packs, facts_.seed, {from, std::min(last_run, from + size)},
+                     collector);
+        });
+        check_stop();
+        first_run = last_run;
+        if (first_run == late.last) break;
+        work_between(part.tally.runs);
+        at_once *= 2;
+      }
     }
   } catch (const Stopped&) {
     // What is done is there.

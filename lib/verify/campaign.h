@@ -28,6 +28,9 @@ struct CampaignOptions {
   std::optional<std::uint64_t> seed;  ///< none: the problem's
   unsigned threads = 0;               ///< 0: one a core; the report does not depend on it
   double confidence = 0.95;           ///< of the bound on the probability of a violation
+  /// More work on the runs that are made so far, as many as it is told. It is called after the
+  /// first runs, and where runs are made one by one whenever there are about twice as many.
+  std::function<void(std::uint64_t)> between{};
 };
 
 /// One claim over all runs.
@@ -109,6 +112,7 @@ class Campaign {
 
   const Setup* setup_;
   unsigned threads_;
+  std::function<void(std::uint64_t)> between_;
   Packs packs_;
   CampaignFacts facts_;
 };

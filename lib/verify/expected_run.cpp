@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <memory>
+#include <limits>
+#include <optional>
+#include <utility>
 
 #include "base/number.h"
-#include "base/parallel.h"
-#include "base/progress.h"
 #include "base/stop.h"
 #include "bind/stated.h"
 #include "verify/bound_figure.h"
@@ -17,14 +17,20 @@ namespace gainsmith::verify {
 
 namespace {
 
-/// A run to two accuracies, and figures of both.
+struct FoundFigure {
+  std::optional<double> value;  ///< none: the run has no such number
+  /// How far it is from that of a run integrated to a hundredth of the tolerance.
+  double difference = 0;
+};
+
+/// The first run to two accuracies, and figures of both.
 class TwoRuns {
  public:
   /// The setup must outlive it.
-  TwoRuns(const EventSetup& setup, std::uint64_t seed, std::uint64_t run) : setup_(&setup) {
+  TwoRuns(const EventSetup& setup, std::uint64_t seed) : setup_(&setup) {
     simulate::Simulator simulator(setup_->system, setup_->scenario);
-    usual_ = simulator.run(seed, run, setup_->accuracy(kAccuracyOfOne));
-    sharper_ = simulator.run(seed, run, setup_->accuracy(kAccuracyOfOne, bounded::kSharper));
+    usual_ = simulator.run(seed, 0, setup_->accuracy(kAccuracyOfOne));
+    sharper_ = simulator.run(seed, 0, setup_->accuracy(kAccuracyOfOne, bounded::kSharper));
     check_stop();
   }
 
@@ -32,7 +38,7 @@ class TwoRuns {
   const std::string& message() const { return sharper_.message; }
 
   FoundFigure find(const model::Figure& figure) {
-    FoundFigure found{figure.title, figure.observer, std::nullopt, 0};
+    FoundFigure found;
     const auto [usual, sharper] = numbers(figure);
     found.value = sharper;
     if (usual && sharper) found.difference = *usual == *sharper ? 0 : std::abs(*usual - *sharper);
@@ -57,31 +63,12 @@ std::string said(const std::optional<double>& value) { return value ? brief(*val
 
 }  // namespace
 
-std::vector<Comparison> compared_figures(const model::Instance& instance, const model::Gains& gains,
-                                         std::uint64_t seed,
-                                         const std::vector<std::uint64_t>& runs) {
-  std::vector<Comparison> found(runs.size());
-  if (instance.design->compare.empty()) return found;
-  const auto setup = make_event_setup(bind::run_texts(instance, gains));
-  const Doing doing("runs", runs.size());
-  parallel_for(runs.size(), 0, [&](std::size_t k) {
-    TwoRuns run(*setup, seed, runs[k]);
-    for (const model::Figure& figure : instance.design->compare)
-      found[k].figures.push_back(run.find(figure));
-    if (!is_complete(run.ending()))
-      found[k].early =
-          to_string(run.ending()) + (run.message().empty() ? std::string() : ": " + run.message());
-    Doing::step();
-  });
-  return found;
-}
-
 RunDifferences run_differences(const model::Instance& instance, const model::Gains& gains) {
   RunDifferences result;
   const auto& expect = instance.design->expect;
   if (!expect || expect->run.empty()) return result;
   const auto setup = make_event_setup(bind::run_texts(instance, gains));
-  TwoRuns runs(*setup, instance.design->campaign.seed, 0);
+  TwoRuns runs(*setup, instance.design->campaign.seed);
   for (const model::ExpectedFigure& expected : expect->run) {
     ++result.figures;
     const model::Figure& figure = expected.figure;

@@ -1,10 +1,7 @@
-// Figures of runs of dynamics with events: those expected of the first run, and those that are
-// compared.
+// Figures that are expected of the first run of dynamics with events.
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <optional>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -12,24 +9,6 @@
 #include "model/instance.h"
 
 namespace gainsmith::verify {
-
-struct FoundFigure {
-  std::string title;
-  std::string observer;         ///< empty: of none
-  std::optional<double> value;  ///< none: the run has no such number
-  /// How far it is from that of a run integrated to a hundredth of the tolerance.
-  double difference = 0;
-};
-
-struct Comparison {
-  std::vector<FoundFigure> figures;
-  std::string early;  ///< why the run ended before its horizon; empty where it did not, or by zeno
-};
-
-/// The figures under `compare`, of each of these runs of the seed.
-std::vector<Comparison> compared_figures(const model::Instance& instance, const model::Gains& gains,
-                                         std::uint64_t seed,
-                                         const std::vector<std::uint64_t>& runs);
 
 struct RunDifferences {
   std::vector<std::string> different;  ///< place: figure: expected ..., found ...

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/number.h"
+#include "base/stop.h"
 #include "claims/run_values.h"
 #include "verify/judge.h"
 #include "verify/tolerances.h"

@@ -146,7 +146,7 @@ TEST(Refusal, AnAssumptionThatFailsIsShownAtTheDatum) {
 TEST(Refusal, AnAssumptionWithoutNamesSaysWhatIsExpected) {
   const std::string method = changed(kSmallMethod, "decay: delta > 0", "decay: 2 < 1");
   const InputError error = input_error([&] { Small small(kSmallProblem, method); });
-  EXPECT_EQ(error.message(), "expected 2 < 1");
+  EXPECT_EQ(error.message(), "expected 2 < 1, the assumption 'decay'");
 }
 
 TEST(Refusal, MistakesInDataAreShownInTheProblem) {

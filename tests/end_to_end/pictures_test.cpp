@@ -225,8 +225,9 @@ TEST(Pictures, WrongRequestsSayWhatWasExpected) {
       {{"--runs=-1"}, "--runs: expected numbers of runs"},
       {{"--runs", "1,0:2"}, "--runs: run 1 is named twice"},
       {{"--runs", "0:1e9"},
-       "--runs: at most 100 runs are drawn or compared: name fewer of them; for the claims of many "
-       "runs 'gainsmith verify --runs N'"},
+       "--runs: at most 100 runs are drawn over each other: name fewer of them; 'gainsmith verify "
+       "--runs N "
+       "--compare' has no such limit"},
       {{"--runs", "1", "--judge"}, "--runs draws several runs"}};
   for (const auto& [arguments, message] : wrong) {
     const Folder folder;

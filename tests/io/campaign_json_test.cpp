@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "io/problem_text.h"
 #include "io/result_json.h"
 
@@ -9,6 +11,8 @@ namespace gainsmith::io {
 namespace {
 
 using tests::input_error;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 model::CampaignRecord campaign() {
   model::CampaignRecord record;
@@ -43,6 +47,12 @@ model::CampaignRecord campaign() {
   void_one.stated = false;
   void_one.missing = {"P"};
   record.checks = {claim, void_one};
+  model::FigureRecord settles{"settles norm(e)", "fast", 7, 2, 0.1, infinity, 3, 4, {}, 1e-3, {}};
+  settles.quantiles = {{0.5, 0.125, 0.1, std::nullopt}, {0.95, infinity, -infinity, infinity}};
+  model::FigureRecord squares;
+  squares.figure = "nees e at t = 1";
+  squares.consistency = {"undecided", 3, 2, 1.0625, 2, 0.5, std::nullopt, 0.95};
+  record.figures = {9, 10, 5, 0.95, {settles, squares}};
   return record;
 }
 
@@ -56,6 +66,8 @@ TEST(CampaignJson, IsReadAsItWasWritten) {
     EXPECT_EQ(read.seed, record.seed);
     EXPECT_EQ(read.integrated, integrated);
     EXPECT_FALSE(read.checks[0].worst.bound);
+    EXPECT_EQ(read.figures->figures[0].largest, infinity);
+    EXPECT_FALSE(read.figures->figures[1].consistency->high);
     EXPECT_EQ(read.first_undecided->run, 3U);
     EXPECT_EQ(read.checks[1].missing, std::vector<std::string>{"P"});
   }

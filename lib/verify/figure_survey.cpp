@@ -1,0 +1,145 @@
+#include "verify/figure_survey.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "base/progress.h"
+#include "base/stop.h"
+#include "verify/bound_figure.h"
+#include "verify/run_blocks.h"
+
+namespace gainsmith::verify {
+
+namespace {
+
+void keep_least(const std::optional<OfRun>& more, std::optional<OfRun>& least) {
+  if (more && (!least || std::pair(more->value, more->run) < std::pair(least->value, least->run)))
+    least = more;
+}
+
+void keep_largest(const std::optional<OfRun>& more, std::optional<OfRun>& largest) {
+  if (more &&
+      (!largest || std::pair(-more->value, more->run) < std::pair(-largest->value, largest->run)))
+    largest = more;
+}
+
+FigureSurvey empty_survey(const std::vector<model::Figure>& figures) {
+  FigureSurvey survey;
+  for (const model::Figure& figure : figures) {
+    FigureSummary& summary = survey.figures.emplace_back();
+    summary.title = figure.title;
+    summary.observer = figure.observer;
+    summary.squares.elements = figure.elements;
+    summary.whole = figure.kind == model::FigureKind::count ||
+                    figure.kind == model::FigureKind::passes ||
+                    figure.kind == model::FigureKind::lost;
+  }
+  return survey;
+}
+
+/// Figures of run after run; one for each thread.
+class Surveyor {
+ public:
+  Surveyor(const EventSetup& setup, const std::vector<model::Figure>& figures, std::uint64_t seed)
+      : setup_(setup),
+        seed_(seed),
+        simulator_(setup.system, setup.scenario),
+        survey_(empty_survey(figures)),
+        values_(figures.size()) {
+    for (const model::Figure& figure : figures)
+      figures_.push_back(std::make_unique<BoundFigure>(figure, setup));
+  }
+
+  void add(std::uint64_t run) {
+    const hybrid::Trajectory made =
+        simulator_.run(seed_, run, setup_.accuracy(kAccuracyOfOne, bounded::kSharper));
+    check_stop();
+    ++survey_.runs;
+    if (!is_complete(made.ending)) {
+      if (survey_.early++ == 0 || run < survey_.early_run) {
+        survey_.early_run = run;
+        survey_.early_why =
+            to_string(made.ending) + (made.message.empty() ? std::string() : ": " + made.message);
+      }
+    }
+    for (std::size_t k = 0; k < figures_.size(); ++k) add(k, run, made);
+  }
+
+  FigureSurvey result() {
+    for (std::size_t k = 0; k < values_.size(); ++k) survey_.figures[k].values.add(values_[k]);
+    return std::move(survey_);
+  }
+
+ private:
+  void add(std::size_t k, std::uint64_t run, const hybrid::Trajectory& made) {
+    FigureSummary& summary = survey_.figures[k];
+    const std::optional<double> value = figures_[k]->of(made);
+    if (summary.squares.elements > 0) summary.squares.add(figures_[k]->squares());
+    if (!value) {
+      ++summary.without;
+      return;
+    }
+    values_[k].push_back(*value);
+    keep_least(OfRun{*value, run}, summary.least);
+    keep_largest(OfRun{*value, run}, summary.largest);
+  }
+
+  const EventSetup& setup_;
+  std::uint64_t seed_;
+  simulate::Simulator simulator_;
+  std::vector<std::unique_ptr<BoundFigure>> figures_;
+  FigureSurvey survey_;
+  std::vector<std::vector<double>> values_;  ///< by figure
+};
+
+}  // namespace
+
+void FigureSummary::add(const FigureSummary& more) {
+  values.add(more.values);
+  without += more.without;
+  keep_least(more.least, least);
+  keep_largest(more.largest, largest);
+  squares.add(more.squares);
+}
+
+void FigureSurvey::add(const FigureSurvey& more) {
+  runs += more.runs;
+  if (more.early > 0 && (early == 0 || more.early_run < early_run)) {
+    early_run = more.early_run;
+    early_why = more.early_why;
+  }
+  early += more.early;
+  for (std::size_t k = 0; k < figures.size(); ++k) figures[k].add(more.figures[k]);
+}
+
+FigureSurvey survey_figures(const EventSetup& setup, const std::vector<model::Figure>& figures,
+                            std::uint64_t seed, const RunNumbers& runs, unsigned threads) {
+  FigureSurvey all = empty_survey(figures);
+  const bool counted = Doing::now().what.empty();  // not amid a campaign, which counts its own runs
+  const Doing doing("figures", runs.count);
+  sum_over_runs(
+      runs.count, threads, [&] { return Surveyor(setup, figures, seed); },
+      [&](Surveyor& surveyor, std::uint64_t k) {
+        surveyor.add(runs[k]);
+        if (counted) Doing::step();
+      },
+      [&](Surveyor& surveyor) { all.add(surveyor.result()); });
+  return all;
+}
+
+GrowingSurvey::GrowingSurvey(const EventSetup& setup, const std::vector<model::Figure>& figures,
+                             std::uint64_t seed, unsigned threads)
+    : setup_(setup),
+      figures_(figures),
+      seed_(seed),
+      threads_(threads),
+      survey_(empty_survey(figures)) {}
+
+void GrowingSurvey::grow(std::uint64_t runs) {
+  if (runs <= survey_.runs) return;
+  survey_.add(
+      survey_figures(setup_, figures_, seed_, {runs - survey_.runs, {}, survey_.runs}, threads_));
+}
+
+}  // namespace gainsmith::verify

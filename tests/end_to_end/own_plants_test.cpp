@@ -1,0 +1,185 @@
+// The observers of the papers for plants that are in no paper: problems as their pages tell to write
+// them. Of each method one plant is not for it and is refused with the assumption that it breaks.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "end_to_end/program.h"
+
+namespace gainsmith::tests {
+namespace {
+
+struct Own {
+  std::string name;
+  std::string method;
+  std::string text;     ///< what stands below the name and the method
+  std::string refused;  ///< what is said of a plant that the method does not serve; empty for one that it does
+};
+
+void PrintTo(const Own& own, std::ostream* out) { *out << own.name; }
+
+class OwnPlants : public ::testing::TestWithParam<Own> {};
+
+TEST_P(OwnPlants, AreServedOrRefusedWithTheAssumption) {
+  const Own& own = GetParam();
+  const std::string text =
+      "problem: " + own.name + "\nmethod: " + own.method + "\n" + own.text;
+  EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 15) << "a page's example is short";
+  const Folder folder;
+  const Outcome outcome =
+      gainsmith({"run", folder.file(own.name + ".yaml", text), "-o", folder.path("out")});
+  if (own.refused.empty()) {
+    EXPECT_EQ(outcome.exit, 0) << outcome.out << outcome.err;
+    EXPECT_TRUE(has(outcome.out, "held in ")) << outcome.out;
+  } else {
+    EXPECT_NE(outcome.exit, 0) << outcome.out << outcome.err;
+    EXPECT_TRUE(has(outcome.out + outcome.err, own.refused))
+        << outcome.out << outcome.err;
+  }
+}
+
+std::string name_of(const ::testing::TestParamInfo<Own>& own) { return own.param.name; }
+
+const std::string kStarts = "campaign: {runs: 10, horizon: 12, initial: {x: {box: [-1, 1]}}}\n";
+
+INSTANTIATE_TEST_SUITE_P(
+    HybridKalmanLike, OwnPlants,
+    ::testing::Values(
+        Own{"sampled", "hybrid-kalman-like",
+            "data: {F: [[0, 1], [0, 0]], Hc: 'zeros(1, 2)', J: eye(2), Hd: [1, 0], T1: 0.1, T2: 0.5}\n" +
+                kStarts,
+            ""},
+        Own{"impacts", "hybrid-kalman-like",
+            "data: {F: [[0, 1], [-4, -0.1]], Hc: [1, 0], J: [[1, 0], [0, -0.8]], T1: 0.1, T2: 0.5}\n" +
+                kStarts,
+            ""},
+        Own{"unstable", "hybrid-kalman-like",
+            "data: {F: [[0.3, 1], [0, 0.2]], Hc: [1, 0], J: [[0.5, 0.1], [0, 1.1]], Hd: [0, 1], T1: 0.2, T2: 1}\n"
+            "parameters: {gamma: 0.5}\n" +
+                kStarts,
+            ""},
+        Own{"unknown_reset", "hybrid-kalman-like",
+            "data:\n  F: [[0, 1, 0], [-1, 0, 0], [0, 0, 0]]\n  Hc: [0, 1, 0]\n"
+            "  J: [[0, 0, 1], [0, 1, 0], [0, 0, 1]]\n  T1: 0.3\n  T2: 1\n" +
+                kStarts,
+            ""},
+        Own{"never_shown", "hybrid-kalman-like",
+            "data: {F: [[-1, 0], [0, 0.5]], Hc: [1, 0], J: eye(2), T1: 0.3, T2: 1}\n" + kStarts,
+            "the assumption 'uniformly observable'"},
+        Own{"turning_rate", "hybrid-kalman-like-varying",
+            "data:\n  known(t): 2 + sin(t)\n  F(v): '[0, -v; v, 0]'\n  Hc(v): '[1, 0]'\n"
+            "  J(v): '[1, 0; 0, v/2]'\n  T1: 0.3\n  T2: 1\n" +
+                kStarts,
+            ""},
+        Own{"forgets_too_much", "hybrid-kalman-like-varying",
+            "data:\n  known(t): 2 + sin(t)\n  F(v): '[0, -v; v, 0]'\n  Hc(v): '[1, 0]'\n"
+            "  J(v): eye(2)\n  T1: 0.3\n  T2: 1\nparameters: {gamma: 1.5}\n" +
+                kStarts,
+            "the assumption 'factor'"}),
+    name_of);
+
+INSTANTIATE_TEST_SUITE_P(
+    HybridKkl, OwnPlants,
+    ::testing::Values(
+        Own{"unknown_reset", "hybrid-kkl",
+            "data:\n  F: [[0, 1, 0], [-1, 0, 0], [0, 0, 0]]\n  Hc: [0, 1, 0]\n"
+            "  J: [[0, 0, 1], [0, 1, 0], [0, 0, 1]]\n  T1: 0.3\n  T2: 1\nparameters: {lambda: 40}\n" +
+                kStarts,
+            ""},
+        Own{"two_hidden", "hybrid-kkl",
+            "data:\n  F: [[0.2, 0, 0], [0, 0.1, 1], [0, -1, 0]]\n  Hc: [1, 0, 0]\n"
+            "  J: [[0.5, 1, 0], [0, 0.9, 0], [0.1, 0, 0.8]]\n  T1: 0.4\n  T2: 0.9\nparameters: {lambda: 10}\n"
+            "campaign: {runs: 10, horizon: 20, initial: {x: {box: [-1, 1]}}}\n",
+            ""},
+        Own{"shown_at_jumps", "hybrid-kkl",
+            "data:\n  F: [[0, 1, 0], [-2, -0.1, 0], [0, 0, -0.1]]\n  Hc: [1, 0, 0]\n"
+            "  J: [[1, 0, 0], [0, -0.9, 0.5], [0, 0, 1]]\n  Hd: [0, 0, 1]\n  T1: 0.5\n  T2: 1\n"
+            "  uc(t, y): '[0; -y^3; 0]'\nparameters: {gamma: 0.5, lambda: 10}\n" +
+                kStarts,
+            ""},
+        Own{"jumps_forget", "hybrid-kkl",
+            "data:\n  F: [[0, 1, 0], [-2, -0.1, 0], [0, 0, -0.1]]\n  Hc: [1, 0, 0]\n"
+            "  J: [[1, 0, 1], [0, -0.9, 0.5], [0.2, 0, 0]]\n  T1: 0.5\n  T2: 1\n" +
+                kStarts,
+            "the assumption 'jumps keep the hidden part'"},
+        Own{"never_seen", "hybrid-kkl",
+            "data:\n  F: 'blkdiag(0, [0, -1; 1, 0])'\n  Hc: [1, 0, 0]\n  J: eye(3)\n"
+            "  Hd: [0, 0, 0]\n  T1: 0.5\n  T2: 1\n" +
+                kStarts,
+            "the assumption 'backward distinguishable'"}),
+    name_of);
+
+INSTANTIATE_TEST_SUITE_P(
+    CoupledObserver, OwnPlants,
+    ::testing::Values(
+        Own{"unknown_kick", "coupled-observer",
+            "data:\n"
+            "  low:  [-1, -15]\n"
+            "  high: [10, 15]\n"
+            "  fo(z, t): \"[z(2); -9.81]\"\n"
+            "  guard(z): z\n"
+            "  Ano:  0\n"
+            "  Jo(z, t): \"[z(1); -0.5*z(2)]\"\n"
+            "  Jono(z): \"[0; 1]\"\n"
+            "  T1:   0.3\n"
+            "  T2:   3\n"
+            "campaign: {runs: 5, horizon: 12, initial: {zo: [3, 0], xi: {box: [3, 5]}}}\n",
+            ""},
+        Own{"integrate_and_fire", "coupled-observer",
+            "data:\n"
+            "  low:  -2\n"
+            "  high: 2\n"
+            "  fo(z, t): 3 - z + 0.3*sin(t)\n"
+            "  guard(z): 1 - z\n"
+            "  Ano:  0\n"
+            "  Jo(z, t): 0\n"
+            "  Jono(z): 1\n"
+            "  T1:   0.2\n"
+            "  T2:   2\n"
+            "campaign: {runs: 5, horizon: 8, initial: {zo: 0, xi: {box: [-1, 0.5]}}}\n",
+            ""},
+        Own{"turning_part", "coupled-observer",
+            "data:\n"
+            "  low:  [-6, -6]\n"
+            "  high: [6, 6]\n"
+            "  fo(z, t): \"[z(2); -4*sin(z(1)) - 0.1*z(2)]\"\n"
+            "  guard(z): \"[z(1); z(2)]\"\n"
+            "  Ano:  [[0, 1], [-1, 0]]\n"
+            "  Jo(z, t): \"[z(1); -0.6*z(2) + 0.5]\"\n"
+            "  Jono(z): \"[0, 0; 0.3, 0.1]\"\n"
+            "  T1:   0.5\n"
+            "  T2:   1.5\n"
+            "parameters: {rho: 0.85, shrink: 0.4}\n"
+            "campaign: {runs: 2, horizon: 12, initial: {zo: [1.2, 0], xi: {box: [-1, 1]}}}\n",
+            ""},
+        Own{"shown_by_a_sensor", "coupled-observer",
+            "data:\n"
+            "  low:  [-1, -15]\n"
+            "  high: [10, 15]\n"
+            "  fo(z, t): \"[z(2); -9.81]\"\n"
+            "  guard(z): z\n"
+            "  Ano:  -0.1\n"
+            "  Jo(z, t): \"[z(1); -0.5*z(2) + 4]\"\n"
+            "  Jono(z): \"[0; 0]\"\n"
+            "  Hdno(z): 2\n"
+            "  T1:   0.3\n"
+            "  T2:   3\n"
+            "campaign: {runs: 5, horizon: 12, initial: {zo: [3, 0], xi: {box: [3, 5]}}}\n",
+            ""},
+        Own{"shown_by_nothing", "coupled-observer",
+            "data:\n"
+            "  low:  [-1, -15]\n"
+            "  high: [10, 15]\n"
+            "  fo(z, t): \"[z(2); -9.81]\"\n"
+            "  guard(z): z\n"
+            "  Ano:  0\n"
+            "  Jo(z, t): \"[z(1); -0.5*z(2) + 4]\"\n"
+            "  Jono(z): \"[0; 0]\"\n"
+            "  T1:   0.3\n"
+            "  T2:   3\n"
+            "campaign: {runs: 5, horizon: 12, initial: {zo: [3, 0], xi: {box: [3, 5]}}}\n",
+            "infeasible: contraction cannot hold"}),
+    name_of);
+
+}  // namespace
+}  // namespace gainsmith::tests
