@@ -191,7 +191,7 @@ std::vector<Option> options_of(const Command& command, Patience& patience) {
                         .named("SECONDS")
                         .checked(seconds_error));
   options.emplace_back("--progress", patience.progress,
-                       "say every 10 s on standard error what is being done");
+                       "write every 10 s a line of JSON to standard error: what is done, and how long the rest takes");
   return options;
 }
 

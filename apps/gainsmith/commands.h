@@ -11,6 +11,7 @@ Command scan_command();
 Command optimize_command();
 Command explain_command();
 Command verify_command();
+Command merge_command();
 Command simulate_command();
 Command run_command();
 Command report_command();

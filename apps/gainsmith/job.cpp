@@ -16,6 +16,7 @@
 #include "design/optimize.h"
 #include "gainsmith/campaign_text.h"
 #include "gainsmith/explain_text.h"
+#include "gainsmith/kept_job.h"
 #include "gainsmith/load.h"
 #include "gainsmith/run_table.h"
 #include "gainsmith/search_wanted.h"
@@ -96,6 +97,18 @@ class Job {
         hash_(hash) {}
 
   void run(JobResult& result) {
+    const std::string fingerprint = job_fingerprint(instance_, options_);
+    if (options_.resume)
+      if (auto kept = kept_job(folder_, result.name, fingerprint)) {
+        result = std::move(*kept);
+        return;
+      }
+    make(result);
+    result.fingerprint = fingerprint;
+  }
+
+ private:
+  void make(JobResult& result) {
     const design::SearchRequest request = wanted_search(instance_);
     const model::Gains gains =
         design::synthesize_searched(instance_, request, options_.threads, {});
@@ -121,7 +134,6 @@ class Job {
     write_atomically(folder_ / "summary.txt", summary(gains, campaign, result));
   }
 
- private:
   /// The gains are written when the campaign is over, or cannot be run: not when it is interrupted.
   std::optional<verify::Report> verify_and_write(const model::Gains& gains) {
     const auto write = [&] {
@@ -228,9 +240,10 @@ std::string path_from(const fs::path& folder, const fs::path& problem) {
 void write_job(const fs::path& problem, const fs::path& folder, JobResult& result) {
   try {
     if (result.gains_hash.empty()) prepare(folder);
-    write_atomically(folder / "result.json",
-                     io::to_text(io::result_json(result.report, path_from(folder, problem),
-                                                 result.gains_hash, result.seconds)));
+    io::Json document = io::result_json(result.report, path_from(folder, problem),
+                                        result.gains_hash, result.seconds);
+    if (!result.fingerprint.empty()) document = with_fingerprint(std::move(document), result);
+    write_atomically(folder / "result.json", io::to_text(document));
   } catch (const InputError& error) {
     if (result.report.contains("error")) return;  // which says more
     result.exit = ExitCode::bad_input;
@@ -278,6 +291,7 @@ JobResult run_job(const std::filesystem::path& problem, const std::string& name,
   if (result.report.is_null())
     result.report = {
         {"folder", name}, {"exit", static_cast<int>(result.exit)}, {"error", result.line}};
+  if (result.kept) return result;
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!result.interrupted) write_job(problem, folder, result);
   return result;

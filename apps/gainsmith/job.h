@@ -17,17 +17,20 @@ struct JobOptions {
   std::optional<std::uint64_t> seed;
   std::vector<std::string> set{};  ///< "NAME=VALUE", in each problem
   unsigned threads = 1;            ///< of the search and of the campaign
+  bool resume = false;             ///< results that are there stay (kept_job.h)
 };
 
 struct JobResult {
   ExitCode exit = ExitCode::fault;
-  std::string name;  ///< of the problem's folder in the output
-  std::string line;  ///< "yes, objective 688.572; held in 1000 runs, worst run 627"
-  std::vector<std::string> causes;       ///< why it is not ok, the first at first
+  std::string name;                 ///< of the problem's folder in the output
+  std::string line;                 ///< "yes, objective 688.572; held in 1000 runs, worst run 627"
+  std::vector<std::string> causes;  ///< why it is not ok, the first at first
   std::vector<std::string> differences;  ///< from `expect:`
   io::Json report;                       ///< without timings
   std::string gains_hash;                ///< of the gains that were written (io/campaign_json.h)
   double seconds = 0;
+  std::string fingerprint;   ///< job_fingerprint(); empty where the problem could not be read
+  bool kept = false;         ///< of an earlier run
   bool interrupted = false;  ///< by Ctrl-C, before it was decided; then nothing was written
 };
 

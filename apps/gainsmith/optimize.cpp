@@ -108,7 +108,7 @@ Command optimize_command() {
               "at the end move scalars and unknowns together (Ipopt); kept when it is better"),
        Option("--evaluations", options->evaluations, "of the figure, at most").within(1, 1000000),
        Option("--threads", options->threads,
-              "threads, 0: one a core; the result does not depend on it")
+              "threads, 0: as many as cores it may use; the result does not depend on it")
            .within(0, 1024),
        Option("-o,--output", options->output, "write the gain file here; - for standard output"),
        Option("--json", options->json, "print the result as JSON")},

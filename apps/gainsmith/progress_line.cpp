@@ -16,6 +16,21 @@ namespace gainsmith::app {
 
 namespace {
 
+std::string terminal_text(double seconds) {
+  return fmt::format("\r\033[K{:.0f} s  {}", seconds, to_text(Doing::now()));
+}
+
+/// For programs that wait. The names of what is done need no quotation.
+std::string json_line(double seconds) {
+  const Progress progress = Doing::now();
+  std::string text = fmt::format("{{\"seconds\": {:.0f}, \"doing\": \"{}\"", seconds, progress.what);
+  if (progress.of > 0)
+    text += fmt::format(", \"done\": {}, \"of\": {}", progress.done, progress.of);
+  if (const auto rate = progress.rate()) text += fmt::format(", \"rate\": {:.4g}", *rate);
+  if (const auto left = progress.left()) text += fmt::format(", \"seconds_left\": {:.0f}", *left);
+  return text + "}\n";
+}
+
 class Reporter {
  public:
   explicit Reporter(bool terminal) : terminal_(terminal), thread_([this] { report(); }) {}
@@ -53,8 +68,8 @@ class Reporter {
          next += pause) {
       if (hidden_) continue;
       const std::chrono::duration<double> seconds = Clock::now() - start;
-      const std::string text = fmt::format("{:.0f} s  {}", seconds.count(), Doing::now());
-      std::fputs((terminal_ ? "\r\033[K" + text : text + "\n").c_str(), stderr);
+      const std::string text = terminal_ ? terminal_text(seconds.count()) : json_line(seconds.count());
+      std::fputs(text.c_str(), stderr);
       shown_ = terminal_;
     }
   }

@@ -17,6 +17,7 @@
 #include "gainsmith/problem_files.h"
 #include "gainsmith/progress_line.h"
 #include "gainsmith/results_folder.h"
+#include "gainsmith/shard_option.h"
 #include "gainsmith/terminal.h"
 #include "page/page.h"
 
@@ -30,6 +31,7 @@ struct RunOptions {
   std::vector<std::string> problems;
   std::string output = "gainsmith-run";
   std::string junit;
+  std::string shard;
   unsigned threads = 0;
   bool json = false;
   bool report = false;
@@ -98,8 +100,17 @@ void write_report(const RunOptions& options, const std::vector<JobResult>& resul
   write_atomically(report_file(options), page::page(all, title));
 }
 
+/// Every N-th problem from the I-th on. The names are those among all.
+std::vector<ProblemFile> problems_of_shard(const RunOptions& options) {
+  const std::vector<ProblemFile> all = problem_files(options.problems);
+  const Shard shard = parse_shard(options.shard);
+  std::vector<ProblemFile> own;
+  for (std::size_t k = shard.index - 1; k < all.size(); k += shard.of) own.push_back(all[k]);
+  return own;
+}
+
 ExitCode run(const RunOptions& options) {
-  const std::vector<ProblemFile> items = problem_files(options.problems);
+  const std::vector<ProblemFile> items = problems_of_shard(options);
   const std::string page = options.report ? report_file(options) : "";
   for (const ProblemFile& item : items) prepare_outputs(item.path.string(), {options.junit, page});
   JobOptions job = options.job;
@@ -127,7 +138,9 @@ ExitCode run(const RunOptions& options) {
   const auto open = std::count_if(results.begin(), results.end(),
                                   [](const JobResult& result) { return result.interrupted; });
   if (open > 0)
-    say(fmt::format("interrupted: {} of {} problems have no answer\n", open, results.size()));
+    say(fmt::format("interrupted: {} of {} problems have no answer{}\n", open, results.size(),
+                    options.job.resume ? "; the same command goes on with them"
+                                       : "; with --resume the same command goes on with them"));
   return worst;
 }
 
@@ -148,10 +161,17 @@ Command run_command() {
        Option("--runs", options->job.runs, "runs of each campaign (default: the problem's)")
            .within<std::uint64_t>(1, 1000000000000000),
        Option("--seed", options->job.seed, "seed (default: the problem's)"),
-       Option("--threads", options->threads, "threads, 0: one a core; results do not depend on it")
+       Option("--threads", options->threads,
+              "threads, 0: as many as cores it may use; results do not depend on it")
            .within(0, 1024),
+       shard_option(options->shard,
+                    "only part I of N of the problems; the parts may share the folder of results"),
+       Option("--resume", options->job.resume,
+              "keep the results that are whole and of the same problem, runs and seed: after a "
+              "stop of any kind the same command goes on"),
        Option("--junit", options->junit, "write JUnit XML here"),
-       Option("--report", options->report, "write report.html into the folder of the results"),
+       Option("--report", options->report, "write report.html into the folder of the results")
+           .excludes({"--shard"}),
        Option("--json", options->json, "print the results as JSON")},
       "Prints one line a problem; the exit code is the worst of all.\n"
       "Two files of one name have a/motor and b/motor. A file of a folder of problems has its path "

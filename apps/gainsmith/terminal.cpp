@@ -53,13 +53,13 @@ void stop() {
 
 /// One that follows within two seconds is the first again: timeout(1) and schedulers signal a
 /// process and then its group. A later one ends the program.
-void on_interrupt(int) {
+void on_interrupt(int number) {
   if (interrupted_at == 0) {
     interrupted_at = seconds_now();
     if (!stop_requested) stop();
   } else if (seconds_now() - interrupted_at > 1) {
-    std::signal(SIGINT, SIG_DFL);
-    std::raise(SIGINT);
+    std::signal(number, SIG_DFL);
+    std::raise(number);
   }
 }
 
@@ -109,7 +109,9 @@ bool is_terminal() { return isatty(STDERR_FILENO) != 0; }
 
 void begin_work(const Patience& patience) {
   telling_now = 0;
+  // Schedulers end a job by SIGTERM and wait a little.
   handle(SIGINT, on_interrupt);
+  handle(SIGTERM, on_interrupt);
   handle(SIGALRM, on_timer);
   patience_seconds = patience.seconds.value_or(0);
   if (patience.seconds) set_timer(*patience.seconds);

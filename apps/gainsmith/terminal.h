@@ -26,10 +26,10 @@ bool is_terminal();
 /// How long a command may take, and how it says what it does.
 struct Patience {
   std::optional<double> seconds;  ///< none: as long as it takes
-  bool progress = false;          ///< a line every 10 s, where standard error is no terminal
+  bool progress = false;  ///< a line of JSON every 10 s, where standard error is no terminal
 };
 
-/// From now on Ctrl-C, or the end of the patience, requests a stop (base/stop.h). Where the command
+/// From now on Ctrl-C, SIGTERM, or the end of the patience, requests a stop (base/stop.h). Where the command
 /// does not begin to tell what is known within a second, the program ends with exit code 3. One
 /// more Ctrl-C after some seconds ends it too.
 void begin_work(const Patience& patience);

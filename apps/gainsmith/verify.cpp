@@ -7,10 +7,15 @@
 #include <vector>
 
 #include "base/error.h"
+#include "gainsmith/campaign_parts.h"
 #include "gainsmith/campaign_text.h"
 #include "gainsmith/commands.h"
 #include "gainsmith/figures_text.h"
+#include "gainsmith/kept_folder.h"
 #include "gainsmith/load.h"
+#include "gainsmith/output.h"
+#include "gainsmith/part_file.h"
+#include "gainsmith/shard_option.h"
 #include "gainsmith/terminal.h"
 #include "gainsmith/worst_text.h"
 #include "io/campaign_json.h"
@@ -33,6 +38,9 @@ struct VerifyOptions {
   double confidence = 0.95;
   bool compare = false;
   bool worst = false;
+  std::string shard;
+  std::string resume;
+  std::string output;
   bool json = false;
 };
 
@@ -68,40 +76,103 @@ ExitCode search_worst(const VerifyOptions& options, const LoadedGains& loaded) {
   return campaign_exit(report.verdict);
 }
 
-/// Where nothing is drawn no run says anything of another.
-model::FiguresRecord record_of(const verify::FigureSurvey& survey, const verify::Report& report) {
-  std::optional<double> confidence;
-  if (!report.different) confidence = report.confidence;
-  return figures_record(survey, report.asked, report.seed, confidence, confidence);
+/// Makes the runs of the part; with --resume those that its folder has not yet.
+void make_runs(const VerifyOptions& options, const verify::Campaign& campaign,
+               const verify::RunRange& range, PartFile& file) {
+  if (options.resume.empty()) return campaign.make_runs(range, file.part);
+  io::Json statement = file.statement;
+  statement["shard"] = to_text(file.shard);
+  KeptFolder folder(options.resume, std::move(statement));
+  if (folder.kept()) take_kept(folder.kept()->done, folder.kept()->file, file.part);
+  const auto keep = [&](const verify::RunSet& runs, const verify::Tally& tally) {
+    folder.keep(kept_json(runs, tally));
+  };
+  // Whether the folder can be written to is known before the work.
+  keep(file.part.runs, file.part.tally);
+  campaign.make_runs(range, file.part, keep);
+  if (file.part.runs.count() < range.count())
+    say(fmt::format("gainsmith: {} keeps {} of {} runs; the same command goes on from there\n",
+                    options.resume, file.part.runs.count(), range.count()));
 }
 
+/// 0 for a part that is whole, whatever its runs are; otherwise nothing is written.
+ExitCode tell_campaign_part(const VerifyOptions& options, const verify::Campaign& campaign,
+                            const verify::RunRange& range, PartFile& file) {
+  const std::uint64_t done = file.part.runs.count();
+  if (done < range.count()) {
+    say_unwritten(file.shard, done, range.count(), "runs");
+    return ExitCode::undecided;
+  }
+  campaign.repeat_worst(file.part);
+  write_part(document_of(file), options.output,
+             fmt::format("{} of {} runs", range.count(), campaign.asked()));
+  return ExitCode::yes;
+}
+
+/// Figures over all runs, beside a campaign that is made here and now.
+class Comparison {
+ public:
+  /// None unless --compare asks for it. All arguments must outlive it.
+  Comparison(const VerifyOptions& options, const LoadedGains& loaded, const verify::Setup& setup) {
+    if (!options.compare) return;
+    if (!options.shard.empty() || !options.resume.empty())
+      throw InputError({},
+                       "--compare simulates the whole campaign at once: not with --shard or "
+                       "--resume");
+    const model::Design& design = *loaded.stated.design;
+    if (design.compare.empty())
+      throw InputError({options.gains},
+                       "the problem names nothing to compare: compare: [{peak: norm(e)}, ...]");
+    figures_.emplace(*setup.events, design.compare, options.seed.value_or(design.campaign.seed),
+                     options.threads);
+  }
+
+  void grow(std::uint64_t runs) {
+    if (figures_) figures_->grow(runs);
+  }
+  explicit operator bool() const { return figures_.has_value(); }
+
+  /// Where nothing is drawn no run says anything of another.
+  std::optional<model::FiguresRecord> record(const verify::CampaignFacts& facts) const {
+    if (!figures_) return std::nullopt;
+    std::optional<double> confidence;
+    if (!facts.different) confidence = facts.confidence;
+    return figures_record(figures_->survey(), facts.asked, facts.seed, confidence, confidence);
+  }
+
+ private:
+  std::optional<verify::GrowingSurvey> figures_;
+};
+
 ExitCode verify_gains(const VerifyOptions& options) {
+  if (!options.shard.empty() && options.output.empty())
+    throw InputError({},
+                     "--shard needs -o FILE, where the part is written (- for standard output)");
+  prepare_outputs(options.gains, {options.output});
   const LoadedGains loaded = load_run(options.gains, options.set);
   if (options.worst) return search_worst(options, loaded);
-  if (options.compare && loaded.stated.design->compare.empty())
-    throw InputError({options.gains},
-                     "the problem names nothing to compare: compare: [{peak: norm(e)}, ...]");
   const auto setup = verify::make_setup(loaded.stated, loaded.gains);
-  verify::CampaignOptions campaign{runs_of(options), options.seed, options.threads,
-                                   options.confidence};
-  const model::Design& design = *loaded.stated.design;
-  verify::GrowingSurvey figures(*setup->events, design.compare,
-                                options.seed.value_or(design.campaign.seed), options.threads);
-  if (options.compare) campaign.between = [&](std::uint64_t runs) { figures.grow(runs); };
-  const verify::Report report = verify::run_campaign(*setup, campaign);
-  if (options.compare && !report.interrupted()) figures.grow(report.runs);
-  const Telling telling;
-  if (options.json) {
-    model::CampaignRecord record = campaign_record(report, io::gains_hash(loaded.gains));
-    if (options.compare) record.figures = record_of(figures.survey(), report);
-    fmt::print("{}", io::to_text(io::to_json(record)));
-  } else {
-    fmt::print("{}{}", campaign_summary(report, source_of(options, loaded)),
-               options.compare ? figures_text(record_of(figures.survey(), report)) : "");
+  Comparison comparison(options, loaded, *setup);
+  verify::CampaignOptions asked{runs_of(options), options.seed, options.threads,
+                                options.confidence};
+  if (comparison) asked.between = [&](std::uint64_t runs) { comparison.grow(runs); };
+  const verify::Campaign campaign(*setup, asked);
+  PartFile file;
+  file.part = campaign.begin();
+  file.statement = campaign_statement(file.part.facts, io::gains_hash(loaded.gains));
+  file.source = source_of(options, loaded);
+  file.shard = parse_shard(options.shard);
+  const verify::RunRange range =
+      verify::shard_of(campaign.asked(), file.shard.index, file.shard.of);
+  make_runs(options, campaign, range, file);
+  if (!options.shard.empty()) return tell_campaign_part(options, campaign, range, file);
+  try {
+    campaign.repeat_worst(file.part);
+  } catch (const Stopped&) {
+    // Then no violation is confirmed.
   }
-  const ExitCode exit = campaign_exit(report.verdict);
-  const bool whole = !options.compare || figures.survey().runs == report.asked;
-  return exit == ExitCode::yes && !whole ? ExitCode::undecided : exit;
+  if (file.part.runs.count() == campaign.asked()) comparison.grow(campaign.asked());
+  return tell_campaign(file, options.output, options.json, comparison.record(file.part.facts));
 }
 
 }  // namespace
@@ -128,18 +199,33 @@ Command verify_command() {
               "losses, noise and uncertain data; --runs: of the search (default: 3000, or 600 "
               "where flows are integrated)"),
        Option("--threads", options->threads,
-              "threads, 0: one a core; the report does not depend on it")
+              "threads, 0: as many as cores it may use; the report does not depend on it")
            .within(0, 1024),
        Option(
            "--compare", options->compare,
            "also print quantiles of the figures under 'compare' over all runs, each simulated on "
            "its own, which takes longer"),
-       Option("--json", options->json, "print the report as JSON")},
-      "Exit code: 0 held, 1 violated, 2 wrong input, 3 undecided or interrupted.\n"
+       shard_option(options->shard,
+                    "make only part I of N of the runs, and write it with -o for 'merge'")
+           .excludes({"--worst"}),
+       Option("--resume", options->resume,
+              "keep in this folder what is done: after a stop of any kind the same command goes on "
+              "from it")
+           .excludes({"--worst"}),
+       Option("-o,--output", options->output,
+              "write the report as JSON here, or the part; - for standard output")
+           .excludes({"--worst"}),
+       Option("--json", options->json, "print the report as JSON").excludes({"--shard"})},
+      "Exit code: 0 held, 1 violated, 2 wrong input, 3 undecided or interrupted. With --shard: 0 "
+      "the "
+      "part\n"
+      "is whole, 3 interrupted.\n"
       "Examples:\n"
       "  gainsmith verify gains.json --runs 10000\n"
       "  gainsmith verify gains.json --probability 1e-4 --confidence 0.999\n"
       "  gainsmith verify gains.json --worst\n"
+      "  gainsmith verify gains.json --runs 1e9 --resume kept\n"
+      "  gainsmith verify gains.json --runs 1e9 --shard 3/8 -o part3.json\n"
       "  gainsmith verify gains.json --json | jq .worst_run",
       [options] { return verify_gains(*options); }};
 }

@@ -1,7 +1,12 @@
 #include "base/parallel.h"
 
+#if defined(__linux__)
+#include <sched.h>
+#endif
+
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
@@ -9,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/control_groups.h"
 #include "base/stop.h"
 
 namespace gainsmith {
@@ -216,8 +222,35 @@ void run(Loop& loop) {
 
 }  // namespace
 
+namespace {
+
+/// On which the process may run; 0 where that is not known.
+unsigned allowed_cores() {
+#if defined(__linux__)
+  constexpr int kMost = 1 << 16;
+  cpu_set_t* const set = CPU_ALLOC(kMost);
+  if (set == nullptr) return 0;
+  const std::size_t size = CPU_ALLOC_SIZE(kMost);
+  const int count = ::sched_getaffinity(0, size, set) == 0 ? CPU_COUNT_S(size, set) : 0;
+  CPU_FREE(set);
+  return static_cast<unsigned>(count);
+#else
+  return 0;
+#endif
+}
+
+}  // namespace
+
+unsigned usable_cores() {
+  const unsigned allowed = allowed_cores();
+  const unsigned most = allowed > 0 ? allowed : std::max(1U, std::thread::hardware_concurrency());
+  const double share = std::ceil(least_of_groups("", "cpu.max"));
+  return share < most ? std::max(1U, static_cast<unsigned>(share)) : most;
+}
+
 unsigned thread_count(unsigned threads) {
-  return threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
+  static const unsigned cores = usable_cores();
+  return threads > 0 ? threads : cores;
 }
 
 void parallel_for(std::size_t count, unsigned threads,

@@ -20,7 +20,11 @@ namespace gainsmith {
 void parallel_for(std::size_t count, unsigned threads,
                   const std::function<void(std::size_t)>& body);
 
-/// The number of threads that `threads` stands for: itself, or the number of cores for 0.
+/// The cores that this process may use: by its affinity, and by the share of time that its control
+/// groups have (cpu.max).
+unsigned usable_cores();
+
+/// The number of threads that `threads` stands for: itself, or for 0 the usable cores at the start.
 unsigned thread_count(unsigned threads);
 
 }  // namespace gainsmith

@@ -1,7 +1,10 @@
 #include "base/progress.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+
+#include "base/number.h"
 
 namespace gainsmith {
 
@@ -18,13 +21,45 @@ std::int64_t milliseconds() {
   return std::chrono::duration_cast<std::chrono::milliseconds>(now).count();
 }
 
+/// "40 s", "12 min", "5.2 h", "3.1 days".
+std::string duration(double seconds) {
+  constexpr double kMinute = 60, kHour = 3600, kDay = 86400;
+  if (seconds < 2 * kMinute) return std::to_string(std::llround(seconds)) + " s";
+  if (seconds < 2 * kHour) return std::to_string(std::llround(seconds / kMinute)) + " min";
+  const bool days = seconds >= 2 * kDay;
+  const double units = seconds / (days ? kDay : kHour);
+  return (units < 10 ? brief(units, 2) : std::to_string(std::llround(units))) +
+         (days ? " days" : " h");
+}
+
+/// "0.31", "47", "120000".
+std::string rate_text(double rate) {
+  if (rate < 10) return brief(rate, 2);
+  const double unit = std::pow(10.0, std::max(0.0, std::floor(std::log10(rate)) - 1));
+  return std::to_string(static_cast<std::uint64_t>(std::round(rate / unit) * unit));
+}
+
 }  // namespace
 
-std::string time_left(double seconds, std::uint64_t steps, std::uint64_t of) {
+std::optional<double> Progress::rate() const {
   constexpr double kEarly = 3;  // seconds
-  if (steps == 0 || steps >= of || seconds < kEarly) return {};
-  const double left = seconds * static_cast<double>(of - steps) / static_cast<double>(steps);
-  return ", about " + std::to_string(std::llround(left)) + " s left";
+  if (done == 0 || of == 0 || seconds < kEarly) return std::nullopt;
+  return static_cast<double>(done) / seconds;
+}
+
+std::optional<double> Progress::left() const {
+  if (!rate() || done >= of) return std::nullopt;
+  return static_cast<double>(of - done) / *rate();
+}
+
+std::string to_text(const Progress& progress) {
+  if (progress.of == 0) return progress.what;
+  std::string text =
+      progress.what + " " + std::to_string(progress.done) + "/" + std::to_string(progress.of);
+  const auto left = progress.left();
+  if (!left) return text;
+  return text + ", " + rate_text(*progress.rate()) + " a second, about " + duration(*left) +
+         " left";
 }
 
 Doing::Doing(const char* what, std::uint64_t of) : shown_(all == 0) {
@@ -44,14 +79,16 @@ Doing::~Doing() {
 
 void Doing::step(std::uint64_t steps) { done += steps; }
 
-std::string Doing::now() {
+Progress Doing::now() {
+  Progress progress;
   const char* const what = current;
-  if (what == nullptr) return {};
-  const std::uint64_t of = all;
-  if (of == 0) return what;
-  const std::uint64_t steps = done;
-  return std::string(what) + " " + std::to_string(steps) + "/" + std::to_string(of) +
-         time_left(1e-3 * static_cast<double>(milliseconds() - began), steps, of);
+  if (what == nullptr) return progress;
+  progress.what = what;
+  progress.of = all;
+  if (progress.of == 0) return progress;
+  progress.done = done;
+  progress.seconds = 1e-3 * static_cast<double>(milliseconds() - began);
+  return progress;
 }
 
 }  // namespace gainsmith

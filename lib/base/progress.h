@@ -3,13 +3,25 @@
 
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace gainsmith {
 
-/// ", about 40 s left" of a count that took so long for its first steps, as if all took the same
-/// time; empty while that is no more than a guess.
-std::string time_left(double seconds, std::uint64_t steps, std::uint64_t of);
+/// What is being done, and how far it has come.
+struct Progress {
+  std::string what;        ///< empty: nothing was said
+  std::uint64_t done = 0;  ///< steps
+  std::uint64_t of = 0;    ///< 0: they are not counted
+  double seconds = 0;      ///< since the count began
+
+  // Empty while they are no more than guesses.
+  std::optional<double> rate() const;  ///< steps a second
+  std::optional<double> left() const;  ///< seconds, as if all steps took the same time
+};
+
+/// "100 digits", "points 12/200, 4 a second, about 47 s left".
+std::string to_text(const Progress& progress);
 
 /// From its construction to its end this is being done. A count is shown in place of what is done
 /// within it.
@@ -23,8 +35,8 @@ class Doing {
 
   /// So many steps more are done; from any thread.
   static void step(std::uint64_t steps = 1);
-  /// "100 digits", "points 12/200, about 40 s left"; empty when nothing was said. From any thread.
-  static std::string now();
+  /// From any thread.
+  static Progress now();
 
  private:
   const char* before_ = nullptr;

@@ -86,6 +86,7 @@ struct Finding {
 
   bool violated() const { return judgement == Judgement::violated; }
   bool undecided() const { return judgement == Judgement::undecided; }
+  bool operator==(const Finding&) const = default;
 };
 
 /// A claim whose functions are in the coordinates of the judgement.

@@ -14,9 +14,14 @@
 #include "claims/claim_check.h"
 #include "model/words.h"
 #include "packs/pack_runner.h"
+#include "verify/campaign_part.h"
+#include "verify/pack_judge.h"
 #include "verify/setup.h"
+#include "verify/tally.h"
 
 namespace gainsmith::verify {
+
+using Save = std::function<void(const RunSet&, const Tally&)>;
 
 struct CampaignOptions {
   std::optional<std::uint64_t> runs;  ///< none: the problem's
@@ -40,15 +45,6 @@ struct CheckReport {
   std::uint64_t worst_run = 0;
   claims::Finding worst;  ///< in that run
   double floor = 0;       ///< the largest Finding::floor
-};
-
-/// Why a run is undecided.
-struct UndecidedRun {
-  std::uint64_t run = 0;
-  bounded::Termination termination = bounded::Termination::horizon;
-  std::string message;      ///< why it ended before the horizon
-  std::size_t check = 0;    ///< of a run that reached it: the claim (Report::checks) ...
-  claims::Finding finding;  ///< ... and what is known of it
 };
 
 struct Report {
@@ -92,6 +88,37 @@ struct Report {
 
   bool interrupted() const { return runs < asked; }
 };
+
+/// Makes the runs of a campaign, or a part of them. The setup must outlive it.
+class Campaign {
+ public:
+  /// InputError for 0 runs, and when no claim is stated.
+  Campaign(const Setup& setup, const CampaignOptions& options);
+
+  /// Without runs.
+  CampaignPart begin() const { return {facts_, {}, {}, {}}; }
+  std::uint64_t asked() const { return facts_.asked; }
+
+  /// Adds those of these runs that the part has not; after a stop (base/stop.h) those that were
+  /// made. `save` is called now and then, on any thread, one at a time, with all that is done.
+  void make_runs(RunRange range, CampaignPart& part, const Save& save = {}) const;
+
+  /// Adds what conclude() asks of the worst runs. Of a campaign that was stopped they are not
+  /// confirmed. Stopped (base/stop.h) where it cannot be done.
+  void repeat_worst(CampaignPart& part) const;
+
+ private:
+  bool packs_go_on() const;
+
+  const Setup* setup_;
+  unsigned threads_;
+  std::function<void(std::uint64_t)> between_;
+  Packs packs_;
+  CampaignFacts facts_;
+};
+
+/// The report on the runs of a part, with what it holds of the worst of them.
+Report conclude(const CampaignPart& part);
 
 /// Simulates all runs and checks every claim that the gain file states (judge.h). The verdict is
 /// `violated` when the worst run violates and does so again when it is repeated, `held` when every

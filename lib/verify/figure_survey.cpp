@@ -116,7 +116,7 @@ void FigureSurvey::add(const FigureSurvey& more) {
 FigureSurvey survey_figures(const EventSetup& setup, const std::vector<model::Figure>& figures,
                             std::uint64_t seed, const RunNumbers& runs, unsigned threads) {
   FigureSurvey all = empty_survey(figures);
-  const bool counted = Doing::now().empty();  // not amid a campaign, which counts its own runs
+  const bool counted = Doing::now().what.empty();  // not amid a campaign, which counts its own runs
   const Doing doing("figures", runs.count);
   sum_over_runs(
       runs.count, threads, [&] { return Surveyor(setup, figures, seed); },

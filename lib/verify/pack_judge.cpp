@@ -76,6 +76,13 @@ void PackJudge::begin(std::uint64_t seed, std::uint64_t first, std::uint64_t las
   if (packs_) verdicts_ = packs_->run(seed, first, last);
 }
 
+std::uint64_t PackJudge::careful_count() const {
+  std::uint64_t count = 0;
+  for (std::size_t k = 0; k < verdicts_.size(); ++k)
+    if (verdicts_[k].open || (first_ + k) % kSampled == 0) ++count;
+  return count;
+}
+
 RunVerdict PackJudge::careful(std::uint64_t seed, std::uint64_t run) {
   if (!judge_) judge_.emplace(*setup_);
   return (*judge_)(seed, run);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sched.h>
 
 #include <algorithm>
 #include <array>
@@ -317,9 +318,23 @@ TEST(NestedLoops, NoThreadIsLeft) {
   EXPECT_EQ(threads_of_this_process(), before);
 }
 
-TEST(ThreadCount, ZeroStandsForTheCores) {
+TEST(ThreadCount, ZeroStandsForTheCoresThatMayBeUsed) {
   EXPECT_EQ(thread_count(3), 3U);
-  EXPECT_EQ(thread_count(0), std::max(1U, std::thread::hardware_concurrency()));
+  EXPECT_GE(thread_count(0), 1U);
+  EXPECT_LE(thread_count(0), std::max(1U, std::thread::hardware_concurrency()));
+}
+
+TEST(ThreadCount, FollowsTheAffinity) {
+  cpu_set_t before, one;
+  ASSERT_EQ(sched_getaffinity(0, sizeof before, &before), 0);
+  int core = 0;
+  while (!CPU_ISSET(core, &before)) ++core;
+  CPU_ZERO(&one);
+  CPU_SET(core, &one);
+  ASSERT_EQ(sched_setaffinity(0, sizeof one, &one), 0);
+  EXPECT_EQ(usable_cores(), 1U);
+  ASSERT_EQ(sched_setaffinity(0, sizeof before, &before), 0);
+  EXPECT_LE(usable_cores(), static_cast<unsigned>(CPU_COUNT(&before)));
 }
 
 }  // namespace

@@ -41,8 +41,8 @@ void wait_for_handler(pid_t child) {
   }
 }
 
-/// Runs gainsmith, and gives it the signal of Ctrl-C after some seconds.
-Ended interrupted(std::vector<std::string> arguments, double after = 1) {
+/// Runs gainsmith, and gives it the signal of Ctrl-C, or another, after some seconds.
+Ended interrupted(std::vector<std::string> arguments, double after = 1, int signal = SIGINT) {
   using Clock = std::chrono::steady_clock;
   const Folder folder;
   arguments.insert(arguments.begin(), program());
@@ -62,7 +62,7 @@ Ended interrupted(std::vector<std::string> arguments, double after = 1) {
   wait_for_handler(child);
   std::this_thread::sleep_for(std::chrono::duration<double>(after));
   const auto start = Clock::now();
-  ::kill(child, SIGINT);
+  ::kill(child, signal);
   int status = 0;
   ::waitpid(child, &status, 0);
   Ended ended;
@@ -119,6 +119,16 @@ TEST(InterruptTest, ACampaignSaysHowFarItCame) {
   EXPECT_EQ(report["runs_asked"], 100000000);
   EXPECT_GT(report["runs"], 0);
   EXPECT_LT(report["runs"], 100000000);
+}
+
+TEST(InterruptTest, ASchedulerMayEndIt) {
+  const Folder folder;
+  const std::string gains = folder.path("gains.json"), kept = folder.path("kept");
+  ASSERT_EQ(gainsmith({"synth", problem(kGood), "-o", gains}).exit, 0);
+  const Ended ended =
+      interrupted({"verify", gains, "--runs", "100000000", "--resume", kept}, 0.5, SIGTERM);
+  expect_stopped(ended);
+  EXPECT_TRUE(has(ended.err, "the same command goes on from there")) << ended.err;
 }
 
 TEST(InterruptTest, ASearchForTheWorstRunTellsTheWorstSoFar) {

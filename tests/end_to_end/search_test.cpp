@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const std::string kTheorem = "ferrante-seuret-2021/published-theorem.yaml";
+const std::string kPublishedTheorem = "ferrante-seuret-2021/published-theorem.yaml";
 
 /// The smallest x is (a - 2)^2 + 1; a is left open. A gain to verify, a cheap problem.
 const std::string kOpen = R"(problem: open
@@ -51,8 +51,9 @@ TEST(SearchTest, ANoAtAHeldScalarIsNoNoOfTheProblem) {
 TEST(BisectTest, TheLargestT2OfThePublishedExampleIsProvedOnBothSides) {
   const Folder folder;
   const std::string path = folder.path("gains.json");
-  const Outcome outcome = gainsmith({"bisect", problem(kTheorem), "--largest", "T2", "--in", "0.5",
-                                     "1.1", "--tolerance", "1e-4", "-o", path, "--json"});
+  const Outcome outcome =
+      gainsmith({"bisect", problem(kPublishedTheorem), "--largest", "T2", "--in", "0.5", "1.1",
+                 "--tolerance", "1e-4", "-o", path, "--json"});
   ASSERT_EQ(outcome.exit, 0) << outcome.err;
   const Json document = outcome.json();
   EXPECT_EQ(document["goal"], "largest");
@@ -126,7 +127,7 @@ TEST(BisectTest, ASearchedValueThatIsNoScalarIsRefused) {
 }
 
 TEST(BisectTest, WrongCommandLinesAreNamed) {
-  const std::string file = problem(kTheorem);
+  const std::string file = problem(kPublishedTheorem);
   const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
       {{"bisect", file}, "nothing to bisect"},
       {{"bisect", file, "--largest", "T3", "--in", "1", "2"}, "did you mean 'T1'?"},
@@ -207,7 +208,7 @@ TEST(OutputTest, NoCommandReplacesItsInput) {
 
 TEST(ScanTest, AllInfeasibleExitsWithOne) {
   const Outcome outcome =
-      gainsmith({"scan", problem(kTheorem), "--over", "T2=0.9:1.1:2", "--json"});
+      gainsmith({"scan", problem(kPublishedTheorem), "--over", "T2=0.9:1.1:2", "--json"});
   EXPECT_EQ(outcome.exit, 1);
   ASSERT_EQ(outcome.json().size(), 2U);
   EXPECT_EQ(outcome.json()[1]["verdict"], "no");
@@ -288,16 +289,16 @@ TEST(OptimizeTest, NothingFeasibleIsUndecided) {
 }
 
 TEST(ExplainTest, ThePublishedDataConflictAndT2MustBeSmaller) {
-  const Outcome outcome = gainsmith({"explain", problem(kTheorem)});
+  const Outcome outcome = gainsmith({"explain", problem(kPublishedTheorem)});
   EXPECT_EQ(outcome.exit, 1);
   EXPECT_NE(outcome.out.find("positive_P1 and flow cannot hold together"), std::string::npos)
       << outcome.out;
   EXPECT_NE(outcome.out.find("certificate of these alone"), std::string::npos);
   EXPECT_NE(outcome.out.find("T2 at most 0.7683"), std::string::npos) << outcome.out;
-  const Json document = gainsmith({"explain", problem(kTheorem), "--json"}).json();
+  const Json document = gainsmith({"explain", problem(kPublishedTheorem), "--json"}).json();
   EXPECT_EQ(document["conflict"]["requirements"], (Json{"positive_P1", "flow"}));
   EXPECT_NEAR(document["negotiable"][0]["feasible"].get<double>(), 0.7683, 2e-4);
-  const Outcome synth = gainsmith({"synth", problem(kTheorem)});
+  const Outcome synth = gainsmith({"synth", problem(kPublishedTheorem)});
   EXPECT_EQ(synth.exit, 1);
   EXPECT_TRUE(std::regex_search(
       synth.out, std::regex("why +positive_P1 and flow cannot hold together; T2 at most 0.7683")))
@@ -307,7 +308,7 @@ TEST(ExplainTest, ThePublishedDataConflictAndT2MustBeSmaller) {
 TEST(ExplainTest, AScalarThatDoesNotHelpIsSaid) {
   const Folder folder;
   const std::string file = folder.file(
-      "more.yaml", std::regex_replace(text_of(problem(kTheorem)), std::regex("T1, 1.1\\]"),
+      "more.yaml", std::regex_replace(text_of(problem(kPublishedTheorem)), std::regex("T1, 1.1\\]"),
                                       "T1, 1.1], delta: [1e-3, 10]"));
   const Outcome outcome = gainsmith({"explain", file});
   EXPECT_NE(outcome.out.find("delta does not help"), std::string::npos) << outcome.out;

@@ -270,7 +270,7 @@ TEST(Campaign, AStoppedCampaignReportsTheRunsThatWereMade) {
   problem.horizon("20").shrinks("shrinks", "norm(e)", "0.01");
   const tests::StopInTest stop;
   std::jthread impatient([](const std::stop_token& ended) {
-    while (Doing::now().empty() || Doing::now().starts_with("runs 0/"))
+    while (Doing::now().of == 0 || Doing::now().done == 0)
       if (ended.stop_requested()) return;
     request_stop();
   });

@@ -1,0 +1,143 @@
+#include "gainsmith/campaign_parts.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/isa.h"
+#include "base/version.h"
+#include "gainsmith/campaign_json.h"
+#include "gainsmith/campaign_text.h"
+#include "gainsmith/figures_text.h"
+#include "gainsmith/terminal.h"
+#include "io/campaign_json.h"
+#include "verify/campaign.h"
+
+namespace gainsmith::app {
+
+namespace {
+
+std::string range_text(const verify::RunRange& range) {
+  if (range.count() == 1) return fmt::format("run {}", range.first);
+  return fmt::format("runs {} to {}", range.first, range.last - 1);
+}
+
+PartFile part_from(const io::Json& document, const std::string& file) {
+  const io::JsonReader reader(document, file);
+  PartFile read;
+  read.statement = document.at("statement");
+  read.source = reader.at("source").text();
+  read.shard = shard_of(document);
+  read.part.facts = facts_from(reader.at("campaign"));
+  read_runs(reader.at("runs"), read.part);
+  read_repeats(reader.at("repeats"), read.part);
+  return read;
+}
+
+/// Which file has some of these runs.
+std::string owner_of(const verify::RunRange& range,
+                     const std::vector<std::pair<std::string, verify::RunSet>>& known) {
+  for (const auto& [file, runs] : known)
+    if (verify::RunSet copy = runs; copy.add(range).count() > 0) return file;
+  return "?";
+}
+
+/// The parts of a campaign cut into as many as the first was that have these runs: "3/8, 5/8".
+std::string shards_with(const std::vector<verify::RunRange>& missing, const PartFile& whole) {
+  constexpr int kMost = 5;
+  std::string text;
+  int found = 0;
+  for (std::uint64_t k = 1; k <= whole.shard.of; ++k) {
+    const verify::RunRange shard = verify::shard_of(whole.part.facts.asked, k, whole.shard.of);
+    verify::RunSet own;
+    own.add(shard);
+    bool lacks = false;
+    for (const verify::RunRange& range : missing)
+      lacks = lacks || verify::RunSet(own).add(range).count() > 0;
+    if (!lacks) continue;
+    if (++found > kMost) return text + ", ...";
+    text += (found > 1 ? ", " : "") + to_text(Shard{k, whole.shard.of});
+  }
+  return text;
+}
+
+void require_all_runs(const PartFile& whole) {
+  const auto missing = whole.part.runs.missing_in({0, whole.part.facts.asked});
+  if (missing.empty()) return;
+  throw InputError(
+      {}, fmt::format(
+              "{} {} in no part{}; make what is missing with --shard {}",
+              range_text(missing.front()), missing.front().count() == 1 ? "is" : "are",
+              missing.size() > 1 ? fmt::format(", nor {} other ranges", missing.size() - 1) : "",
+              shards_with(missing, whole)));
+}
+
+}  // namespace
+
+io::Json campaign_statement(const verify::CampaignFacts& facts, const std::string& gains_hash) {
+  // Machines without fused products round otherwise.
+  return {{"gainsmith", kVersion},
+          {"gains_sha256", gains_hash},
+          {"seed", facts.seed},
+          {"runs", facts.asked},
+          {"confidence", facts.confidence},
+          {"machine", isa() == "v2" ? "without fused products" : "with fused products"}};
+}
+
+io::Json document_of(const PartFile& file) {
+  io::Json document = part_head(PartKind::campaign, file.shard, file.statement);
+  document["source"] = file.source;
+  document["campaign"] = to_json(file.part.facts);
+  document["runs"] = to_json(file.part.runs, file.part.tally);
+  document["repeats"] = repeats_json(file.part);
+  return document;
+}
+
+PartFile merged_campaign(const std::vector<std::string>& files) {
+  const io::Json first = read_part(files.front());
+  PartFile whole = part_from(first, files.front());
+  std::vector<std::pair<std::string, verify::RunSet>> known{{files.front(), whole.part.runs}};
+  for (std::size_t k = 1; k < files.size(); ++k) {
+    const io::Json document = read_part(files[k]);
+    require_same_work(document, files[k], first, files.front());
+    const PartFile next = part_from(document, files[k]);
+    const verify::RunRange twice = add(next.part, whole.part);
+    if (twice.count() > 0)
+      throw InputError({files[k]}, range_text(twice) + " of this part are in " +
+                                       owner_of(twice, known) +
+                                       " too; each run may be in one part only");
+    known.emplace_back(files[k], next.part.runs);
+  }
+  require_all_runs(whole);
+  return whole;
+}
+
+ExitCode tell_campaign(const PartFile& whole, const std::string& output, bool json,
+                       const std::optional<model::FiguresRecord>& figures) {
+  const verify::Report report = verify::conclude(whole.part);
+  const Telling telling;
+  model::CampaignRecord record = campaign_record(report, whole.statement.value("gains_sha256", ""));
+  record.figures = figures;
+  const std::string text = io::to_text(io::to_json(record));
+  if (!output.empty() && output != "-") write_atomically(output, text);
+  if (json || output == "-")
+    fmt::print("{}", text);
+  else
+    fmt::print("{}{}", campaign_summary(report, whole.source),
+               figures ? figures_text(*figures) : "");
+  const ExitCode exit = campaign_exit(report.verdict);
+  const bool lacks_figures = figures && figures->runs < report.asked;
+  return exit == ExitCode::yes && lacks_figures ? ExitCode::undecided : exit;
+}
+
+io::Json kept_json(const verify::RunSet& runs, const verify::Tally& tally) {
+  return to_json(runs, tally);
+}
+
+void take_kept(const io::Json& kept, const std::string& file, verify::CampaignPart& part) {
+  read_runs(io::JsonReader(kept, file), part);
+}
+
+}  // namespace gainsmith::app

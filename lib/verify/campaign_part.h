@@ -1,0 +1,73 @@
+// Some runs of a campaign and all that is known of them, apart from the setup that made them: parts
+// that were made on several machines, or before and after a stop, are added and concluded anywhere.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bounded/track.h"
+#include "claims/claim_check.h"
+#include "model/words.h"
+#include "verify/run_set.h"
+#include "verify/tally.h"
+
+namespace gainsmith::verify {
+
+struct ClaimFacts {
+  std::string name;
+  model::ClaimKind kind = model::ClaimKind::nonincreasing;
+  std::vector<std::string> missing;  ///< what has no value; none: the claim is stated
+
+  bool stated() const { return missing.empty(); }
+  bool operator==(const ClaimFacts&) const = default;
+};
+
+/// What is the same for all parts of a campaign.
+struct CampaignFacts {
+  std::uint64_t asked = 0;  ///< runs of the whole campaign
+  std::uint64_t seed = 0;
+  double confidence = 0;
+  double horizon = 0;
+  bool integrated = false;
+  bool many_at_once = false;  ///< runs are made in packs
+  std::optional<std::uint64_t> different;
+  std::vector<std::string> events;
+  std::vector<std::string> idle_observers;
+  std::vector<ClaimFacts> claims;
+
+  bool operator==(const CampaignFacts&) const = default;
+};
+
+/// What a run is when it is made again.
+struct Repeat {
+  /// As the careful run finds it: of a claim's worst run that was made among many.
+  struct Careful {
+    std::vector<claims::Finding> findings;
+    bounded::Termination termination = bounded::Termination::horizon;
+    std::string message;
+
+    bool operator==(const Careful&) const = default;
+  };
+  std::optional<Careful> careful;
+  std::optional<bool> confirmed;  ///< whether it violates when repeated
+
+  bool operator==(const Repeat&) const = default;
+};
+
+struct CampaignPart {
+  CampaignFacts facts;
+  RunSet runs;
+  Tally tally;
+  std::map<std::uint64_t, Repeat> repeats;  ///< by run: the worst runs of the part
+
+  bool operator==(const CampaignPart&) const = default;
+};
+
+/// Adds a part of the same campaign with other runs. Those runs of it that are there already: none,
+/// or the first of them; then nothing is added.
+RunRange add(const CampaignPart& more, CampaignPart& sum);
+
+}  // namespace gainsmith::verify

@@ -1,0 +1,140 @@
+// Scans and folders of problems in parts, and stopped and resumed: the bytes of one in one piece.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "end_to_end/program.h"
+
+namespace gainsmith::tests {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ScanShards : public testing::Test {
+ protected:
+  Outcome scan(std::vector<std::string> more) const {
+    more.insert(more.begin(), {"scan", problem("ferrante-seuret-2021/t2-0.70.yaml"), "--over",
+                               "T2=0.6:0.9:7", "--over", "delta=0.01:0.05:3", "--show", "norm(L)"});
+    return gainsmith(more);
+  }
+  std::vector<std::string> parts(int count) const {
+    std::vector<std::string> files;
+    for (int k = 1; k <= count; ++k) {
+      files.push_back(folder_.path("scan" + std::to_string(k) + ".json"));
+      EXPECT_EQ(
+          scan({"--shard", std::to_string(k) + "/" + std::to_string(count), "-o", files.back()})
+              .exit,
+          0);
+    }
+    return files;
+  }
+
+  Folder folder_;
+};
+
+TEST_F(ScanShards, AreTheScan) {
+  const std::string csv = folder_.path("a.csv"), merged = folder_.path("b.csv");
+  const std::string picture = folder_.path("a.svg"), drawn = folder_.path("b.svg");
+  const Outcome whole = scan({"-o", csv, "--plot", picture});
+  EXPECT_EQ(whole.exit, 0);
+  const std::vector<std::string> files = parts(4);
+  const Outcome out =
+      gainsmith({"merge", files[2], files[0], files[3], files[1], "-o", merged, "--plot", drawn});
+  EXPECT_EQ(out.exit, 0) << out.err;
+  EXPECT_EQ(out.out, whole.out);
+  EXPECT_EQ(text_of(merged), text_of(csv));
+  EXPECT_EQ(text_of(drawn), text_of(picture));
+  EXPECT_EQ(gainsmith({"merge", files[0], files[1], files[2], files[3], "--json"}).out,
+            scan({"--json"}).out);
+}
+
+TEST_F(ScanShards, ThatDoNotFitAreRefusedByName) {
+  const std::vector<std::string> files = parts(3);
+  const auto refused = [&](std::vector<std::string> given, const std::string& message) {
+    given.insert(given.begin(), "merge");
+    const Outcome outcome = gainsmith(given);
+    EXPECT_EQ(outcome.exit, 2);
+    EXPECT_TRUE(has(outcome.err, message)) << outcome.err;
+  };
+  refused({files[0], files[2]},
+          "7 of 21 points are in no part; make what is missing with --shard 2/3");
+  refused({files[0], files[1], files[1]},
+          files[1] + ": point 1 of this part is in another one too");
+  const std::string other = folder_.path("other.json");
+  scan({"--shard", "2/3", "-o", other, "--set", "eta=1e-3"});
+  refused({files[0], other, files[2]},
+          other + ": this part is of another scan than " + files[0] + ": problem_sha256 ");
+  refused({files[0], files[1], folder_.file("cut.json", text_of(files[2]).substr(0, 500))},
+          "cut.json:");
+}
+
+TEST_F(ScanShards, AScanGoesOn) {
+  const std::string kept = folder_.path("kept");
+  const std::string whole = scan({"--json"}).out;
+  for (const char* time : {"0.02", "0.05", "0.05"}) {
+    const Outcome part = scan({"--resume", kept, "--time", time, "--threads", "1"});
+    EXPECT_TRUE(part.exit == 3 ? has(part.err, "the same command goes on from there")
+                               : part.exit == 0)
+        << part.exit << part.err;
+  }
+  EXPECT_EQ(scan({"--resume", kept, "--json"}).out, whole);
+  EXPECT_EQ(scan({"--resume", kept, "--json"}).out, whole);
+  const Outcome other = scan({"--resume", kept, "--set", "eta=1e-3"});
+  EXPECT_EQ(other.exit, 2);
+  EXPECT_TRUE(has(other.err, "keeps other work: problem_sha256")) << other.err;
+}
+
+class RunShards : public testing::Test {
+ protected:
+  const std::vector<std::string> problems_ = {problem("classics/hinf-norm.yaml"),
+                                              problem("ferrante-seuret-2021/t2-0.70.yaml"),
+                                              problem("own-systems/dc-motor.yaml")};
+  Outcome run(const std::string& out, const std::vector<std::string>& more) const {
+    std::vector<std::string> words = {"run", "--runs", "20", "-o", folder_.path(out)};
+    words.insert(words.end(), problems_.begin(), problems_.end());
+    words.insert(words.end(), more.begin(), more.end());
+    return gainsmith(words);
+  }
+  fs::file_time_type time_of(const std::string& file) const {
+    return fs::last_write_time(folder_.path(file));
+  }
+
+  Folder folder_;
+};
+
+TEST_F(RunShards, EachProblemIsInOne) {
+  run("whole", {});
+  EXPECT_EQ(run("parts", {"--shard", "1/2"}).exit, 0);
+  EXPECT_FALSE(fs::exists(folder_.path("parts/t2-0.70")));
+  EXPECT_EQ(run("parts", {"--shard", "2/2"}).exit, 0);
+  for (const char* name : {"hinf-norm", "t2-0.70", "dc-motor"}) {
+    const auto gains = [&](const char* folder) {
+      return without_timings(text_of(folder_.path(folder) + "/" + name + "/gains.json"));
+    };
+    EXPECT_EQ(gains("parts"), gains("whole")) << name;
+  }
+  EXPECT_EQ(run("empty", {"--shard", "5/5"}).exit, 0);
+}
+
+TEST_F(RunShards, WhatIsFinishedIsKept) {
+  const Outcome first = run("out", {"--resume", "--json"});
+  EXPECT_EQ(first.exit, 0) << first.err;
+  const auto gains = time_of("out/t2-0.70/gains.json"), motor = time_of("out/dc-motor/gains.json");
+  // One that was cut is made again, the others stay.
+  const std::string cut = folder_.path("out/dc-motor/campaign.json");
+  std::ofstream(cut, std::ios::binary) << text_of(cut).substr(0, 200);
+  const Outcome again = run("out", {"--resume", "--json"});
+  EXPECT_EQ(without_timings(again.out), without_timings(first.out));
+  EXPECT_EQ(time_of("out/t2-0.70/gains.json"), gains);
+  EXPECT_NE(time_of("out/dc-motor/gains.json"), motor);
+  EXPECT_EQ(nlohmann::json::parse(text_of(cut))["verdict"], "held");
+  // Other runs are another result.
+  run("out", {"--resume", "--seed", "7"});
+  EXPECT_EQ(nlohmann::json::parse(text_of(cut))["seed"], 7);
+}
+
+}  // namespace
+}  // namespace gainsmith::tests
