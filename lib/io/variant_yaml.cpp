@@ -97,6 +97,8 @@ class Variant {
       throw InputError(reference.place, "like: " + shown + " is a gain file; expected a problem");
     other_ = shown;
     root_.reset(root);
+    method_goes_on_ =
+        other.IsMap() && other["method"] && other["method"].IsMap() && other["method"]["like"];
     return joined(root, other, {}, false);
   }
 
@@ -108,6 +110,7 @@ class Variant {
     const YAML::Node like = own["like"];
     const std::string name = file_.string(like, "like");
     other_ = "method " + name;
+    method_goes_on_ = false;
     const auto text =
         file_.sources(like).method({other_, "like", file_.place(like)}, library.text(name));
     if (!text)
@@ -161,14 +164,20 @@ class Variant {
     const Entries theirs = entries_of(other, path);
     const bool like =
         is_component(path) && (find_entry(mine, "like") || find_entry(theirs, "like"));
+    // What is taken away may be of the built-in method too, which comes in later.
+    const bool later = method_goes_on_ && !path.empty() && path[0] == "method";
     std::vector<std::pair<YAML::Node, YAML::Node>> result;
     for (const VariantEntry& entry : theirs) {
       if (path.empty() && is_own(entry.name)) continue;
       const VariantEntry* replaced = find_entry(mine, entry.name);
-      if (replaced == nullptr)
+      if (replaced == nullptr) {
         result.emplace_back(entry.key, entry.value);
-      else if (keeps_none || !takes_away(*replaced, path))
+      } else if (keeps_none || !takes_away(*replaced, path)) {
         result.emplace_back(replaced->key, one(*replaced, entry, path, like));
+      } else if (later) {
+        taken_.push_back(path_of(path, entry.name));
+        result.emplace_back(replaced->key, replaced->value);
+      }
     }
     for (const VariantEntry& entry : mine) {
       if (path.empty() && is_own(entry.name)) {
@@ -177,14 +186,41 @@ class Variant {
         continue;
       }
       if (find_entry(theirs, entry.name) != nullptr) continue;
-      if (takes_away(entry, path) && !keeps_none)
+      if (takes_away(entry, path) && !keeps_none && was_taken(path_of(path, entry.name))) continue;
+      if (takes_away(entry, path) && !keeps_none && !later)
         throw InputError(file_.place(entry.value), "there is no '" + entry.name + "' in " + other_ +
                                                        " to be taken away" +
                                                        suggestion(entry.name, entry_names(theirs)));
       refuse_misspelling(entry, theirs, path);
-      result.emplace_back(entry.key, entry.value);
+      result.emplace_back(entry.key, method_goes_on_
+                                         ? entry.value
+                                         : without_taken(entry.value, path_of(path, entry.name)));
     }
     return file_.mapping(result, file_.place(own));
+  }
+
+  static KeyPath path_of(KeyPath path, const std::string& name) {
+    path.push_back(name);
+    return path;
+  }
+
+  bool was_taken(const KeyPath& path) const {
+    return std::find(taken_.begin(), taken_.end(), path) != taken_.end();
+  }
+
+  /// A part that the built-in method has nothing of, less what was taken away.
+  YAML::Node without_taken(const YAML::Node& node, const KeyPath& path) {
+    const bool holds = std::any_of(taken_.begin(), taken_.end(), [&](const KeyPath& taken) {
+      return taken.size() > path.size() && std::equal(path.begin(), path.end(), taken.begin());
+    });
+    if (!holds || !node.IsMap()) return node;
+    std::vector<std::pair<YAML::Node, YAML::Node>> kept;
+    for (const VariantEntry& entry : entries_of(node, path)) {
+      const KeyPath below = path_of(path, entry.name);
+      if (!is_none(entry.value) || !was_taken(below))
+        kept.emplace_back(entry.key, without_taken(entry.value, below));
+    }
+    return file_.mapping(kept, file_.place(node));
   }
 
   /// The value that takes the place of another one.
@@ -247,6 +283,8 @@ class Variant {
   YamlFile& file_;
   YAML::Node root_;                ///< of the problem that is like another one
   std::string other_;              ///< the file of that one
+  bool method_goes_on_ = false;    ///< its method is like a built-in one, which has more entries
+  std::vector<KeyPath> taken_;     ///< what was taken from that one
   std::vector<std::string> open_;  ///< the problem, what it is like, and so on
 };
 

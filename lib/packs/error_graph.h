@@ -105,8 +105,14 @@ class ErrorGraph {
   int sigma(const LengthTable& table, int length) {
     return scaled(table.scale, add(length, constant(-table.middle)));
   }
+  /// A table in pieces is computed elsewhere: its functions are the next inputs.
+  void give(const LengthTable& table) {
+    if (table.functions.empty() || !table.functions.front().powers.empty()) return;
+    given_ = inputs(table.functions.size());
+  }
   int polynomial(const LengthTable& table, std::size_t k, int sigma) {
     const std::vector<double>& powers = table.functions[k].powers;
+    if (powers.empty()) return given_[k];
     int sum = constant(powers.back());
     for (std::size_t i = powers.size() - 1; i-- > 0;)
       sum = add(multiply(sum, sigma), constant(powers[i]));
@@ -222,6 +228,7 @@ class ErrorGraph {
   bool constant_;
   numbers::ScalarGraph graph_;
   int inputs_ = 0;
+  Nodes given_;  ///< functions of a table in pieces
 };
 
 }  // namespace gainsmith::packs

@@ -66,6 +66,12 @@ std::vector<Series> interpolated(const std::vector<Series>& values, int degree) 
   return series;
 }
 
+double sum_of_sizes(const Series& series) {
+  double sum = 0;
+  for (const Decimal100& one : series) sum += size_of(one);
+  return sum;
+}
+
 /// Whether what is left out is negligible: the last quarter of the coefficients is.
 bool follows(const Series& series) {
   double most = 0, tail = 0;
@@ -133,8 +139,18 @@ std::optional<WideTable> make_wide_table(double from, double to, const WideFunct
             return size_of(value) <= kLengthNoise * most;
           }))
         std::fill(one.begin(), one.end(), Decimal100(0));
-    if (!std::all_of(all.begin(), all.end(), follows)) continue;
+    const auto has_faded = [&](const Series& one) {
+      return sum_of_sizes(one) <= kLengthFaded * most;
+    };
+    if (!std::all_of(all.begin(), all.end(),
+                     [&](const Series& one) { return has_faded(one) || follows(one); }))
+      continue;
     for (const Series& one : all) {
+      if (has_faded(one)) {
+        table.powers.push_back({Decimal100(0)});
+        table.errors.push_back(2 * sum_of_sizes(one));
+        continue;
+      }
       double rest = 0;
       const std::size_t cut = cut_degree(one, rest);
       table.powers.push_back(in_powers(one, cut));
@@ -160,6 +176,42 @@ LengthTable rounded(const WideTable& wide) {
     }
     made.size += made.error;
   }
+  return table;
+}
+
+void PieceTable::values(double length, double* out, std::size_t stride) const {
+  const auto end = std::lower_bound(ends.begin(), ends.end() - 1, length);
+  const LengthTable& piece = pieces[static_cast<std::size_t>(end - ends.begin())];
+  const double sigma = piece.scale * (length - piece.middle);
+  for (const LengthTable::Polynomial& function : piece.functions) {
+    double sum = function.powers.back();
+    for (std::size_t k = function.powers.size() - 1; k-- > 0;)
+      sum = sum * sigma + function.powers[k];
+    *out = sum;
+    out += stride;
+  }
+}
+
+std::optional<PieceTable> make_piece_table(double from, double to, double shortest,
+                                           const WideFunctions& functions) {
+  PieceTable table;
+  for (double start = from, end = shortest; table.pieces.empty() || start < to; end *= 2) {
+    if (start < to && end <= start) continue;
+    const double last = start < to ? std::min(end, to) : to;
+    const auto wide = make_wide_table(start, last, functions);
+    if (!wide) return std::nullopt;
+    table.ends.push_back(last);
+    table.pieces.push_back(rounded(*wide));
+    start = last;
+  }
+  table.whole = table.pieces.front();
+  for (std::size_t k = 1; k < table.pieces.size(); ++k)
+    for (std::size_t f = 0; f < table.whole.functions.size(); ++f) {
+      LengthTable::Polynomial& function = table.whole.functions[f];
+      function.powers.clear();
+      function.size = std::max(function.size, table.pieces[k].functions[f].size);
+      function.error = std::max(function.error, table.pieces[k].functions[f].error);
+    }
   return table;
 }
 

@@ -42,4 +42,21 @@ struct WideTable {
 std::optional<WideTable> make_wide_table(double from, double to, const WideFunctions& functions);
 LengthTable rounded(const WideTable& table);
 
+/// Functions with other polynomials on each of some pieces of [from, to]: flows have fast modes that
+/// live at their start alone.
+struct PieceTable {
+  std::vector<double> ends;  ///< rising; the last one is `to`
+  std::vector<LengthTable> pieces;
+  /// That of one piece; of more the sizes and errors on all of them, and no powers.
+  LengthTable whole;
+
+  bool has_pieces() const { return pieces.size() > 1; }
+  /// All functions at a length, `stride` apart.
+  void values(double length, double* out, std::size_t stride) const;
+};
+
+/// A piece ends at `shortest`, 2 `shortest`, 4 `shortest`, ... None where a piece has none.
+std::optional<PieceTable> make_piece_table(double from, double to, double shortest,
+                                           const WideFunctions& functions);
+
 }  // namespace gainsmith::packs

@@ -133,6 +133,7 @@ lanes::LaneCode first_code(const LinearSystem& system, const LengthTable& table)
   ErrorGraph graph(system.model.constant);
   const int length = graph.input();
   const Numbers xi = graph.exact(graph.inputs(system.model.drawn.size()));
+  graph.give(table);
   const int sigma = graph.sigma(table, length);
   std::size_t next = 0;
   const ErrorGraph::Product z = graph.product(table, next, sigma, system.rank, xi);
@@ -286,12 +287,14 @@ lanes::LaneCode last_code(const LinearSystem& system, const LinearTables& tables
   const int rest = graph.input(), length = graph.input(), left = graph.input(),
             root = graph.input();
   Carried carried = carried_inputs(system, graph);
+  const LengthTable& end_table = tables.rest.whole;
+  graph.give(end_table);
   const Numbers z = known_z(system, carried, root, graph);
-  const int sigma = graph.sigma(tables.rest, rest);
+  const int sigma = graph.sigma(end_table, rest);
   const int whole = graph.sigma(tables.length, length);
   std::size_t next = 0, next_length = 0;
   const auto n = static_cast<std::size_t>(system.model.A.rows()) - (system.model.constant ? 1 : 0);
-  const ErrorGraph::Product end = graph.product(tables.rest, next, sigma, n, z);
+  const ErrorGraph::Product end = graph.product(end_table, next, sigma, n, z);
   Numbers x;
   for (std::size_t i = 0; i < n; ++i) {
     int radius = end.added[i];
@@ -302,7 +305,7 @@ lanes::LaneCode last_code(const LinearSystem& system, const LinearTables& tables
   graph.append_one(x);
   for (std::size_t c = 0; c < system.claims.size(); ++c) {
     if (system.model.claims[c].kind == ClaimKind::cost)
-      add_cost(graph.form(tables.rest, next, sigma, z), carried.claims[c], graph);
+      add_cost(graph.form(end_table, next, sigma, z), carried.claims[c], graph);
     if (is_compared(system.model.claims[c]))
       compare(graph.form(tables.length, next_length, whole, z), carried.claims[c], graph);
   }
@@ -318,7 +321,7 @@ lanes::LaneCode last_code(const LinearSystem& system, const LinearTables& tables
 }  // namespace
 
 void add_code(const LinearTables& tables, LinearSystem& system) {
-  system.first.emplace(first_code(system, tables.first));
+  system.first.emplace(first_code(system, tables.first.whole));
   system.step.emplace(step_code(system, tables.step));
   system.gather.emplace(gather_code(system, tables.step));
   system.last.emplace(last_code(system, tables));

@@ -9,9 +9,9 @@ namespace gainsmith::packs {
 /// Over lengths: of a first flow and of those behind jumps, M, F, F_end and C; of the rest of a
 /// flow, its end and C; of whole lengths F; of what is left of a length the factors.
 struct LinearTables {
-  const LengthTable& first;
+  const PieceTable& first;
   const LengthTable& step;
-  const LengthTable& rest;
+  const PieceTable& rest;
   const LengthTable& length;
   const LengthTable& left;
 };

@@ -140,6 +140,10 @@ class LinearLanes {
     starts_.draw(seed, runs, kFirstXi, first_);
     lengths_.begin(seed, runs);
     std::copy_n(lengths_.length().data(), kLanes, first_.input(0));
+    const std::size_t given = kFirstXi + system_.model.drawn.size();
+    if (system_.first_table.has_pieces())
+      for (std::size_t l = 0; l < kLanes; ++l)
+        system_.first_table.values(lengths_.length()[l], first_.input(given) + l, kLanes);
     first_.run();
     t_ = lengths_.due();
     std::uint32_t without = 0;
@@ -178,6 +182,8 @@ class LinearLanes {
       last_.input(3)[l] = root_;
       for (std::size_t k = 0; k < system_.carried; ++k)
         last_.input(kLastCarried + k)[l] = step_.input(kStepCarried + k)[l];
+      if (system_.rest_table.has_pieces())
+        system_.rest_table.values(rest, last_.input(kLastCarried + system_.carried) + l, kLanes);
       flows_[l] = flows;
     }
   }

@@ -195,12 +195,18 @@ std::int64_t flows_of_block(double growth) {
                                   kMostFlowsOfBlock);
 }
 
-std::optional<LengthTable> table(double from, double to, const WideFunctions& functions) {
+std::optional<PieceTable> pieces(double from, double to, double shortest,
+                                 const WideFunctions& functions) {
   try {
-    if (const auto wide = make_wide_table(from, to, functions)) return rounded(*wide);
+    return make_piece_table(from, to, shortest, functions);
   } catch (const RangeVaries&) {
+    return std::nullopt;
   }
-  return std::nullopt;
+}
+
+std::optional<LengthTable> table(double from, double to, const WideFunctions& functions) {
+  const auto one = pieces(from, to, to, functions);
+  return one ? std::optional(one->whole) : std::nullopt;
 }
 
 }  // namespace
@@ -220,14 +226,15 @@ std::unique_ptr<const LinearSystem> make_linear_system(LinearModel given) {
     system->claims.push_back({system->carried, count});
     system->carried += count;
   }
-  const auto first = table(model.first_low, model.first_high, [&](const Decimal100& s) {
-    return functions.of_flow(model.S, s, true);
-  });
+  const double norm = flow_norm(model.A, model.longest());
+  const double shortest = model.longest() * (norm > kLongestPiece ? kLongestPiece / norm : 1);
+  auto first = pieces(model.first_low, model.first_high, shortest,
+                      [&](const Decimal100& s) { return functions.of_flow(model.S, s, true); });
   const auto step = table(model.low, model.high, [&](const Decimal100& s) {
     return functions.of_flow(model.B, s, false);
   });
-  const auto rest =
-      table(0, model.high, [&](const Decimal100& s) { return functions.of_rest(model.B, s); });
+  auto rest = pieces(0, model.high, shortest,
+                     [&](const Decimal100& s) { return functions.of_rest(model.B, s); });
   const auto length = table(model.low, model.high,
                             [&](const Decimal100& s) { return functions.of_length(model.B, s); });
   const auto left =
@@ -236,6 +243,8 @@ std::unique_ptr<const LinearSystem> make_linear_system(LinearModel given) {
   system->flows_of_block =
       flows_of_block(growth_of(*step, system->rank, static_cast<std::size_t>(model.B.cols())));
   add_code({*first, *step, *rest, *length, *left}, *system);
+  system->first_table = std::move(*first);
+  system->rest_table = std::move(*rest);
   return system;
 }
 

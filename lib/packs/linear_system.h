@@ -30,6 +30,7 @@
 #include <optional>
 
 #include "lanes/machine.h"
+#include "packs/length_table.h"
 #include "packs/linear_model.h"
 
 namespace gainsmith::packs {
@@ -59,8 +60,10 @@ struct LinearSystem {
   ///   gather   scale, root, carried    -> carried; root is that after it
   ///   last     rest, length, left, root, carried -> carried, values at the end
   ///
-  /// `last`: a flow of length `rest` that leaves `left` of `length`.
+  /// `last`: a flow of length `rest` that leaves `left` of `length`. The functions of a table in
+  /// pieces are the last inputs of `first` and of `last`.
   std::optional<lanes::LaneCode> first, step, gather, last;
+  PieceTable first_table, rest_table;
 
   std::size_t z(std::size_t i) const { return i; }
   std::size_t G(std::size_t i, std::size_t j) const { return rank + j * rank + i; }

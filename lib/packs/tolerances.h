@@ -44,7 +44,11 @@ constexpr double kLengthRest = 1e-14;  ///< of the largest coefficient | what a 
         ///< which is part of all bounds | Systems/LinearPacks.NoErrorIsBeyondItsBound
 constexpr double kLengthNoise = 1e-70;  ///< of the largest coefficient of all functions | a function
         ///< below is the rounding of 0 | LengthTable.WhatIsRoundingIsNothing
-constexpr double kLongestFlow = 100;  ///< the norm of the matrix times the length | longer flows are
+constexpr double kLengthFaded = 1e-40;  ///< of the largest coefficient of all functions | a function
+        ///< below is 0 up to its size: that of a fast mode | Systems/LinearPacks.NoErrorIsBeyondItsBound
+constexpr double kLongestPiece = 30;  ///< the norm of the matrix times the length | functions of
+        ///< longer flows have other polynomials next to their start | Systems/LinearPacks.NoErrorIsBeyondItsBound
+constexpr double kLongestFlow = 1e9;  ///< the norm of the matrix times the length | longer flows are
         ///< not run as linear packs | LinearPacks.RunWhatTheyCan
 constexpr double kFlowMargin = 1e-9;  ///< relative | that a value falls along flows is shown in
         ///< double with so much to spare | LinearProof.NeedsMoreThanRounding

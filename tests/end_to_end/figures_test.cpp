@@ -190,6 +190,11 @@ TEST(FiguresOverRuns, AreDrawn) {
   const std::string svg = text_of(picture);
   for (const char* text : {">nees e at t = 10<", ">bold<", ">runs<"})
     EXPECT_TRUE(has(svg, text)) << text;
+  // Of the runs that never settle, and of one value and whole numbers.
+  const std::string file =
+      folder.file("p.yaml", with(kDecay, "{peak: x}", "{at: {t: 0}, value: 0.1*x/x}"));
+  gainsmith({"simulate", file, "--compare", "--runs", "0:39", "--plot", picture});
+  EXPECT_TRUE(has(text_of(picture), " of 40 runs have no finite value<"));
 }
 
 TEST(FiguresOverRuns, AnEnvelopeLiesAroundTheRuns) {

@@ -12,8 +12,9 @@ namespace {
 struct Own {
   std::string name;
   std::string method;
-  std::string text;     ///< what stands below the name and the method
-  std::string refused;  ///< what is said of a plant that the method does not serve; empty for one that it does
+  std::string text;  ///< what stands below the name and the method
+  std::string
+      refused;  ///< what is said of a plant that the method does not serve; empty for one that it does
 };
 
 void PrintTo(const Own& own, std::ostream* out) { *out << own.name; }
@@ -22,8 +23,7 @@ class OwnPlants : public ::testing::TestWithParam<Own> {};
 
 TEST_P(OwnPlants, AreServedOrRefusedWithTheAssumption) {
   const Own& own = GetParam();
-  const std::string text =
-      "problem: " + own.name + "\nmethod: " + own.method + "\n" + own.text;
+  const std::string text = "problem: " + own.name + "\nmethod: " + own.method + "\n" + own.text;
   EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 15) << "a page's example is short";
   const Folder folder;
   const Outcome outcome =
@@ -33,8 +33,7 @@ TEST_P(OwnPlants, AreServedOrRefusedWithTheAssumption) {
     EXPECT_TRUE(has(outcome.out, "held in ")) << outcome.out;
   } else {
     EXPECT_NE(outcome.exit, 0) << outcome.out << outcome.err;
-    EXPECT_TRUE(has(outcome.out + outcome.err, own.refused))
-        << outcome.out << outcome.err;
+    EXPECT_TRUE(has(outcome.out + outcome.err, own.refused)) << outcome.out << outcome.err;
   }
 }
 
@@ -46,15 +45,18 @@ INSTANTIATE_TEST_SUITE_P(
     HybridKalmanLike, OwnPlants,
     ::testing::Values(
         Own{"sampled", "hybrid-kalman-like",
-            "data: {F: [[0, 1], [0, 0]], Hc: 'zeros(1, 2)', J: eye(2), Hd: [1, 0], T1: 0.1, T2: 0.5}\n" +
+            "data: {F: [[0, 1], [0, 0]], Hc: 'zeros(1, 2)', J: eye(2), Hd: [1, 0], T1: 0.1, T2: "
+            "0.5}\n" +
                 kStarts,
             ""},
         Own{"impacts", "hybrid-kalman-like",
-            "data: {F: [[0, 1], [-4, -0.1]], Hc: [1, 0], J: [[1, 0], [0, -0.8]], T1: 0.1, T2: 0.5}\n" +
+            "data: {F: [[0, 1], [-4, -0.1]], Hc: [1, 0], J: [[1, 0], [0, -0.8]], T1: 0.1, T2: "
+            "0.5}\n" +
                 kStarts,
             ""},
         Own{"unstable", "hybrid-kalman-like",
-            "data: {F: [[0.3, 1], [0, 0.2]], Hc: [1, 0], J: [[0.5, 0.1], [0, 1.1]], Hd: [0, 1], T1: 0.2, T2: 1}\n"
+            "data: {F: [[0.3, 1], [0, 0.2]], Hc: [1, 0], J: [[0.5, 0.1], [0, 1.1]], Hd: [0, 1], "
+            "T1: 0.2, T2: 1}\n"
             "parameters: {gamma: 0.5}\n" +
                 kStarts,
             ""},
@@ -83,12 +85,14 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Own{"unknown_reset", "hybrid-kkl",
             "data:\n  F: [[0, 1, 0], [-1, 0, 0], [0, 0, 0]]\n  Hc: [0, 1, 0]\n"
-            "  J: [[0, 0, 1], [0, 1, 0], [0, 0, 1]]\n  T1: 0.3\n  T2: 1\nparameters: {lambda: 40}\n" +
+            "  J: [[0, 0, 1], [0, 1, 0], [0, 0, 1]]\n  T1: 0.3\n  T2: 1\nparameters: {lambda: "
+            "40}\n" +
                 kStarts,
             ""},
         Own{"two_hidden", "hybrid-kkl",
             "data:\n  F: [[0.2, 0, 0], [0, 0.1, 1], [0, -1, 0]]\n  Hc: [1, 0, 0]\n"
-            "  J: [[0.5, 1, 0], [0, 0.9, 0], [0.1, 0, 0.8]]\n  T1: 0.4\n  T2: 0.9\nparameters: {lambda: 10}\n"
+            "  J: [[0.5, 1, 0], [0, 0.9, 0], [0.1, 0, 0.8]]\n  T1: 0.4\n  T2: 0.9\nparameters: "
+            "{lambda: 10}\n"
             "campaign: {runs: 10, horizon: 20, initial: {x: {box: [-1, 1]}}}\n",
             ""},
         Own{"shown_at_jumps", "hybrid-kkl",
@@ -109,21 +113,26 @@ INSTANTIATE_TEST_SUITE_P(
             "the assumption 'backward distinguishable'"}),
     name_of);
 
+const std::string kBall =
+    "data:\n"
+    "  low:  [-1, -15]\n"
+    "  high: [10, 15]\n"
+    "  fo(z, t): \"[z(2); -9.81]\"\n"
+    "  guard(z): z\n";
+const std::string kFlights =
+    "  T1:   0.3\n"
+    "  T2:   3\n"
+    "campaign: {runs: 5, horizon: 12, initial: {zo: [3, 0], xi: {box: [3, 5]}}}\n";
+
 INSTANTIATE_TEST_SUITE_P(
     CoupledObserver, OwnPlants,
     ::testing::Values(
         Own{"unknown_kick", "coupled-observer",
-            "data:\n"
-            "  low:  [-1, -15]\n"
-            "  high: [10, 15]\n"
-            "  fo(z, t): \"[z(2); -9.81]\"\n"
-            "  guard(z): z\n"
-            "  Ano:  0\n"
-            "  Jo(z, t): \"[z(1); -0.5*z(2)]\"\n"
-            "  Jono(z): \"[0; 1]\"\n"
-            "  T1:   0.3\n"
-            "  T2:   3\n"
-            "campaign: {runs: 5, horizon: 12, initial: {zo: [3, 0], xi: {box: [3, 5]}}}\n",
+            kBall +
+                "  Ano:  0\n"
+                "  Jo(z, t): \"[z(1); -0.5*z(2)]\"\n"
+                "  Jono(z): \"[0; 1]\"\n" +
+                kFlights,
             ""},
         Own{"integrate_and_fire", "coupled-observer",
             "data:\n"
@@ -153,32 +162,192 @@ INSTANTIATE_TEST_SUITE_P(
             "campaign: {runs: 2, horizon: 12, initial: {zo: [1.2, 0], xi: {box: [-1, 1]}}}\n",
             ""},
         Own{"shown_by_a_sensor", "coupled-observer",
-            "data:\n"
-            "  low:  [-1, -15]\n"
-            "  high: [10, 15]\n"
-            "  fo(z, t): \"[z(2); -9.81]\"\n"
-            "  guard(z): z\n"
-            "  Ano:  -0.1\n"
-            "  Jo(z, t): \"[z(1); -0.5*z(2) + 4]\"\n"
-            "  Jono(z): \"[0; 0]\"\n"
-            "  Hdno(z): 2\n"
-            "  T1:   0.3\n"
-            "  T2:   3\n"
-            "campaign: {runs: 5, horizon: 12, initial: {zo: [3, 0], xi: {box: [3, 5]}}}\n",
+            kBall +
+                "  Ano:  -0.1\n"
+                "  Jo(z, t): \"[z(1); -0.5*z(2) + 4]\"\n"
+                "  Jono(z): \"[0; 0]\"\n"
+                "  Hdno(z): 2\n" +
+                kFlights,
             ""},
         Own{"shown_by_nothing", "coupled-observer",
-            "data:\n"
-            "  low:  [-1, -15]\n"
-            "  high: [10, 15]\n"
-            "  fo(z, t): \"[z(2); -9.81]\"\n"
-            "  guard(z): z\n"
-            "  Ano:  0\n"
-            "  Jo(z, t): \"[z(1); -0.5*z(2) + 4]\"\n"
-            "  Jono(z): \"[0; 0]\"\n"
-            "  T1:   0.3\n"
-            "  T2:   3\n"
-            "campaign: {runs: 5, horizon: 12, initial: {zo: [3, 0], xi: {box: [3, 5]}}}\n",
+            kBall +
+                "  Ano:  0\n"
+                "  Jo(z, t): \"[z(1); -0.5*z(2) + 4]\"\n"
+                "  Jono(z): \"[0; 0]\"\n" +
+                kFlights,
             "infeasible: contraction cannot hold"}),
+    name_of);
+
+const std::string kPendulum =
+    "let: {f0(x): \"[x(2); -4*sin(x(1)) - 0.1*x(2)]\"}\n"
+    "data:\n"
+    "  x0: [2, 0]\n"
+    "  zeta0: [-1, 2]\n"
+    "  f(x, t): f0(x)\n"
+    "  y(x, t): x(1) + 0.02*sin(50*t)\n"
+    "  h(x): x(1)\n"
+    "  phi0(z, y, t): \"f0(z) + [1; 0.5]*(y - z(1))\"\n"
+    "  phi1(z, y, t): \"f0(z) + [20; 100]*(y - z(1))\"\n";
+const std::string kSwitches =
+    "parameters: {c0: 0.3, c1: 0.1}\n"
+    "campaign: {runs: 1, horizon: 20}\n";
+
+INSTANTIATE_TEST_SUITE_P(
+    UnitingObservers, OwnPlants,
+    ::testing::Values(
+        Own{"two_gains", "uniting-observers",
+            "data:\n"
+            "  x0: [1, 0]\n"
+            "  zeta0: [-3, 1]\n"
+            "  f(x, t): \"[x(2); -x(1)]\"\n"
+            "  y(x, t): x(1) + 0.05*sin(40*t)\n"
+            "  h(x): x(1)\n"
+            "  phi0(z, y, t): \"[z(2); -z(1)] + [0.4; 0.1]*(y - z(1))\"\n"
+            "  phi1(z, y, t): \"[z(2); -z(1)] + [20; 99]*(y - z(1))\"\n"
+            "parameters: {c0: 0.3, c1: 0.1, c0_compared: 0.3}\n"
+            "campaign: {runs: 1, horizon: 20}\n",
+            ""},
+        Own{"pendulum", "uniting-observers", kPendulum + kSwitches, ""},
+        Own{"filter_of_another_size", "uniting-observers",
+            "data:\n"
+            "  x0: 2\n"
+            "  zeta0: 0\n"
+            "  zeta1: [0, 0]\n"
+            "  f(x, t): -x + sin(t)\n"
+            "  y(x, t): x + 0.1*sin(30*t)\n"
+            "  h(x): x\n"
+            "  phi0(z, y, t): -z + sin(t) + 0.2*(y - z)\n"
+            "  phi1(z, y, t): \"[-z(1) + z(2) + sin(t) + 8*(y - z(1)); 15*(y - z(1))]\"\n"
+            "  restart(z): z(1)\n"
+            "parameters: {c0: 0.4, c1: 0.15}\n"
+            "campaign: {runs: 1, horizon: 15}\n",
+            ""},
+        Own{"restarted_elsewhere", "uniting-observers",
+            kPendulum + "  restart(z): \"[0; 0]\"\n" + kSwitches,
+            "the assumption 'restart keeps the estimate'"},
+        Own{"never_left", "uniting-observers",
+            "data:\n"
+            "  x0: 1\n"
+            "  zeta0: 0\n"
+            "  f(x, t): 0.5*cos(t)\n"
+            "  y(x, t): x\n"
+            "  h(x): x\n"
+            "  phi0(z, y, t): 0.5*cos(t) + (y - z)\n"
+            "  phi1(z, y, t): 0.5*cos(t) + 30*(y - z)\n"
+            "parameters: {c0: -1, c1: 0.2}\n"
+            "campaign: {runs: 1, horizon: 15}\n",
+            "the assumption 'thresholds'"}),
+    name_of);
+
+INSTANTIATE_TEST_SUITE_P(
+    ConstrainedRedesign, OwnPlants,
+    ::testing::Values(
+        Own{"luenberger", "constrained-redesign",
+            "data:\n"
+            "  x0:    [1, 0]\n"
+            "  xh0:   [-1.5, 1.5]\n"
+            "  a:     \"[eye(2); -eye(2)]\"\n"
+            "  b:     2*ones(4, 1)\n"
+            "  outer: 4*ones(4, 1)\n"
+            "  f(x, t): \"[x(2); -x(1)]\"\n"
+            "  h(x, t): x(1)\n"
+            "  F(xh, S, y, t): \"[xh(2); -xh(1)] + [20; 99]*(y - xh(1))\"\n"
+            "  invP(S): \"inv(lyap([-20, 1; -100, 0]', [1, 0; 0, 0.01]))\"\n"
+            "parameters: {gamma_c: 50}\n"
+            "campaign: {runs: 1, horizon: 3}\n",
+            ""},
+        Own{"half_plane", "constrained-redesign",
+            "let: {A: \"[-0.3, 0.2; 0, -0.2]\", L: \"[4; 3]\"}\n"
+            "data:\n"
+            "  x0:    [2, 1]\n"
+            "  xh0:   [0.5, 3]\n"
+            "  a:     [[-1, 0]]\n"
+            "  b:     [0]\n"
+            "  outer: [1]\n"
+            "  f(x, t): A*x\n"
+            "  h(x, t): x(1)\n"
+            "  F(xh, S, y, t): A*xh + L*(y - xh(1))\n"
+            "  invP(S): \"inv(lyap((A - L*[1, 0])', eye(2)))\"\n"
+            "campaign: {runs: 1, horizon: 3}\n",
+            ""},
+        Own{"outside", "constrained-redesign",
+            "data:\n"
+            "  x0:    [3, 0]\n"
+            "  xh0:   [0, 0]\n"
+            "  a:     \"[eye(2); -eye(2)]\"\n"
+            "  b:     2*ones(4, 1)\n"
+            "  outer: 4*ones(4, 1)\n"
+            "  f(x, t): \"[x(2); -x(1)]\"\n"
+            "  h(x, t): x(1)\n"
+            "  F(xh, S, y, t): \"[xh(2); -xh(1)] + [20; 99]*(y - xh(1))\"\n"
+            "  invP(S): eye(2)\n"
+            "campaign: {runs: 1, horizon: 3}\n",
+            "the assumption 'the plant starts in the set'"},
+        Own{"kalman_in_steps", "{like: constrained-redesign-jumps, events: {jump: {every: 1}}}",
+            "let: {A: \"[0.9, 0.4; -0.4, 0.9]\", C: \"[1, 0]\", K(S): \"A*S*C'/(C*S*C' + 0.1)\"}\n"
+            "data:\n"
+            "  x0:  [1, 0]\n"
+            "  xh0: [-3, 3]\n"
+            "  a:   \"[eye(2); -eye(2)]\"\n"
+            "  b:   1.5*ones(4, 1)\n"
+            "  S0:  eye(2)\n"
+            "  g(x, t): A*x\n"
+            "  hd(x, t): C*x\n"
+            "  G(xh, S, y, t): A*xh + K(S)*(y - C*xh)\n"
+            "  nextS(xh, S, t): \"(A - K(S)*C)*S*(A - K(S)*C)' + 0.1*K(S)*K(S)' + 0.01*eye(2)\"\n"
+            "  invP(S): S\n"
+            "campaign: {runs: 1, horizon: 30}\n",
+            ""},
+        Own{"samples", "{like: constrained-redesign-jumps, events: {jump: {every: [0.2, 0.5]}}}",
+            "data:\n"
+            "  x0:  [1, 0]\n"
+            "  xh0: [-3, 3]\n"
+            "  a:   \"[eye(2); -eye(2)]\"\n"
+            "  b:   1.5*ones(4, 1)\n"
+            "  f(x, t): \"[x(2); -x(1)]\"\n"
+            "  hd(x, t): x(1)\n"
+            "  G(xh, S, y, t): \"xh + [0.8; 0.3]*(y - xh(1))\"\n"
+            "  invP(S): eye(2)\n"
+            "parameters: {rho: 100}\n"
+            "campaign: {runs: 5, horizon: 15}\n",
+            ""}),
+    name_of);
+
+INSTANTIATE_TEST_SUITE_P(
+    SampledDataNoise, OwnPlants,
+    ::testing::Values(
+        Own{"double_integrator", "sampled-data-noise",
+            "data: {A: [[0, 1], [0, 0]], B: [[0], [1]], C: [[1, 0]], D: 0.2, T1: 0.1, T2: 0.3}\n"
+            "campaign: {runs: 20, horizon: 40}\n"
+            "compare: [{at: {t: 40}, value: sqrt(error/spent)}, {at: {t: 40}, value: "
+            "gain/sqrt(error/spent)}]\n",
+            ""},
+        Own{"oscillator", "sampled-data-noise",
+            "data: {A: [[0, 1], [-4, -0.2]], B: [[0], [1]], C: [[1, 0]], D: 0.1, T1: 0.1, T2: "
+            "0.25}\n"
+            "campaign: {runs: 20, horizon: 40}\n"
+            "compare: [{at: {t: 40}, value: sqrt(error/spent)}, {at: {t: 40}, value: "
+            "gain/sqrt(error/spent)}]\n",
+            ""},
+        Own{"unstable", "sampled-data-noise",
+            "data: {A: 0.5, B: 1, C: 1, D: 1, T1: 0.1, T2: 0.4}\n"
+            "campaign: {runs: 20, horizon: 40}\n"
+            "compare: [{at: {t: 40}, value: sqrt(error/spent)}, {at: {t: 40}, value: "
+            "gain/sqrt(error/spent)}]\n",
+            ""},
+        Own{"two_outputs", "sampled-data-noise",
+            "data: {A: [[-1, 1, 0], [0, -0.5, 1], [0, -1, -0.5]], B: \"[eye(2); zeros(1, 2)]\", C: "
+            "[[1, 0, 0], [0, 1, 0]], D: 0.1*eye(2), T1: 0.2, T2: 0.6}\n"
+            "campaign: {runs: 20, horizon: 40}\n"
+            "compare: [{at: {t: 40}, value: sqrt(error/spent)}, {at: {t: 40}, value: "
+            "gain/sqrt(error/spent)}]\n",
+            ""},
+        Own{"hidden_mode", "sampled-data-noise",
+            "data: {A: [[0.5, 0], [0, -1]], B: [[0], [1]], C: [[0, 1]], D: 0.1, T1: 0.2, T2: 0.6}\n"
+            "campaign: {runs: 20, horizon: 40}\n"
+            "compare: [{at: {t: 40}, value: sqrt(error/spent)}, {at: {t: 40}, value: "
+            "gain/sqrt(error/spent)}]\n",
+            "infeasible: the output does not show a mode"}),
     name_of);
 
 }  // namespace

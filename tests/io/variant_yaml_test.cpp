@@ -142,6 +142,23 @@ TEST_F(Variants, TheMethodMayBeLikeOneOfTheProgram) {
   EXPECT_EQ(bind::bind(stated).design->statement.hash, gains.statement.hash);
 }
 
+TEST_F(Variants, WhatTheMethodOfTheOtherOneTakesFromTheProgramIsRemoved) {
+  write("noisy.yaml", kNoisy);
+  const auto variant = [&](const std::string& method) {
+    return parse_problem("problem: p\nlike: noisy.yaml\nmethod: {" + method + "}\n", path("p.yaml"),
+                         library());
+  };
+  const model::Problem noisy = parse_problem(kNoisy, path("q.yaml"), library());
+  EXPECT_EQ(variant("claims: {error: none}").method->claims.size() + 1,
+            noisy.method->claims.size());
+  // What the two have goes away in both, and what the other problem alone has goes away too.
+  EXPECT_TRUE(variant("plant: {output: {y: none}}").method->plant.outputs.empty());
+  EXPECT_TRUE(variant("noise: {v: none}").method->noise.empty());
+  const InputError error = input_error([&] { variant("claims: {eror: none}"); });
+  EXPECT_EQ(error.place(), (Place{path("p.yaml"), 3, 25}));
+  EXPECT_NE(error.message().find("did you mean 'error'?"), std::string::npos) << error.message();
+}
+
 TEST_F(Variants, OfMethodsSayWhereAMistakeStands) {
   struct Case {
     std::string was, is;

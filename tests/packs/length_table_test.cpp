@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -73,6 +74,35 @@ TEST(LengthTable, WhatIsRoundingIsNothing) {
   ASSERT_TRUE(wide);
   EXPECT_EQ(wide->powers[1].size(), 1U);
   EXPECT_EQ(wide->powers[1][0], Decimal100(0));
+}
+
+TEST(PieceTable, FollowsAFastDecay) {
+  const auto function = [](const Decimal100& s) {
+    return std::vector<Decimal100>{exp(Decimal100(-50000) * s) + exp(-s), Decimal100(0)};
+  };
+  const auto table = make_piece_table(0, 1, 30.0 / 50000, function);
+  ASSERT_TRUE(table);
+  EXPECT_EQ(table->pieces.size(), table->ends.size());
+  EXPECT_EQ(table->ends.back(), 1);
+  for (double s = 1e-7; s <= 1; s *= 1.01)
+    for (const double at : {s, 1 - s}) {
+      std::array<double, 4> values{};
+      table->values(at, values.data(), 2);
+      EXPECT_LE(std::abs(static_cast<double>(function(Decimal100(at))[0] - Decimal100(values[0]))),
+                table->whole.functions[0].error);
+      EXPECT_EQ(values[2], 0);
+    }
+  EXPECT_LE(table->whole.functions[0].error, 1e-12);
+  EXPECT_FALSE(make_piece_table(0, 1, 1, function));
+}
+
+TEST(PieceTable, OfOneLengthHasOnePiece) {
+  const auto function = [](const Decimal100& s) { return std::vector<Decimal100>{s}; };
+  for (const double length : {0.0, 0.3}) {
+    const auto table = make_piece_table(length, length, 0.01, function);
+    ASSERT_TRUE(table);
+    EXPECT_EQ(table->pieces.size(), 1U);
+  }
 }
 
 }  // namespace

@@ -248,5 +248,15 @@ TEST(Figure, PlanesHaveAnAxisOfTheirOwn) {
   EXPECT_EQ(count(all, "circle"), 2);  // where it begins and ends
 }
 
+TEST(Figure, BarsHaveAnAxisOfTheirOwnAndNoEnds) {
+  Panel bars{"", "runs", false, {plain({1, 1, 2, 2, 9, 9}, {0, 3, 3, 7, 7, 0})}};
+  bars.across = "peak";
+  bars.bars = true;
+  const auto all = elements({"", "", {bars, bars}});
+  for (const char* text : {"peak", "runs", "9"}) EXPECT_TRUE(has_text(all, text)) << text;
+  EXPECT_EQ(count(all, "circle"), 0);
+  EXPECT_EQ(count(all, "rect"), 3);  // the ground and two frames
+}
+
 }  // namespace
 }  // namespace gainsmith::report

@@ -116,6 +116,23 @@ method:
     error: {shrinks: norm(z - zh), to: 0.2}
 campaign: {runs: 160, horizon: 12, initial: {z: {box: [-2, 3]}}}
 )yaml"},
+                       {"a mode that lives next to jumps alone", R"yaml(problem: p
+method:
+  method: m
+  plant:
+    state: {z: {shape: 2}}
+    output: {y: "[1, 0]*z"}
+    flow: {z: "[0.3, 1; -1, 0.2]*z"}
+  observer:
+    state: {zh: {shape: 2, start: 0}, th: {shape: 1}}
+    flow: {zh: "[0.3, 1; -1, 0.2]*zh + [2000; 400]*th", th: -8000*th}
+    jump: {zh: "zh + [0.4; 0.2]*(y - [1, 0]*zh)", th: "0.5*(y - [1, 0]*zh)"}
+  timer: {tau: {reset: [0.2, 0.7], first: [0, 0.7]}}
+  claims:
+    cost: {cost: {flow: "(z - zh)'*(z - zh)"}, below: 0.9*(z - zh)'*(z - zh)}
+    error: {shrinks: norm(z - zh), to: 0.02}
+campaign: {runs: 160, horizon: 12, initial: {z: {ellipsoid: {matrix: "[1, 0.2; 0.2, 0.5]", level: 4}}, th: "[1, 0]*z"}}
+)yaml"},
                        {"a jump that forgets everything", R"yaml(problem: p
 method:
   method: m
@@ -205,6 +222,9 @@ class Beside {
       xi(k) = Decimal100(value);
       first_.input(1 + static_cast<std::size_t>(k))[0] = value;
     }
+    if (system_.first_table.has_pieces())
+      system_.first_table.values(first_.input(0)[0], first_.input(1 + model.drawn.size()),
+                                 lanes::kLanes);
     first_.run();
     Wide z = *model.D(Decimal100(first_.input(0)[0]), true) *
              flow_(Decimal100(first_.input(0)[0])).E * model.S * xi;
@@ -380,11 +400,13 @@ TEST(LinearPacks, RunWhatTheyCan) {
     return make(text).packs.linear != nullptr;
   };
   EXPECT_TRUE(is_linear("reset: [0.1, 0.6]", "reset: [0, 0.6]"));
-  // A value that rises along flows, one that is no form, a cost that may fall, a fast flow.
+  // A value that rises along flows, one that is no form, a cost that may fall, fast turns; a fast decay is
+  // none of them.
   EXPECT_FALSE(is_linear("nonincreasing: \"x'*x\"", "nonincreasing: \"x(1)^2 + 5*x(2)^2\""));
   EXPECT_FALSE(is_linear("nonincreasing: \"x'*x\"", "nonincreasing: abs(x(1))"));
   EXPECT_FALSE(is_linear("flow: \"x'*x\"", "flow: \"x(1)^2 - x(2)^2\""));
   EXPECT_FALSE(is_linear("[-0.1, 1; -1, -0.1]", "[-0.1, 400; -400, -0.1]"));
+  EXPECT_TRUE(is_linear("[-0.1, 1; -1, -0.1]", "[-0.1, 1; -1, -400]"));
 }
 
 Report campaign_of(const char* text, unsigned threads) {
