@@ -50,6 +50,7 @@ install(CODE "
 # The pages name each other and the problems by their places in the source.
 install(DIRECTORY docs problems DESTINATION "${share}" COMPONENT program)
 install(DIRECTORY lib/methods DESTINATION "${share}/lib" COMPONENT program FILES_MATCHING PATTERN "*.yaml")
+install(DIRECTORY scripts/cluster DESTINATION "${share}/scripts" COMPONENT program USE_SOURCE_PERMISSIONS)
 install(FILES README.md CHANGELOG.md CONTRIBUTING.md LICENSE DESTINATION "${share}" COMPONENT program)
 install(FILES "${made}/problem.schema.json" "${made}/method.schema.json" "${made}/gains.schema.json" DESTINATION "${share}/schemas"
         COMPONENT program)

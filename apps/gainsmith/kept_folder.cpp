@@ -104,7 +104,11 @@ std::optional<KeptFolder::Kept> KeptFolder::read_turn(std::uint64_t turn) {
   if (!fs::exists(path, error)) return std::nullopt;
   const std::string text = read_text(path);
   try {
-    return Kept{unsealed(text, path.string(), kKept), path.string()};
+    Kept found{unsealed(text, path.string(), kKept), path.string()};
+    for (const char* key : {"statement", "saved", "done"})
+      if (!found.done.contains(key))
+        throw InputError({path.string()}, std::string("expected ") + kKept);
+    return found;
   } catch (const InputError& damage) {
     say("gainsmith: " + std::string(damage.what()) + "; it does not count\n");
     return std::nullopt;
@@ -116,7 +120,7 @@ void KeptFolder::read() {
   for (const std::uint64_t turn : {0, 1}) {
     std::optional<Kept> found = read_turn(turn);
     if (!found) continue;
-    const std::uint64_t saved = found->done.value("saved", std::uint64_t{0});
+    const std::uint64_t saved = found->done["saved"].get<std::uint64_t>();
     if (newest && saved < saved_) continue;
     saved_ = saved;
     newest = std::move(found);

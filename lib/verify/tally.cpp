@@ -1,7 +1,6 @@
 #include "verify/tally.h"
 
 #include <algorithm>
-#include <iterator>
 #include <limits>
 #include <tuple>
 
@@ -52,11 +51,13 @@ void keep_first(const std::optional<Run>& more, std::optional<Run>& first) {
   if (more && (!first || more->run < first->run)) first = more;
 }
 
+/// Mostly `more` comes last, or nearly so.
 void merge_sorted(const std::vector<std::uint64_t>& more, std::vector<std::uint64_t>& sum) {
+  if (more.empty()) return;
   const auto middle = static_cast<std::ptrdiff_t>(sum.size());
   sum.insert(sum.end(), more.begin(), more.end());
-  if (middle > 0 && !more.empty() && sum[static_cast<std::size_t>(middle) - 1] > more.front())
-    std::inplace_merge(sum.begin(), sum.begin() + middle, sum.end());
+  const auto later = std::upper_bound(sum.begin(), sum.begin() + middle, more.front());
+  std::inplace_merge(later, sum.begin() + middle, sum.end());
 }
 
 }  // namespace
