@@ -171,7 +171,10 @@ ExitCode verify_gains(const VerifyOptions& options) {
   } catch (const Stopped&) {
     // Then no violation is confirmed.
   }
-  return tell_campaign(file, options.output, options.json);
+  const ExitCode exit = tell_campaign(file, options.output, options.json);
+  if (options.resume.empty() && !work.is_whole())
+    say("gainsmith: with --resume FOLDER what is done would be kept\n");
+  return exit;
 }
 
 }  // namespace
