@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gainsmith/exact_number.h"
+#include "gainsmith/figures_json.h"
 
 namespace gainsmith::app {
 
@@ -201,21 +202,14 @@ verify::CampaignFacts facts_from(const JsonReader& reader) {
   return facts;
 }
 
-Json to_json(const verify::RunSet& runs, const verify::Tally& tally) {
-  return {{"ranges", list(runs.ranges(),
-                          [](const verify::RunRange& range) -> Json {
-                            return Json::array({range.first, range.last});
-                          })},
-          {"tally", tally_json(tally)}};
+Json runs_json(const verify::CampaignPart& part) {
+  Json document = {{"ranges", ranges_json(part.runs)}, {"tally", tally_json(part.tally)}};
+  if (part.figures.runs.count() > 0) document["figures"] = to_json(part.figures);
+  return document;
 }
 
 void read_runs(const JsonReader& reader, verify::CampaignPart& part) {
-  for (const JsonReader& range : reader.at("ranges").items()) {
-    const std::vector<JsonReader> ends = range.items();
-    if (ends.size() != 2) range.fail("expected the first run and the one behind the last");
-    if (part.runs.add({ends[0].count(), ends[1].count()}).count() > 0)
-      range.fail("these runs stand twice");
-  }
+  part.runs = ranges_from(reader.at("ranges"));
   part.tally = tally_from(reader.at("tally"));
   std::size_t stated = 0;
   for (const verify::ClaimFacts& claim : part.facts.claims) stated += claim.stated() ? 1 : 0;
@@ -224,6 +218,7 @@ void read_runs(const JsonReader& reader, verify::CampaignPart& part) {
   if (tally.runs > 0 &&
       (tally.claims.size() != stated || tally.happened.size() != part.facts.events.size()))
     reader.fail("another number of claims or events than the campaign has");
+  if (reader.has("figures")) part.figures = survey_from(reader.at("figures"));
 }
 
 Json repeats_json(const verify::CampaignPart& part) {

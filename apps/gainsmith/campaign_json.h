@@ -12,8 +12,8 @@ namespace gainsmith::app {
 io::Json to_json(const verify::CampaignFacts& facts);
 verify::CampaignFacts facts_from(const io::JsonReader& reader);
 
-/// What the runs were: their numbers and their tally.
-io::Json to_json(const verify::RunSet& runs, const verify::Tally& tally);
+/// What the runs were: their numbers, their tally, figures over them.
+io::Json runs_json(const verify::CampaignPart& part);
 /// Into a part with its facts.
 void read_runs(const io::JsonReader& reader, verify::CampaignPart& part);
 

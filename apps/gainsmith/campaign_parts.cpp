@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <optional>
 #include <utility>
 
 #include "base/error.h"
@@ -18,6 +19,8 @@
 namespace gainsmith::app {
 
 namespace {
+
+constexpr const char* kCompare = "compare";
 
 std::string range_text(const verify::RunRange& range) {
   if (range.count() == 1) return fmt::format("run {}", range.first);
@@ -74,23 +77,36 @@ void require_all_runs(const PartFile& whole) {
               shards_with(missing, whole)));
 }
 
+/// Where nothing is drawn no run says anything of another.
+std::optional<model::FiguresRecord> record_of_figures(const PartFile& whole) {
+  if (!whole.statement.contains(kCompare)) return std::nullopt;
+  const verify::CampaignFacts& facts = whole.part.facts;
+  std::optional<double> confidence;
+  if (!facts.different) confidence = facts.confidence;
+  return figures_record(whole.part.figures.survey, facts.asked, facts.seed, confidence, confidence);
+}
+
 }  // namespace
 
-io::Json campaign_statement(const verify::CampaignFacts& facts, const std::string& gains_hash) {
+io::Json campaign_statement(const verify::CampaignFacts& facts, const std::string& gains_hash,
+                            bool compare) {
   // Machines without fused products round otherwise.
-  return {{"gainsmith", kVersion},
-          {"gains_sha256", gains_hash},
-          {"seed", facts.seed},
-          {"runs", facts.asked},
-          {"confidence", facts.confidence},
-          {"machine", isa() == "v2" ? "without fused products" : "with fused products"}};
+  io::Json statement = {
+      {"gainsmith", kVersion},
+      {"gains_sha256", gains_hash},
+      {"seed", facts.seed},
+      {"runs", facts.asked},
+      {"confidence", facts.confidence},
+      {"machine", isa() == "v2" ? "without fused products" : "with fused products"}};
+  if (compare) statement[kCompare] = "yes";
+  return statement;
 }
 
 io::Json document_of(const PartFile& file) {
   io::Json document = part_head(PartKind::campaign, file.shard, file.statement);
   document["source"] = file.source;
   document["campaign"] = to_json(file.part.facts);
-  document["runs"] = to_json(file.part.runs, file.part.tally);
+  document["runs"] = runs_json(file.part);
   document["repeats"] = repeats_json(file.part);
   return document;
 }
@@ -114,9 +130,9 @@ PartFile merged_campaign(const std::vector<std::string>& files) {
   return whole;
 }
 
-ExitCode tell_campaign(const PartFile& whole, const std::string& output, bool json,
-                       const std::optional<model::FiguresRecord>& figures) {
+ExitCode tell_campaign(const PartFile& whole, const std::string& output, bool json) {
   const verify::Report report = verify::conclude(whole.part);
+  const auto figures = record_of_figures(whole);
   const Telling telling;
   model::CampaignRecord record = campaign_record(report, whole.statement.value("gains_sha256", ""));
   record.figures = figures;
@@ -130,10 +146,6 @@ ExitCode tell_campaign(const PartFile& whole, const std::string& output, bool js
   const ExitCode exit = campaign_exit(report.verdict);
   const bool lacks_figures = figures && figures->runs < report.asked;
   return exit == ExitCode::yes && lacks_figures ? ExitCode::undecided : exit;
-}
-
-io::Json kept_json(const verify::RunSet& runs, const verify::Tally& tally) {
-  return to_json(runs, tally);
 }
 
 void take_kept(const io::Json& kept, const std::string& file, verify::CampaignPart& part) {

@@ -1,14 +1,12 @@
 // Parts of a campaign as files: what `verify --shard` writes and `merge` reads.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
 #include "gainsmith/part_file.h"
 #include "io/json_text.h"
-#include "model/figure_record.h"
 #include "verify/campaign_part.h"
 
 namespace gainsmith::app {
@@ -20,8 +18,9 @@ struct PartFile {
   verify::CampaignPart part;
 };
 
-/// What the bytes of a campaign's report follow from, key by key.
-io::Json campaign_statement(const verify::CampaignFacts& facts, const std::string& gains_hash);
+/// What the bytes of a campaign's report follow from, key by key. `compare`: it has figures.
+io::Json campaign_statement(const verify::CampaignFacts& facts, const std::string& gains_hash,
+                            bool compare);
 
 /// As write_part() takes it.
 io::Json document_of(const PartFile& file);
@@ -33,12 +32,9 @@ PartFile merged_campaign(const std::vector<std::string>& files);
 
 /// Concludes a campaign and prints the report; as JSON also into `output`, unless that is empty, or
 /// "-" for standard output.
-/// `figures`: over its runs, where they were asked for.
-ExitCode tell_campaign(const PartFile& whole, const std::string& output, bool json,
-                       const std::optional<model::FiguresRecord>& figures = {});
+ExitCode tell_campaign(const PartFile& whole, const std::string& output, bool json);
 
-/// What --resume keeps of a part: its runs. Those that `kept`, from `file`, has.
-io::Json kept_json(const verify::RunSet& runs, const verify::Tally& tally);
+/// Takes what --resume keeps of a part, runs_json(), from `file`.
 void take_kept(const io::Json& kept, const std::string& file, verify::CampaignPart& part);
 
 }  // namespace gainsmith::app

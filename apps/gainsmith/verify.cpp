@@ -1,16 +1,18 @@
 #include <fmt/format.h>
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
+#include "base/save_pace.h"
+#include "gainsmith/campaign_json.h"
 #include "gainsmith/campaign_parts.h"
 #include "gainsmith/campaign_text.h"
 #include "gainsmith/commands.h"
-#include "gainsmith/figures_text.h"
 #include "gainsmith/kept_folder.h"
 #include "gainsmith/load.h"
 #include "gainsmith/output.h"
@@ -76,103 +78,103 @@ ExitCode search_worst(const VerifyOptions& options, const LoadedGains& loaded) {
   return campaign_exit(report.verdict);
 }
 
-/// Makes the runs of the part; with --resume those that its folder has not yet.
-void make_runs(const VerifyOptions& options, const verify::Campaign& campaign,
-               const verify::RunRange& range, PartFile& file) {
-  if (options.resume.empty()) return campaign.make_runs(range, file.part);
+void require_figures(const VerifyOptions& options, const model::Design& design) {
+  if (options.compare && design.compare.empty())
+    throw InputError({options.gains},
+                     "the problem names nothing to compare: compare: [{peak: norm(e)}, ...]");
+}
+
+/// A part of a campaign that is made.
+struct PartWork {
+  const verify::Campaign& campaign;
+  verify::RunRange range;
+  PartFile& file;
+  /// Adds figures over these runs, where they are asked for.
+  std::function<void(const verify::RunRange&, const verify::Save&)> survey;
+  bool compare = false;
+
+  bool is_whole() const {
+    const verify::CampaignPart& part = file.part;
+    return part.runs.count() == range.count() &&
+           (!compare || part.figures.runs.count() == range.count());
+  }
+  void make(const verify::Save& save) const {
+    campaign.make_runs(range, file.part, save);
+    if (file.part.runs.count() < range.count()) return;
+    SavePace pace;
+    survey(range, [&] {
+      if (save && pace.is_due()) pace.save(save);
+    });
+    if (save) save();
+  }
+};
+
+/// Makes the runs; with --resume those that its folder has not yet.
+void make_runs(const VerifyOptions& options, const PartWork& work) {
+  if (options.resume.empty()) return work.make({});
+  PartFile& file = work.file;
   io::Json statement = file.statement;
   statement["shard"] = to_text(file.shard);
   KeptFolder folder(options.resume, std::move(statement));
   if (folder.kept()) take_kept(folder.kept()->done, folder.kept()->file, file.part);
-  const auto keep = [&](const verify::RunSet& runs, const verify::Tally& tally) {
-    folder.keep(kept_json(runs, tally));
-  };
-  // Whether the folder can be written to is known before the work.
-  keep(file.part.runs, file.part.tally);
-  campaign.make_runs(range, file.part, keep);
-  if (file.part.runs.count() < range.count())
+  const auto keep = [&] { folder.keep(runs_json(file.part)); };
+  keep();  // whether the folder can be written to is known before the work
+  work.make(keep);
+  if (!work.is_whole())
     say(fmt::format("gainsmith: {} keeps {} of {} runs; the same command goes on from there\n",
-                    options.resume, file.part.runs.count(), range.count()));
+                    options.resume, file.part.runs.count(), work.range.count()));
 }
 
 /// 0 for a part that is whole, whatever its runs are; otherwise nothing is written.
-ExitCode tell_campaign_part(const VerifyOptions& options, const verify::Campaign& campaign,
-                            const verify::RunRange& range, PartFile& file) {
-  const std::uint64_t done = file.part.runs.count();
-  if (done < range.count()) {
-    say_unwritten(file.shard, done, range.count(), "runs");
+ExitCode tell_campaign_part(const VerifyOptions& options, const PartWork& work) {
+  if (!work.is_whole()) {
+    say_unwritten(work.file.shard, work.file.part.runs.count(), work.range.count(), "runs");
     return ExitCode::undecided;
   }
-  campaign.repeat_worst(file.part);
-  write_part(document_of(file), options.output,
-             fmt::format("{} of {} runs", range.count(), campaign.asked()));
+  work.campaign.repeat_worst(work.file.part);
+  write_part(document_of(work.file), options.output,
+             fmt::format("{} of {} runs", work.range.count(), work.campaign.asked()));
   return ExitCode::yes;
 }
 
-/// Figures over all runs, beside a campaign that is made here and now.
-class Comparison {
- public:
-  /// None unless --compare asks for it. All arguments must outlive it.
-  Comparison(const VerifyOptions& options, const LoadedGains& loaded, const verify::Setup& setup) {
-    if (!options.compare) return;
-    if (!options.shard.empty() || !options.resume.empty())
-      throw InputError({},
-                       "--compare simulates the whole campaign at once: not with --shard or "
-                       "--resume");
-    const model::Design& design = *loaded.stated.design;
-    if (design.compare.empty())
-      throw InputError({options.gains},
-                       "the problem names nothing to compare: compare: [{peak: norm(e)}, ...]");
-    figures_.emplace(*setup.events, design.compare, options.seed.value_or(design.campaign.seed),
-                     options.threads);
-  }
-
-  void grow(std::uint64_t runs) {
-    if (figures_) figures_->grow(runs);
-  }
-  explicit operator bool() const { return figures_.has_value(); }
-
-  /// Where nothing is drawn no run says anything of another.
-  std::optional<model::FiguresRecord> record(const verify::CampaignFacts& facts) const {
-    if (!figures_) return std::nullopt;
-    std::optional<double> confidence;
-    if (!facts.different) confidence = facts.confidence;
-    return figures_record(figures_->survey(), facts.asked, facts.seed, confidence, confidence);
-  }
-
- private:
-  std::optional<verify::GrowingSurvey> figures_;
-};
-
 ExitCode verify_gains(const VerifyOptions& options) {
-  if (!options.shard.empty() && options.output.empty())
-    throw InputError({},
-                     "--shard needs -o FILE, where the part is written (- for standard output)");
+  require_part_name(options.shard, options.output);
   prepare_outputs(options.gains, {options.output});
   const LoadedGains loaded = load_run(options.gains, options.set);
   if (options.worst) return search_worst(options, loaded);
+  const model::Design& design = *loaded.stated.design;
+  require_figures(options, design);
   const auto setup = verify::make_setup(loaded.stated, loaded.gains);
-  Comparison comparison(options, loaded, *setup);
+  PartFile file;
+  const auto survey = [&](const verify::RunRange& runs, const verify::Save& grown) {
+    if (options.compare)
+      verify::grow(*setup->events, design.compare, file.part.facts.seed, runs, options.threads,
+                   file.part.figures, grown);
+  };
+  verify::RunRange range;
   verify::CampaignOptions asked{runs_of(options), options.seed, options.threads,
                                 options.confidence};
-  if (comparison) asked.between = [&](std::uint64_t runs) { comparison.grow(runs); };
+  if (options.compare)
+    asked.between = [&](std::uint64_t runs) { survey({range.first, range.first + runs}, {}); };
   const verify::Campaign campaign(*setup, asked);
-  PartFile file;
   file.part = campaign.begin();
-  file.statement = campaign_statement(file.part.facts, io::gains_hash(loaded.gains));
+  file.statement =
+      campaign_statement(file.part.facts, io::gains_hash(loaded.gains), options.compare);
   file.source = source_of(options, loaded);
   file.shard = parse_shard(options.shard);
-  const verify::RunRange range =
-      verify::shard_of(campaign.asked(), file.shard.index, file.shard.of);
-  make_runs(options, campaign, range, file);
-  if (!options.shard.empty()) return tell_campaign_part(options, campaign, range, file);
+  range = verify::shard_of(campaign.asked(), file.shard.index, file.shard.of);
+  const PartWork work{campaign, range, file, survey, options.compare};
+  make_runs(options, work);
+  if (!options.shard.empty()) return tell_campaign_part(options, work);
   try {
     campaign.repeat_worst(file.part);
   } catch (const Stopped&) {
     // Then no violation is confirmed.
   }
-  if (file.part.runs.count() == campaign.asked()) comparison.grow(campaign.asked());
-  return tell_campaign(file, options.output, options.json, comparison.record(file.part.facts));
+  const ExitCode exit = tell_campaign(file, options.output, options.json);
+  if (options.resume.empty() && !work.is_whole())
+    say("gainsmith: with --resume FOLDER what is done would be kept\n");
+  return exit;
 }
 
 }  // namespace

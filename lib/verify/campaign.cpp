@@ -44,7 +44,7 @@ class Collector {
  private:
   void save() {
     if (!save_) return;
-    pace_.save([&] { save_(part_.runs, part_.tally); });
+    pace_.save(save_);
     unsaved_ = false;
   }
 
@@ -153,6 +153,7 @@ RunRange add(const CampaignPart& more, CampaignPart& sum) {
     if (const RunRange known = both.add(range); known.count() > 0) return known;
   sum.runs = std::move(both);
   add(more.tally, sum.tally);
+  sum.figures.add(more.figures);
   for (const auto& [run, repeat] : more.repeats) {
     Repeat& own = sum.repeats[run];
     if (!own.careful) own.careful = repeat.careful;

@@ -21,7 +21,7 @@
 
 namespace gainsmith::verify {
 
-using Save = std::function<void(const RunSet&, const Tally&)>;
+using Save = std::function<void()>;
 
 struct CampaignOptions {
   std::optional<std::uint64_t> runs;  ///< none: the problem's
@@ -96,11 +96,12 @@ class Campaign {
   Campaign(const Setup& setup, const CampaignOptions& options);
 
   /// Without runs.
-  CampaignPart begin() const { return {facts_, {}, {}, {}}; }
+  CampaignPart begin() const { return {facts_, {}, {}, {}, {}}; }
   std::uint64_t asked() const { return facts_.asked; }
 
   /// Adds those of these runs that the part has not; after a stop (base/stop.h) those that were
-  /// made. `save` is called now and then, on any thread, one at a time, with all that is done.
+  /// made. `save` is called now and then, on any thread, one at a time: meanwhile the part does
+  /// not change.
   void make_runs(RunRange range, CampaignPart& part, const Save& save = {}) const;
 
   /// Adds what conclude() asks of the worst runs. Of a campaign that was stopped they are not

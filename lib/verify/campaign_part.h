@@ -11,6 +11,7 @@
 #include "bounded/track.h"
 #include "claims/claim_check.h"
 #include "model/words.h"
+#include "verify/figure_survey.h"
 #include "verify/run_set.h"
 #include "verify/tally.h"
 
@@ -62,6 +63,7 @@ struct CampaignPart {
   RunSet runs;
   Tally tally;
   std::map<std::uint64_t, Repeat> repeats;  ///< by run: the worst runs of the part
+  SurveyOfRuns figures;                     ///< where they are asked for
 
   bool operator==(const CampaignPart&) const = default;
 };

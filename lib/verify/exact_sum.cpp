@@ -54,6 +54,12 @@ void ExactSum::add(const ExactSum& more) {
   unsettled_ = 1;
 }
 
+ExactSum ExactSum::of(const Digits& digits) {
+  ExactSum sum;
+  sum.digits_ = digits;
+  return sum;
+}
+
 double ExactSum::value() const {
   Digits digits = settled(digits_);
   const bool negative = digits.back() < 0;

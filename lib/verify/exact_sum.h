@@ -18,13 +18,17 @@ class ExactSum {
   /// Rounded, to the last place or two; the same of equal sums.
   double value() const;
 
+  static constexpr std::size_t kDigits = 70;
+  using Digits = std::array<std::int64_t, kDigits>;
+
+  /// All that a sum is, for files: the same of equal sums.
+  Digits digits() const { return settled(digits_); }
+  static ExactSum of(const Digits& digits);
+
   /// Settled sums of the same terms are equal.
   bool operator==(const ExactSum& other) const;
 
  private:
-  static constexpr std::size_t kDigits = 70;
-  using Digits = std::array<std::int64_t, kDigits>;
-
   static Digits settled(Digits digits);
 
   Digits digits_{};              ///< the sum is that of digits_[k] 2^(32 k - 1074)

@@ -1,9 +1,11 @@
 #include "verify/figure_survey.h"
 
 #include <algorithm>
+#include <chrono>
 #include <memory>
 #include <utility>
 
+#include "base/parallel.h"
 #include "base/progress.h"
 #include "base/stop.h"
 #include "verify/bound_figure.h"
@@ -128,18 +130,40 @@ FigureSurvey survey_figures(const EventSetup& setup, const std::vector<model::Fi
   return all;
 }
 
-GrowingSurvey::GrowingSurvey(const EventSetup& setup, const std::vector<model::Figure>& figures,
-                             std::uint64_t seed, unsigned threads)
-    : setup_(setup),
-      figures_(figures),
-      seed_(seed),
-      threads_(threads),
-      survey_(empty_survey(figures)) {}
+void SurveyOfRuns::add(const SurveyOfRuns& more) {
+  if (more.runs.count() == 0) return;
+  if (runs.count() == 0) {
+    *this = more;
+    return;
+  }
+  for (const RunRange& range : more.runs.ranges()) runs.add(range);
+  survey.add(more.survey);
+}
 
-void GrowingSurvey::grow(std::uint64_t runs) {
-  if (runs <= survey_.runs) return;
-  survey_.add(
-      survey_figures(setup_, figures_, seed_, {runs - survey_.runs, {}, survey_.runs}, threads_));
+void grow(const EventSetup& setup, const std::vector<model::Figure>& figures, std::uint64_t seed,
+          RunRange range, unsigned threads, SurveyOfRuns& sum, const std::function<void()>& grown) {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::chrono::seconds kStep(1);
+  std::uint64_t size = std::uint64_t{64} * thread_count(threads);
+  const std::vector<RunRange> missing = sum.runs.missing_in(range);
+  std::uint64_t count = 0;
+  for (const RunRange& one : missing) count += one.count();
+  const bool counted = Doing::now().what.empty();  // not amid a campaign, which counts its own runs
+  const Doing doing("figures", count);
+  for (const RunRange& one : missing)
+    for (std::uint64_t first = one.first; first < one.last;) {
+      const auto begin = Clock::now();
+      const std::uint64_t asked = std::min(size, one.last - first);
+      SurveyOfRuns more;
+      more.survey = survey_figures(setup, figures, seed, {asked, {}, first}, threads);
+      more.runs.add({first, first + more.survey.runs});
+      sum.add(more);
+      if (counted) Doing::step(more.survey.runs);
+      if (grown) grown();
+      if (more.survey.runs < asked) return;
+      first += asked;
+      if (Clock::now() - begin < kStep) size *= 2;
+    }
 }
 
 }  // namespace gainsmith::verify

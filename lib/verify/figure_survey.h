@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "model/figure.h"
 #include "verify/careful_runs.h"
 #include "verify/consistency.h"
+#include "verify/run_set.h"
 #include "verify/value_sketch.h"
 
 namespace gainsmith::verify {
@@ -67,23 +69,20 @@ struct RunNumbers {
 FigureSurvey survey_figures(const EventSetup& setup, const std::vector<model::Figure>& figures,
                             std::uint64_t seed, const RunNumbers& runs, unsigned threads = 0);
 
-/// Survey of the first runs of a campaign, which grows with it.
-class GrowingSurvey {
- public:
-  /// The setup and the figures must outlive it.
-  GrowingSurvey(const EventSetup& setup, const std::vector<model::Figure>& figures,
-                std::uint64_t seed, unsigned threads);
+/// The figures over some runs of a campaign, which grow with it.
+struct SurveyOfRuns {
+  RunSet runs;
+  FigureSurvey survey;  ///< without figures where there are no runs
 
-  /// Goes on until it has so many runs. A stop (base/stop.h) ends it before.
-  void grow(std::uint64_t runs);
-  const FigureSurvey& survey() const { return survey_; }
-
- private:
-  const EventSetup& setup_;
-  const std::vector<model::Figure>& figures_;
-  std::uint64_t seed_;
-  unsigned threads_;
-  FigureSurvey survey_;
+  /// Adds those of other runs.
+  void add(const SurveyOfRuns& more);
+  bool operator==(const SurveyOfRuns&) const = default;
 };
+
+/// Adds those of these runs that it has not. `grown` is called now and then, when it has more. A stop
+/// (base/stop.h) ends it before.
+void grow(const EventSetup& setup, const std::vector<model::Figure>& figures, std::uint64_t seed,
+          RunRange range, unsigned threads, SurveyOfRuns& sum,
+          const std::function<void()>& grown = {});
 
 }  // namespace gainsmith::verify

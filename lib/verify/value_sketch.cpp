@@ -111,4 +111,24 @@ std::vector<ValueSketch::Part> ValueSketch::parts() const {
   return all;
 }
 
+ValueSketch::Contents ValueSketch::contents() const {
+  Contents contents{level_, count_, least_, largest_, {}, {}};
+  for (const Bucket& bucket : buckets_) {
+    contents.at.push_back(bucket.at);
+    contents.counts.push_back(bucket.count);
+  }
+  return contents;
+}
+
+ValueSketch ValueSketch::of(const Contents& contents) {
+  ValueSketch sketch;
+  sketch.level_ = contents.level;
+  sketch.count_ = contents.count;
+  sketch.least_ = contents.least;
+  sketch.largest_ = contents.largest;
+  for (std::size_t k = 0; k < contents.at.size(); ++k)
+    sketch.buckets_.push_back({contents.at[k], contents.counts[k]});
+  return sketch;
+}
+
 }  // namespace gainsmith::verify

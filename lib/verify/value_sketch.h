@@ -55,6 +55,17 @@ class ValueSketch {
   /// All buckets, in ascending order.
   std::vector<Part> parts() const;
 
+  /// All that a sketch of the usual capacity is, for files.
+  struct Contents {
+    int level = 0;
+    std::uint64_t count = 0;
+    double least = 0, largest = 0;
+    std::vector<std::int64_t> at;       ///< of the buckets ...
+    std::vector<std::uint64_t> counts;  ///< ... and how many numbers there are
+  };
+  Contents contents() const;
+  static ValueSketch of(const Contents& contents);
+
   bool operator==(const ValueSketch&) const = default;
 
  private:

@@ -86,6 +86,34 @@ TEST_F(Shards, AreTheFilesOfAFolder) {
   EXPECT_EQ(merge({folder}, {"--json"}).out, verify("3000", {"--json"}).out);
 }
 
+TEST_F(Shards, HaveFiguresOverAllRuns) {
+  const auto compared = [](std::vector<std::string> more) {
+    more.insert(more.begin(), {"verify", problem("own-systems/trusted-covariance.yaml"),
+                               "--compare", "--runs", "700"});
+    return gainsmith(more);
+  };
+  const Outcome whole = compared({"--json"});
+  std::vector<std::string> files;
+  for (const char* shard : {"3/3", "1/3", "2/3"}) {
+    files.push_back(folder_.path(std::string("figures") + shard[0] + ".json"));
+    EXPECT_EQ(compared({"--shard", shard, "-o", files.back()}).exit, 0);
+  }
+  EXPECT_EQ(merge(files, {"--json"}).out, whole.out);
+  EXPECT_EQ(merge(files).out, compared({}).out);
+  const std::string kept = folder_.path("kept");
+  for (const char* time : {"0.1", "0.2", "0.3"}) compared({"--resume", kept, "--time", time});
+  EXPECT_EQ(compared({"--resume", kept, "--json"}).out, whole.out);
+  // Without figures it is another report.
+  const std::string other = folder_.path("other.json");
+  gainsmith({"verify", problem("own-systems/trusted-covariance.yaml"), "--runs", "700", "--shard",
+             "2/3", "-o", other});
+  const Outcome mixed = merge({files[0], files[1], other});
+  EXPECT_EQ(mixed.exit, 2);
+  EXPECT_TRUE(has(mixed.err, other + ": this part is of another campaign than " + files[0] +
+                                 ": compare none, not yes"))
+      << mixed.err;
+}
+
 TEST_F(Shards, MayBeMoreThanRuns) {
   EXPECT_EQ(merge(parts("5", 8), {"--json"}).out, verify("5", {"--json"}).out);
 }
