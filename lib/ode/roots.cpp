@@ -88,10 +88,18 @@ class RootSearch {
   }
 
   bool agrees(const Matrix& c, double a, double b) const {
-    if (c.rightCols(2).cwiseAbs().sum() > tolerance()) return false;
+    const double most = tolerance() + rounding_of_times(c, a, b);
+    if (c.rightCols(2).cwiseAbs().sum() > most) return false;
     return std::all_of(check_points.begin(), check_points.end(), [&](double x) {
-      return std::abs(value(chebyshev::outer(x, a, b)) - chebyshev::first(c, x)) <= tolerance();
+      return std::abs(value(chebyshev::outer(x, a, b)) - chebyshev::first(c, x)) <= most;
     });
+  }
+
+  /// What the rounding of times makes of g: |T_k'| <= k^2.
+  double rounding_of_times(const Matrix& c, double a, double b) const {
+    double slope = 0;
+    for (Index k = 1; k < c.cols(); ++k) slope += static_cast<double>(k * k) * std::abs(c(k));
+    return slope * resolution(a, b) / (b - a) * 2;
   }
 
   /// A function with corners that changes little from point to point, and lies beyond that.
@@ -160,7 +168,7 @@ class RootSearch {
   const RootFunction& function_;
   double from_, to_;
   double scale_ = 0;  ///< the largest |g| on the step
-  int points_ = 0;      ///< of all intervals
+  int points_ = 0;    ///< of all intervals
   Found found_;
 };
 

@@ -72,6 +72,19 @@ method:
   EXPECT_NE(synth.out.find("K = 1\n"), std::string::npos) << synth.out;
 }
 
+/// What the method reports of a gain has no value then.
+TEST(GainFunctionTest, ANoLeavesItOutOfTheReport) {
+  const Folder folder;
+  const Outcome synth =
+      gainsmith({"synth", folder.file("p.yaml",
+                                      "problem: p\nmethod: {like: reset-observer, require: "
+                                      "{impossible: P < 0}}\ndata: {A: [[0.2, -1.01], [1, 0]], C: "
+                                      "[0.5, -1], T1: 0.5, T2: 0.7}\n")});
+  EXPECT_EQ(synth.exit, 1) << synth.err;
+  EXPECT_NE(synth.out.find("positive and impossible cannot hold together"), std::string::npos)
+      << synth.out;
+}
+
 TEST(GainFunctionTest, IsStoredVerifiedAndReplayed) {
   const Folder folder;
   const std::string problem = folder.file("p.yaml", problem_text(1));

@@ -106,6 +106,9 @@ INSTANTIATE_TEST_SUITE_P(
             "  J: [[1, 0, 1], [0, -0.9, 0.5], [0.2, 0, 0]]\n  T1: 0.5\n  T2: 1\n" +
                 kStarts,
             "the assumption 'jumps keep the hidden part'"},
+        Own{"nothing_hidden", "hybrid-kkl",
+            "data: {F: [[0, 1], [-4, -0.1]], Hc: [1, 0], J: eye(2), T1: 0.1, T2: 0.5}\n" + kStarts,
+            "the assumption 'hidden'"},
         Own{"never_seen", "hybrid-kkl",
             "data:\n  F: 'blkdiag(0, [0, -1; 1, 0])'\n  Hc: [1, 0, 0]\n  J: eye(3)\n"
             "  Hd: [0, 0, 0]\n  T1: 0.5\n  T2: 1\n" +

@@ -34,6 +34,25 @@ void expect_brackets(const Found& found, const std::function<double(double)>& g,
   }
 }
 
+/// A short step late in a run: its times are rounded, which is no corner of g.
+TEST(Roots, OfAShortStepLateInARunTakeFewPoints) {
+  const double from = 5.25;
+  for (const double length : {1e-4, 1e-6, 1e-8, 1e-10}) {
+    const double to = from + length;
+    int points = 0;
+    const auto g = [&](double t) {
+      ++points;
+      const double share = (t - from) / (to - from);
+      return share * (0.75 - share);
+    };
+    const Found found = find_roots({g, true, 0}, from, to);
+    EXPECT_LE(points, 200) << length;
+    EXPECT_TRUE(found.whole);
+    ASSERT_FALSE(found.roots.empty()) << length;
+    EXPECT_NEAR((found.roots.back().right - from) / length, 0.75, 1e-15 / length * 8) << length;
+  }
+}
+
 /// To the last bit: where an event is, and the state at it, come from series of some variables and of
 /// all.
 TEST(Chebyshev, AValueDoesNotDependOnItsNeighbours) {
