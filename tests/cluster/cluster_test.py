@@ -152,10 +152,7 @@ class Slurm(Workflow):
     def test_all_kinds_of_work(self):
         self.all_kinds_of_work()
 
-    def test_a_shard_dies(self):
-        self.a_shard_dies()
-
-    def test_a_job_is_cancelled(self):
+    def test_a_shard_dies_and_a_job_is_cancelled(self):
         """As Slurm ends one that is out of time: the work that was kept counts, and another job goes on."""
         self.say("400000", 2)
         running = self.begin("results/campaigns/t2/campaign.json")
@@ -163,6 +160,7 @@ class Slurm(Workflow):
         with open(f"/proc/{process}/environ", "rb") as file:
             job = [word for word in file.read().decode().split("\0") if word.startswith("SLURM_JOB_ID=")][0].split("=")[1]
         subprocess.run(["scancel", job], env=self.env, check=True)
+        os.kill(self.wait_for("2/2"), signal.SIGKILL)
         self.end(running)
         self.expect_campaign("400000")
 

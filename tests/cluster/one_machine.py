@@ -1,6 +1,8 @@
 """A Slurm of its own on one machine: munged, slurmctld and slurmd with their files in one folder."""
+import ctypes
 import os
 import shutil
+import signal
 import socket
 import subprocess
 import time
@@ -30,6 +32,12 @@ MpiDefault=none
 NodeName={host} NodeAddr=127.0.0.1 CPUs={cores} RealMemory=4000 State=UNKNOWN
 PartitionName=debug Nodes={host} Default=YES MaxTime=INFINITE State=UP
 """
+
+
+def die_with_parent():
+    """A test that is killed leaves no daemon behind."""
+    pr_set_pdeathsig = 1
+    ctypes.CDLL(None).prctl(pr_set_pdeathsig, signal.SIGTERM)
 
 
 def free_port():
@@ -74,7 +82,7 @@ class Slurm:
         for name, words in (("munged", munge), ("slurmctld", ["-D"]), ("slurmd", ["-D", "-N", host])):
             with open(os.path.join(folder, name + ".out"), "w", encoding="utf-8") as out:
                 self.started.append(subprocess.Popen([self.path_of(name), *words], env=self.env, stdout=out, stderr=out,
-                                                     start_new_session=True))
+                                                     start_new_session=True, preexec_fn=die_with_parent))
             time.sleep(0.5)
         for _ in range(40):
             found = subprocess.run(["sinfo", "-h", "-o", "%T"], env=self.env, capture_output=True, text=True, check=False)
