@@ -191,7 +191,8 @@ std::vector<Option> options_of(const Command& command, Patience& patience) {
                         .named("SECONDS")
                         .checked(seconds_error));
   options.emplace_back("--progress", patience.progress,
-                       "write every 10 s a line of JSON to standard error: what is done, and how long the rest takes");
+                       "write every 10 s a line of JSON to standard error: what is done, and how "
+                       "long the rest takes");
   return options;
 }
 

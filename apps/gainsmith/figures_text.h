@@ -10,8 +10,9 @@
 
 namespace gainsmith::app {
 
-/// With the quantiles 5, 50 and 95 %. `asked`: how many runs were to be made. `confidence`: of their intervals; none where nothing is drawn.
-/// `fit`: the probability with which a consistent filter passes; none likewise.
+/// With the quantiles 5, 50 and 95 %. `asked`: how many runs were to be made. `confidence`: of their
+/// intervals; none where nothing is drawn. `fit`: the probability with which a consistent filter
+/// passes; none likewise.
 model::FiguresRecord figures_record(const verify::FigureSurvey& survey, std::uint64_t asked,
                                     std::uint64_t seed, std::optional<double> confidence,
                                     std::optional<double> fit);

@@ -23,7 +23,8 @@ std::string terminal_text(double seconds) {
 /// For programs that wait. The names of what is done need no quotation.
 std::string json_line(double seconds) {
   const Progress progress = Doing::now();
-  std::string text = fmt::format("{{\"seconds\": {:.0f}, \"doing\": \"{}\"", seconds, progress.what);
+  std::string text =
+      fmt::format("{{\"seconds\": {:.0f}, \"doing\": \"{}\"", seconds, progress.what);
   if (progress.of > 0)
     text += fmt::format(", \"done\": {}, \"of\": {}", progress.done, progress.of);
   if (const auto rate = progress.rate()) text += fmt::format(", \"rate\": {:.4g}", *rate);
@@ -68,7 +69,8 @@ class Reporter {
          next += pause) {
       if (hidden_) continue;
       const std::chrono::duration<double> seconds = Clock::now() - start;
-      const std::string text = terminal_ ? terminal_text(seconds.count()) : json_line(seconds.count());
+      const std::string text =
+          terminal_ ? terminal_text(seconds.count()) : json_line(seconds.count());
       std::fputs(text.c_str(), stderr);
       shown_ = terminal_;
     }

@@ -115,8 +115,9 @@ Command synth_command() {
        Option("--sdpa", options->sdpa,
               "write the semidefinite program here, for other solvers, before it is solved"),
        Option("--no-solve", options->only_write, "write that program and do not solve it"),
-       Option("--threads", options->threads,
-              "threads of a search, 0: as many as cores it may use; the result does not depend on it")
+       Option(
+           "--threads", options->threads,
+           "threads of a search, 0: as many as cores it may use; the result does not depend on it")
            .within(0, 1024),
        Option("--effort", options->effort,
               "what double does not decide: ordinary (an allowance of work) or full (any)")

@@ -15,8 +15,8 @@ double memory_limit() {
   rlimit space{};
   if (::getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur != RLIM_INFINITY)
     least = std::min(least, static_cast<double>(space.rlim_cur));
-  return std::min(
-      {least, least_of_groups("", "memory.max"), least_of_groups("memory", "memory.limit_in_bytes")});
+  return std::min({least, least_of_groups("", "memory.max"),
+                   least_of_groups("memory", "memory.limit_in_bytes")});
 }
 
 }  // namespace gainsmith

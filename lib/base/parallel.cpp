@@ -220,10 +220,6 @@ void run(Loop& loop) {
   if (loop.failure) std::rethrow_exception(loop.failure);
 }
 
-}  // namespace
-
-namespace {
-
 /// On which the process may run; 0 where that is not known.
 unsigned allowed_cores() {
 #if defined(__linux__)

@@ -46,9 +46,9 @@ struct Statement {
   std::string method_text;
   std::string problem_file;  ///< its name only, no folders of the machine
   std::string problem_text;
-  std::string hash;  ///< statement_hash
-  std::vector<Setting> settings{};    ///< of the command line
-  std::vector<StatedFile> files{};    ///< what the problem reads besides its text
+  std::string hash;                 ///< statement_hash
+  std::vector<Setting> settings{};  ///< of the command line
+  std::vector<StatedFile> files{};  ///< what the problem reads besides its text
 };
 
 /// A scalar and the range in which it is looked for.

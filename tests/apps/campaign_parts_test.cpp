@@ -27,9 +27,8 @@ std::string report_text(const verify::Report& report) {
 }
 
 verify::CampaignPart through_json(const verify::CampaignPart& part) {
-  const io::Json written = {{"facts", to_json(part.facts)},
-                            {"runs", runs_json(part)},
-                            {"repeats", repeats_json(part)}};
+  const io::Json written = {
+      {"facts", to_json(part.facts)}, {"runs", runs_json(part)}, {"repeats", repeats_json(part)}};
   const io::Json document = io::parse_json(io::to_text(written), "part.json");
   const io::JsonReader reader(document, "part.json");
   verify::CampaignPart read;

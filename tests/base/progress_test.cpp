@@ -33,7 +33,8 @@ TEST(Progress, SaysHowLongTheRestTakes) {
   EXPECT_EQ(to_text({"runs", 3, 100, 10}), "runs 3/100, 0.3 a second, about 5 min left");
   EXPECT_EQ(to_text({"runs", 1234567, 1000000000, 10}),
             "runs 1234567/1000000000, 120000 a second, about 2.2 h left");
-  EXPECT_EQ(to_text({"runs", 12, 10000000, 12}), "runs 12/10000000, 1 a second, about 116 days left");
+  EXPECT_EQ(to_text({"runs", 12, 10000000, 12}),
+            "runs 12/10000000, 1 a second, about 116 days left");
 }
 
 }  // namespace

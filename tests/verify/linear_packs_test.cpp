@@ -10,6 +10,7 @@
 #include "io/problem_text.h"
 #include "packs/lane_lengths.h"
 #include "verify/campaign.h"
+#include "verify/linear_cases.h"
 #include "verify/pack_judge.h"
 
 namespace gainsmith::verify::linear {
@@ -18,134 +19,6 @@ namespace {
 using claims::Judgement;
 using packs::LinearSystem;
 using packs::Wide;
-
-struct Case {
-  const char* name;
-  const char* text;
-};
-
-void PrintTo(const Case& one, std::ostream* out) { *out << one.name; }
-
-// Bounds lie among what the runs reach, so that some hold and some violate.
-const Case kCases[] = {{"a jump that turns and grows", R"yaml(problem: p
-method:
-  method: m
-  plant:
-    state: {x: {shape: 2}}
-    flow: {x: "[-0.1, 1; -1, -0.1]*x"}
-    jump: {x: "[0.6, 0.5; -0.9, 0.75]*x"}
-  timer: {tau: {reset: [0.1, 0.6], first: [0, 0.6]}}
-  claims:
-    falls: {nonincreasing: "x'*x"}
-    cost: {cost: {flow: "x'*x", jump: 0.1*x(1)^2}, below: 3*exp(0.2*tau)*x'*x}
-    error: {shrinks: norm(x), to: 0.5}
-campaign: {runs: 160, horizon: 3, initial: {x: {box: [-2, 3]}}}
-)yaml"},
-                       {"an observer whose error does not depend on its plant", R"yaml(problem: p
-method:
-  method: m
-  plant:
-    state: {z: {shape: 2}}
-    output: {y: "[1, 0]*z"}
-    flow: {z: "[0.3, 1; -1, 0.2]*z"}
-  observer:
-    state: {zh: {shape: 2, start: 0}, th: {shape: 1}}
-    flow: {zh: "[0.3, 1; -1, 0.2]*zh + [0.5; 0.1]*th", th: -2*th}
-    jump: {zh: "zh + [0.5; 0.2]*(y - [1, 0]*zh)", th: "0.5*(y - [1, 0]*zh)"}
-  timer: {tau: {reset: [0.2, 0.7], first: [0, 0.7]}}
-  claims:
-    cost: {cost: {flow: "(z - zh)'*(z - zh)"}, below: 0.9*(z - zh)'*(z - zh)}
-    error: {shrinks: norm(z - zh), to: 0.02}
-campaign: {runs: 160, horizon: 12, initial: {z: {ellipsoid: {matrix: "[1, 0.2; 0.2, 0.5]", level: 4}}, th: "[1, 0]*z"}}
-)yaml"},
-                       {"a constant input", R"yaml(problem: p
-method:
-  method: m
-  plant:
-    state: {x: {shape: 2}}
-    flow: {x: "[-1, 0.5; -0.5, -1]*x + [1; 0.2]"}
-    jump: {x: "[0.7, 0; 0, 1]*x + [0.1; -0.3]"}
-  timer: {tau: {reset: [0.1, 0.4], first: [0, 0.4]}}
-  claims:
-    cost: {cost: {flow: "0.3*(x(1) - x(2))^2", jump: 0.01*(x(2) + 1)^2}, below: "1.2 + x'*x"}
-    distance: {shrinks: "norm(x - [0.5; -0.6])", to: 0.4}
-campaign: {runs: 160, horizon: 5, initial: {x: {box: ["[-1; -2]", "[2; 2]"]}}}
-)yaml"},
-                       {"one length, from a list of starts", R"yaml(problem: p
-method:
-  method: m
-  plant:
-    state: {x: {shape: 3}}
-    flow: {x: "[0, 1, 0; 0, 0, 1; -1, -2, -1.2]*x"}
-    jump: {x: "[1, 0, 0; 0, 0.9, 0; 0, 0, 0]*x"}
-  timer: {tau: {reset: [0.25, 0.25], first: [0.1, 0.2]}}
-  claims:
-    cost: {cost: {flow: "x(1)^2", jump: "x(3)^2"}, below: 2*x'*x}
-    shrinks: {shrinks: "x'*x", to: 0.2}
-campaign: {runs: 160, horizon: 4.1, initial: {x: {list: ["[1; 0; 0]", "[0; 1; 0]", "[0; 0; 1]", "[1; -1; 2]", "[0.2; 1; -1]"]}}}
-)yaml"},
-                       {"laws without draws", R"yaml(problem: p
-method:
-  method: m
-  plant:
-    state: {x: {shape: 2}}
-    flow: {x: "[-0.2, 2; -2, -0.2]*x"}
-    jump: {x: "[1.1, 0; 0, 0.6]*x"}
-  timer: {tau: {reset: [0.2, 1], first: [0.4, 0.4]}}
-  claims:
-    falls: {nonincreasing: "exp(-0.1*tau)*x'*x"}
-    error: {shrinks: norm(x), to: 0.2}
-campaign: {runs: 160, horizon: 6, initial: {x: {box: [-1, 1]}}, sampling: [sinusoid, golden, {list: [0.3, 0.9, 0.5]}, {constant: 0.45}, extremes]}
-)yaml"},
-                       {"a gain that depends on a clock", R"yaml(problem: p
-method:
-  method: m
-  let: {A: "[0.2, -1.01; 1, 0]", C: "[0.5, -1]"}
-  plant:
-    state: {z: {shape: 2}}
-    output: {y: C*z}
-    flow: {z: A*z}
-  observer:
-    state: {zh: {shape: 2, start: 0}, s: {shape: 1, start: 0.3}}
-    flow: {zh: A*zh, s: 1}
-    jump: {zh: "zh + ([-0.1; -0.6] + [0.15; 0.05]*s)*(y - C*zh)", s: 0}
-  timer: {tau: {reset: [0.5, 2.2]}}
-  claims:
-    falls: {nonincreasing: "(expm(-A*s)*(z - zh))'*[1, 0.1; 0.1, 1]*(expm(-A*s)*(z - zh))"}
-    cost: {cost: {flow: "(z - zh)'*(z - zh)"}, below: 20*(z - zh)'*(z - zh)}
-    error: {shrinks: norm(z - zh), to: 0.2}
-campaign: {runs: 160, horizon: 12, initial: {z: {box: [-2, 3]}}}
-)yaml"},
-                       {"a mode that lives next to jumps alone", R"yaml(problem: p
-method:
-  method: m
-  plant:
-    state: {z: {shape: 2}}
-    output: {y: "[1, 0]*z"}
-    flow: {z: "[0.3, 1; -1, 0.2]*z"}
-  observer:
-    state: {zh: {shape: 2, start: 0}, th: {shape: 1}}
-    flow: {zh: "[0.3, 1; -1, 0.2]*zh + [2000; 400]*th", th: -8000*th}
-    jump: {zh: "zh + [0.4; 0.2]*(y - [1, 0]*zh)", th: "0.5*(y - [1, 0]*zh)"}
-  timer: {tau: {reset: [0.2, 0.7], first: [0, 0.7]}}
-  claims:
-    cost: {cost: {flow: "(z - zh)'*(z - zh)"}, below: 0.9*(z - zh)'*(z - zh)}
-    error: {shrinks: norm(z - zh), to: 0.02}
-campaign: {runs: 160, horizon: 12, initial: {z: {ellipsoid: {matrix: "[1, 0.2; 0.2, 0.5]", level: 4}}, th: "[1, 0]*z"}}
-)yaml"},
-                       {"a jump that forgets everything", R"yaml(problem: p
-method:
-  method: m
-  plant:
-    state: {x: {shape: 2}}
-    flow: {x: "[0.5, 1; 0, 0.2]*x"}
-    jump: {x: 0*x}
-  timer: {tau: {reset: [0.5, 1], first: [0.2, 1]}}
-  claims:
-    cost: {cost: {flow: "x'*x"}, below: 2*x'*x}
-    error: {shrinks: norm(x), to: 0.1}
-campaign: {runs: 160, horizon: 3, initial: {x: {box: [-1, 1]}}}
-)yaml"}};
 
 struct Made {
   std::unique_ptr<const Setup> setup;
@@ -292,11 +165,11 @@ TEST_P(LinearPacks, NoErrorIsBeyondItsBound) {
   EXPECT_LT(beside.worst_, 1e-8);
 }
 
-INSTANTIATE_TEST_SUITE_P(Systems, LinearPacks, testing::ValuesIn(kCases));
+INSTANTIATE_TEST_SUITE_P(Systems, LinearPacks, testing::ValuesIn(linear_cases()));
 
 /// A coefficient of a table that is wrong by 1e-11 is seen.
 TEST(LinearFaults, AWrongCoefficientIsFoundByBounds) {
-  const Made made = make(kCases[0].text);
+  const Made made = make(linear_cases()[0].text);
   packs::LinearModel wrong = made.packs.linear->model;
   wrong.A(0, 1) += Decimal100(1e-11);
   auto system = packs::make_linear_system(wrong);
@@ -306,7 +179,7 @@ TEST(LinearFaults, AWrongCoefficientIsFoundByBounds) {
 }
 
 TEST(LinearPacks, LengthsAreThoseOfOneRunAfterTheOther) {
-  for (const Case& one : kCases) {
+  for (const Case& one : linear_cases()) {
     const Made made = make(one.text);
     const hybrid::System& system = made.setup->events->system;
     const hybrid::Scenario& scenario = made.setup->events->scenario;
@@ -332,13 +205,8 @@ TEST(LinearPacks, LengthsAreThoseOfOneRunAfterTheOther) {
 
 /// Values that fall over hundreds of decades are followed.
 TEST(LinearPacks, FollowADecayOverHundredsOfDecades) {
-  std::string text = kCases[0].text;
-  const auto replace = [&](const std::string& from, const std::string& to) {
-    text.replace(text.find(from), from.size(), to);
-  };
-  replace("[0.6, 0.5; -0.9, 0.75]*x", "0.2*x");
-  replace("horizon: 3", "horizon: 200");
-  const Made made = make(text);
+  const Made made = make(with(with(linear_cases()[0].text, "[0.6, 0.5; -0.9, 0.75]*x", "0.2*x"),
+                              "horizon: 3", "horizon: 200"));
   ASSERT_NE(made.packs.linear, nullptr);
   const auto verdicts = packs::LinearRunner(*made.packs.linear).run(1, 0, 64);
   EXPECT_TRUE(std::none_of(verdicts.begin(), verdicts.end(),
@@ -395,9 +263,7 @@ campaign: {runs: 160, horizon: 8, initial: {x: {box: [-2, 3]}}}
 
 TEST(LinearPacks, RunWhatTheyCan) {
   const auto is_linear = [](const std::string& from, const std::string& to) {
-    std::string text = kCases[0].text;
-    text.replace(text.find(from), from.size(), to);
-    return make(text).packs.linear != nullptr;
+    return make(with(linear_cases()[0].text, from, to)).packs.linear != nullptr;
   };
   EXPECT_TRUE(is_linear("reset: [0.1, 0.6]", "reset: [0, 0.6]"));
   // A value that rises along flows, one that is no form, a cost that may fall, fast turns; a fast decay is
@@ -409,7 +275,7 @@ TEST(LinearPacks, RunWhatTheyCan) {
   EXPECT_TRUE(is_linear("[-0.1, 1; -1, -0.1]", "[-0.1, 1; -1, -400]"));
 }
 
-Report campaign_of(const char* text, unsigned threads) {
+Report campaign_of(const std::string& text, unsigned threads) {
   const model::Instance instance = bind::bind(io::read_problem(text));
   CampaignOptions options;
   options.threads = threads;
@@ -419,14 +285,13 @@ Report campaign_of(const char* text, unsigned threads) {
 
 /// No law by default has intervals that shrink to nothing.
 TEST(LinearPacks, RunsWithIntervalsFromZeroReachTheirHorizon) {
-  std::string text = kCases[0].text;
-  text.replace(text.find("reset: [0.1, 0.6]"), 17, "reset: [0, 0.6]");
-  EXPECT_EQ(campaign_of(text.c_str(), 1).unfinished, 0U);
+  const std::string text = with(linear_cases()[0].text, "reset: [0.1, 0.6]", "reset: [0, 0.6]");
+  EXPECT_EQ(campaign_of(text, 1).unfinished, 0U);
 }
 
 TEST(LinearPacks, ThreadsDoNotMatter) {
-  const Report one = campaign_of(kCases[0].text, 1);
-  const Report two = campaign_of(kCases[0].text, 2);
+  const Report one = campaign_of(linear_cases()[0].text, 1);
+  const Report two = campaign_of(linear_cases()[0].text, 2);
   EXPECT_EQ(one.violations, two.violations);
   EXPECT_EQ(one.worst_run, two.worst_run);
   for (std::size_t k = 0; k < one.checks.size(); ++k) {
