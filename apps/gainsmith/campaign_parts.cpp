@@ -99,6 +99,7 @@ io::Json campaign_statement(const verify::CampaignFacts& facts, const std::strin
       {"confidence", facts.confidence},
       {"machine", isa() == "v2" ? "without fused products" : "with fused products"}};
   if (compare) statement[kCompare] = "yes";
+  if (facts.until_violated) statement["until"] = "violated";
   return statement;
 }
 

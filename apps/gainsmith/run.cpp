@@ -15,6 +15,7 @@
 #include "gainsmith/junit.h"
 #include "gainsmith/output.h"
 #include "gainsmith/problem_files.h"
+#include "gainsmith/problem_shares.h"
 #include "gainsmith/progress_line.h"
 #include "gainsmith/results_folder.h"
 #include "gainsmith/shard_option.h"
@@ -32,6 +33,7 @@ struct RunOptions {
   std::string output = "gainsmith-run";
   std::string junit;
   std::string shard;
+  std::string times;
   unsigned threads = 0;
   bool json = false;
   bool report = false;
@@ -100,17 +102,21 @@ void write_report(const RunOptions& options, const std::vector<JobResult>& resul
   write_atomically(report_file(options), page::page(all, title));
 }
 
-/// Every N-th problem from the I-th on. The names are those among all.
-std::vector<ProblemFile> problems_of_shard(const RunOptions& options) {
-  const std::vector<ProblemFile> all = problem_files(options.problems);
-  const Shard shard = parse_shard(options.shard);
-  std::vector<ProblemFile> own;
-  for (std::size_t k = shard.index - 1; k < all.size(); k += shard.of) own.push_back(all[k]);
-  return own;
+/// The names are those among all.
+std::vector<ProblemFile> own_problems(const RunOptions& options) {
+  if (!options.times.empty() && options.shard.empty())
+    throw InputError({"--times"}, "it shares out the problems to the parts of --shard");
+  std::error_code none;
+  if (!options.times.empty() && fs::equivalent(options.times, options.output, none))
+    throw InputError({options.times},
+                     "the times must not change while parts are made; write the results to another "
+                     "folder with -o");
+  return problems_of_shard(problem_files(options.problems), parse_shard(options.shard),
+                           options.times);
 }
 
 ExitCode run(const RunOptions& options) {
-  const std::vector<ProblemFile> items = problems_of_shard(options);
+  const std::vector<ProblemFile> items = own_problems(options);
   const std::string page = options.report ? report_file(options) : "";
   for (const ProblemFile& item : items) prepare_outputs(item.path.string(), {options.junit, page});
   JobOptions job = options.job;
@@ -166,6 +172,8 @@ Command run_command() {
            .within(0, 1024),
        shard_option(options->shard,
                     "only part I of N of the problems; the parts may share the folder of results"),
+       Option("--times", options->times,
+              "results of an earlier run, whose times make the parts take equally long"),
        Option("--resume", options->job.resume,
               "keep the results that are whole and of the same problem, runs and seed: after a "
               "stop of any kind the same command goes on"),

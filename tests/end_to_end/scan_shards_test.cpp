@@ -87,6 +87,37 @@ TEST_F(ScanShards, AScanGoesOn) {
   EXPECT_TRUE(has(other.err, "keeps other work: problem_sha256")) << other.err;
 }
 
+TEST_F(ScanShards, ASearchGoesOn) {
+  const std::string kept = folder_.path("kept");
+  const auto optimize = [](std::vector<std::string> more) {
+    more.insert(more.begin(),
+                {"optimize", problem("ferrante-seuret-2021/t2-0.70.yaml"), "--over",
+                 "delta=1e-3:1", "--largest", "T2=0.5:1.1", "--evaluations", "40"});
+    return gainsmith(more);
+  };
+  const std::string out = folder_.path("whole.json"), resumed = folder_.path("resumed.json");
+  EXPECT_EQ(optimize({"-o", out}).exit, 0);
+  std::size_t known = 0;
+  for (int k = 0; k < 4; ++k) {
+    const Outcome part = optimize({"--resume", kept, "--time", "0.1", "--threads", "1"});
+    EXPECT_TRUE(part.exit == 0 || part.exit == 3) << part.exit << part.err;
+    std::size_t values = 0;
+    for (const char* turn : {"0", "1"}) {
+      const std::string file = kept + "/kept-" + turn + ".json";
+      if (!fs::exists(file)) continue;
+      values = std::max(values, nlohmann::json::parse(text_of(file))["done"].size());
+    }
+    EXPECT_GE(values, known);
+    known = values;
+  }
+  EXPECT_GT(known, 0U);
+  EXPECT_EQ(optimize({"--resume", kept, "-o", resumed}).exit, 0);
+  EXPECT_EQ(without_timings(text_of(resumed)), without_timings(text_of(out)));
+  const Outcome other = optimize({"--resume", kept, "--tolerance", "1e-3"});
+  EXPECT_EQ(other.exit, 2);
+  EXPECT_TRUE(has(other.err, "keeps other work: --tolerance")) << other.err;
+}
+
 class RunShards : public testing::Test {
  protected:
   const std::vector<std::string> problems_ = {problem("classics/hinf-norm.yaml"),
@@ -117,6 +148,34 @@ TEST_F(RunShards, EachProblemIsInOne) {
     EXPECT_EQ(gains("parts"), gains("whole")) << name;
   }
   EXPECT_EQ(run("empty", {"--shard", "5/5"}).exit, 0);
+}
+
+/// Two problems in one part because the third takes as long as both.
+TEST_F(RunShards, TimesOfAnEarlierRunBalanceTheParts) {
+  for (const auto& [name, seconds] : {std::pair("hinf-norm", 2.0), {"t2-0.70", 1.5}, {"dc-motor", 4.0}}) {
+    fs::create_directories(folder_.path("earlier") + "/" + name);
+    std::ofstream(folder_.path("earlier") + "/" + name + "/result.json")
+        << nlohmann::json({{"timings", {{"total", seconds}}}});
+  }
+  const std::string times = folder_.path("earlier");
+  EXPECT_EQ(run("first", {"--shard", "1/2", "--times", times}).exit, 0);
+  EXPECT_TRUE(fs::exists(folder_.path("first/dc-motor")));
+  EXPECT_FALSE(fs::exists(folder_.path("first/hinf-norm")));
+  EXPECT_EQ(run("second", {"--shard", "2/2", "--times", times}).exit, 0);
+  EXPECT_TRUE(fs::exists(folder_.path("second/hinf-norm")));
+  EXPECT_TRUE(fs::exists(folder_.path("second/t2-0.70")));
+  EXPECT_FALSE(fs::exists(folder_.path("second/dc-motor")));
+  const auto refused = [&](const std::vector<std::string>& words, const std::string& message,
+                           const std::string& to = "third") {
+    const Outcome outcome = run(to, words);
+    EXPECT_EQ(outcome.exit, 2);
+    EXPECT_TRUE(has(outcome.err, message)) << outcome.err;
+  };
+  refused({"--times", times}, "parts of --shard");
+  refused({"--shard", "1/2", "--times", folder_.path("first/dc-motor")}, "no results of these");
+  refused({"--shard", "1/2", "--times", times}, "another folder", "earlier");
+  std::ofstream(times + "/t2-0.70/result.json") << "{";
+  refused({"--shard", "1/2", "--times", times}, "t2-0.70/result.json:1:");
 }
 
 TEST_F(RunShards, WhatIsFinishedIsKept) {
