@@ -68,8 +68,8 @@ std::vector<ProblemFile> problems_of_shard(const std::vector<ProblemFile>& all, 
     for (std::size_t k = shard.index - 1; k < all.size(); k += shard.of) own.push_back(all[k]);
     return own;
   }
-  for (const std::size_t k : balanced_shares(seconds_of(all, times), shard.of)[shard.index - 1])
-    own.push_back(all[k]);
+  const auto shares = balanced_shares(seconds_of(all, times), shard.of);
+  for (const std::size_t k : shares[shard.index - 1]) own.push_back(all[k]);
   return own;
 }
 
