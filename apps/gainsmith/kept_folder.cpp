@@ -135,7 +135,11 @@ void KeptFolder::read() {
     newest = std::move(found);
   }
   if (!newest) return;
-  const std::string different = difference_of(newest->done["statement"], statement_);
+  const io::Json& found = newest->done["statement"];
+  const std::string kind = found.value(kWork, "");
+  const std::string different = kind == statement_.value(kWork, "")
+                                    ? difference_of(found, statement_)
+                                    : "a " + kind;
   if (!different.empty())
     throw InputError({folder_.string()}, "this folder keeps other work: " + different +
                                              "; choose another folder, or remove this one");

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/save_pace.h"
+#include "base/stop.h"
 #include "base/version.h"
 #include "gainsmith/commands.h"
 #include "gainsmith/exact_number.h"
@@ -96,6 +97,7 @@ void take_values(const io::Json& document, const std::string& file, search::Know
 io::Json statement_of(const OptimizeOptions& options, const model::Instance& instance) {
   const auto text = [](const auto& value) { return value ? fmt::format("{}", *value) : ""; };
   return {{"gainsmith", kVersion},
+          {kWork, "search"},
           {"problem_sha256", instance.design->statement.hash},
           {"--over", options.over},
           {"--largest", options.largest},
@@ -119,9 +121,22 @@ model::Gains search(const OptimizeOptions& options, const model::Instance& insta
   known.grown = [&] {
     if (pace.is_due()) pace.save(keep);
   };
-  model::Gains gains = design::optimize(instance, request, options.threads, {}, known);
-  keep();
-  return gains;
+  const auto say_kept = [&] {
+    keep();
+    say(fmt::format("gainsmith: {} keeps {} values; the same command goes on from there\n",
+                    options.resume, known.all().size()));
+  };
+  try {
+    model::Gains gains = design::optimize(instance, request, options.threads, {}, known);
+    if (gains.search && !gains.search->finished)
+      say_kept();
+    else
+      keep();
+    return gains;
+  } catch (const Stopped&) {
+    say_kept();
+    throw;
+  }
 }
 
 ExitCode optimize(const OptimizeOptions& options) {

@@ -10,11 +10,13 @@
 
 #include "base/file.h"
 #include "base/parallel.h"
+#include "base/progress.h"
 #include "gainsmith/commands.h"
 #include "gainsmith/job.h"
 #include "gainsmith/junit.h"
 #include "gainsmith/output.h"
 #include "gainsmith/problem_files.h"
+#include "gainsmith/problem_list.h"
 #include "gainsmith/problem_shares.h"
 #include "gainsmith/progress_line.h"
 #include "gainsmith/results_folder.h"
@@ -111,21 +113,30 @@ std::vector<ProblemFile> own_problems(const RunOptions& options) {
     throw InputError({options.times},
                      "the times must not change while parts are made; write the results to another "
                      "folder with -o");
-  return problems_of_shard(problem_files(options.problems), parse_shard(options.shard),
-                           options.times);
+  const std::vector<ProblemFile> all = problem_files(options.problems);
+  if (!options.shard.empty()) {
+    std::vector<std::string> names;
+    for (const ProblemFile& problem : all) names.push_back(problem.name);
+    write_problem_list(options.output, names);
+  }
+  return problems_of_shard(all, parse_shard(options.shard), options.times);
 }
 
 ExitCode run(const RunOptions& options) {
   const std::vector<ProblemFile> items = own_problems(options);
+  if (items.empty()) say(fmt::format("no problem is in part {}\n", options.shard));
   const std::string page = options.report ? report_file(options) : "";
   for (const ProblemFile& item : items) prepare_outputs(item.path.string(), {options.junit, page});
   JobOptions job = options.job;
   job.threads = options.threads;
   std::vector<JobResult> results(items.size());
   Lines lines(items);
+  // Of one problem its own progress is shown.
+  const Doing doing("problems", items.size() > 1 ? items.size() : 0);
   const auto run_one = [&](std::size_t i) {
     results[i] =
         run_job(items[i].path, items[i].name, fs::path(options.output) / items[i].name, job);
+    doing.step();
     if (!options.json) lines.add(i, results[i]);
   };
   try {

@@ -46,12 +46,14 @@ class OuterSearch {
     options.threads = threads_;
     options.starts = {own_values()};
     const auto cold = [&](const search::Point& point) {
+      doing_->step();
       return known_.value("figure", point, [&] { return figure(point, std::nullopt); });
     };
     if (request_.extreme)
       options.warm = [&](const search::Point& point, double best) {
         search::Point at = point;
         at.push_back(best);
+        doing_->step();
         return known_.value("figure near", at,
                             [&] { return figure(point, request_.largest ? -best : best); });
       };
@@ -63,6 +65,7 @@ class OuterSearch {
       };
     const auto search = [&] {
       const Doing doing("evaluations", static_cast<std::uint64_t>(options.evaluations));
+      doing_ = &doing;
       return search::minimize(cold, axes, local_, options);
     };
     return result(search());
@@ -100,7 +103,6 @@ class OuterSearch {
   /// What is minimised: none where there are no gains, or where the values are refused.
   std::optional<double> figure(const search::Point& point, std::optional<double> guess) const {
     const model::Overrides values = overrides(point);
-    Doing::step();
     try {
       if (request_.extreme) {
         BisectResult result = bracket(values, kSharper, guess, Depth::quick);
@@ -295,6 +297,7 @@ class OuterSearch {
   unsigned threads_;
   const sdp::Options& solver_;
   search::KnownValues& known_;
+  const Doing* doing_ = nullptr;  ///< the search
   mutable std::mutex mutex_;
   mutable std::optional<Found> best_;  ///< of the search so far
 };

@@ -29,8 +29,8 @@ constexpr std::uint64_t kFirstRuns = 64;  ///< by which it is decided whether pa
 /// violated run it is added in the order of the runs, and nothing behind that run.
 class Collector {
  public:
-  Collector(CampaignPart& part, const Save& save)
-      : part_(part), save_(save), next_(part.runs.count()) {}
+  Collector(CampaignPart& part, const Save& save, const Doing& doing)
+      : part_(part), save_(save), doing_(doing), next_(part.runs.count()) {}
 
   void add(RunRange range, const Tally& tally) {
     if (range.count() == 0) return;
@@ -44,9 +44,10 @@ class Collector {
     }
   }
 
-  /// This run violates a claim.
-  void report_violation(std::uint64_t run) {
-    if (!part_.facts.until_violated) return;
+  /// This run is made.
+  void note(std::uint64_t run, const Tally& tally) {
+    doing_.step();
+    if (!part_.facts.until_violated || tally.violations == 0) return;
     std::uint64_t known = last_;
     while (run < known && !last_.compare_exchange_weak(known, run)) {
     }
@@ -81,6 +82,7 @@ class Collector {
   std::mutex mutex_;
   CampaignPart& part_;
   const Save& save_;
+  const Doing& doing_;
   bool unsaved_ = false;
   SavePace pace_;
   std::atomic<std::uint64_t> last_ = std::numeric_limits<std::uint64_t>::max();
@@ -108,8 +110,7 @@ void judge_runs(const Setup& setup, const Packs* packs, std::uint64_t seed, RunR
       tally.careful = made.careful ? 1 : 0;
       if (made.why) tally.open[static_cast<std::size_t>(*made.why)] = 1;
       add(tally, sum);
-      Doing::step();
-      if (tally.violations > 0) collector.report_violation(next);
+      collector.note(next, tally);
       if (!made.careful || Clock::now() < begin + kSlow) continue;
       collector.add({from, next + 1}, std::exchange(sum, {}));
       from = next + 1;
@@ -218,11 +219,11 @@ bool Campaign::packs_go_on() const {
 
 void Campaign::make_runs(RunRange range, CampaignPart& part, const Save& save) const {
   const std::vector<RunRange> missing = part.runs.missing_in(range);
-  Collector collector(part, save);
   if (missing.empty() || part.ended()) return;
   std::uint64_t count = 0;
   for (const RunRange& one : missing) count += one.count();
-  const Doing doing("runs", count);
+  const Doing doing("runs", range.count(), range.count() - count);
+  Collector collector(part, save, doing);
   try {
     const Packs* const first = packs_ ? &packs_ : nullptr;
     const Packs* const packs = packs_go_on() ? &packs_ : nullptr;

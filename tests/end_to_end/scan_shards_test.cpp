@@ -62,11 +62,11 @@ TEST_F(ScanShards, ThatDoNotFitAreRefusedByName) {
   refused({files[0], files[2]},
           "7 of 21 points are in no part; make what is missing with --shard 2/3");
   refused({files[0], files[1], files[1]},
-          files[1] + ": point 1 of this part is in another one too");
+          files[1] + ": this part is given twice");
   const std::string other = folder_.path("other.json");
   scan({"--shard", "2/3", "-o", other, "--set", "eta=1e-3"});
   refused({files[0], other, files[2]},
-          other + ": this part is of another scan than " + files[0] + ": problem_sha256 ");
+          other + ": this part is of another scan than " + files[0] + ": another text of the problem");
   refused({files[0], files[1], folder_.file("cut.json", text_of(files[2]).substr(0, 500))},
           "cut.json:");
 }
@@ -140,14 +140,21 @@ TEST_F(RunShards, EachProblemIsInOne) {
   run("whole", {});
   EXPECT_EQ(run("parts", {"--shard", "1/2"}).exit, 0);
   EXPECT_FALSE(fs::exists(folder_.path("parts/t2-0.70")));
+  const Outcome incomplete = gainsmith({"report", folder_.path("parts"), "--json"});
+  EXPECT_EQ(incomplete.exit, 3);
+  EXPECT_TRUE(has(incomplete.err, "1 of 3 problems have no result")) << incomplete.err;
+  EXPECT_TRUE(has(incomplete.out, "no result: the part of --shard")) << incomplete.out;
   EXPECT_EQ(run("parts", {"--shard", "2/2"}).exit, 0);
+  EXPECT_EQ(gainsmith({"report", folder_.path("parts"), "--json"}).exit, 0);
   for (const char* name : {"hinf-norm", "t2-0.70", "dc-motor"}) {
     const auto gains = [&](const char* folder) {
       return without_timings(text_of(folder_.path(folder) + "/" + name + "/gains.json"));
     };
     EXPECT_EQ(gains("parts"), gains("whole")) << name;
   }
-  EXPECT_EQ(run("empty", {"--shard", "5/5"}).exit, 0);
+  const Outcome empty = run("empty", {"--shard", "5/5"});
+  EXPECT_EQ(empty.exit, 0);
+  EXPECT_EQ(empty.err, "no problem is in part 5/5\n");
 }
 
 /// Two problems in one part because the third takes as long as both.

@@ -130,7 +130,7 @@ TEST_F(Shards, ThatDoNotFitAreRefusedByName) {
   refused({first, third},
           "runs 1000 to 1999 are in no part; make what is missing with --shard 2/3");
   refused({first, second, second, third},
-          second + ": runs 1000 to 1999 of this part are in " + second + " too");
+          second + ": this part is given twice");
   const std::string other = folder_.path("other.json");
   verify("3000", {"--seed", "5", "--shard", "2/3", "-o", other});
   refused({first, other, third},
@@ -161,7 +161,7 @@ TEST_F(Shards, OfOtherGainsAreRefused) {
   const Outcome outcome = merge({files[0], part});
   EXPECT_EQ(outcome.exit, 2);
   EXPECT_TRUE(has(outcome.err,
-                  part + ": this part is of another campaign than " + files[0] + ": gains_sha256 "))
+                  part + ": this part is of another campaign than " + files[0] + ": other gains, "))
       << outcome.err;
 }
 
