@@ -43,6 +43,13 @@ const Eigen::VectorXd& RunValue::point(double t) {
   return point_;
 }
 
+numbers::Box RunValue::box() const {
+  numbers::Box box(static_cast<std::size_t>(point_.size()));
+  const numbers::Box ranges = ode::chebyshev::ranges(followed_);
+  for (std::size_t k = 0; k < used_.size(); ++k) box[static_cast<std::size_t>(used_[k])] = ranges[k];
+  return box;
+}
+
 namespace {
 
 void visit_flow(const hybrid::FlowPiece& flow, double step,

@@ -42,7 +42,7 @@ class RunValue {
   /// Where it is not, on a step: Breaks::on.
   std::optional<std::vector<ode::Break>> breaks(std::vector<double>* near = nullptr) {
     return breaks_.on([this](double t) -> const Eigen::VectorXd& { return point(t); }, from_, to_,
-                      near);
+                      breaks_.none() ? numbers::Box() : box(), near);
   }
   /// Until when, in a run, its breaks can be searched.
   double followed_until = std::numeric_limits<double>::infinity();
@@ -54,6 +54,9 @@ class RunValue {
   }
 
  private:
+  /// Where the variables lie all along the step: |T_k| <= 1.
+  numbers::Box box() const;
+
   numbers::StackedFunctions function_;
   hybrid::Breaks breaks_;
   numbers::Matrix none_;

@@ -42,7 +42,7 @@ CrossingsOnStep::CrossingsOnStep(hybrid::EventFunction& function, const StepValu
   noise_ *= hybrid::kTermRounding;
   breaks_ = function.breaks()
                 .on([this](double t) -> const VectorXd& { return used_.at(t); }, inside_.from(),
-                    inside_.to())
+                    inside_.to(), function.breaks().none() ? numbers::Box() : inside_.box())
                 .value_or(std::vector<ode::Break>());
 }
 
