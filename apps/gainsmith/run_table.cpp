@@ -24,14 +24,13 @@ std::vector<std::string> names_of(const verify::Replay& replay) {
 
 }  // namespace
 
-std::string run_csv(const verify::Setup& setup, std::uint64_t seed, std::uint64_t run) {
-  return events_csv(verify::table_of_run(setup, seed, run, 0));
+std::string run_csv(const verify::Setup& setup, const hybrid::Trajectory& run) {
+  return events_csv(verify::table_of_run(setup, run, 0));
 }
 
-std::string run_picture(const model::Design& design, const verify::Setup& setup, std::uint64_t seed,
-                        std::uint64_t run) {
-  const hybrid::Trajectory made = verify::table_of_run(setup, seed, run, 0).run;
-  return run_figure(design.name, {drawn_run(setup, run, made, 0)}, view_of(design));
+std::string run_picture(const model::Design& design, const verify::Setup& setup,
+                        std::uint64_t number, const hybrid::Trajectory& run) {
+  return run_figure(design.name, {drawn_run(setup, number, run, 0)}, view_of(design));
 }
 
 std::string events_csv(const verify::Replay& replay) {

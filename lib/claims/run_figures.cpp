@@ -233,9 +233,13 @@ std::optional<double> FigureOf::integral(const Trajectory& run, const Rate& rate
       const auto pieces = static_cast<int>(part.series.size());
       const double half = (std::min(to, part.to) - low) / (2 * pieces);
       if (part.undefined) sum = std::numeric_limits<double>::quiet_NaN();
-      for (int piece = 0; half > 0 && piece < pieces; ++piece)
-        for (const auto& [node, weight] : rule)
-          sum += half * weight * rate(part(low + half * (2 * piece + 1 + node)));
+      std::array<double, rule.size()> at{};
+      for (int piece = 0; half > 0 && piece < pieces; ++piece) {
+        for (std::size_t k = 0; k < at.size(); ++k)
+          at[k] = low + half * (2 * piece + 1 + rule[k].first);
+        at = part(at);
+        for (std::size_t k = 0; k < at.size(); ++k) sum += half * rule[k].second * rate(at[k]);
+      }
     }
   });
   return sum;

@@ -9,12 +9,14 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <optional>
 #include <vector>
 
 #include "claims/run_values.h"
 #include "claims/tolerances.h"
+#include "ode/chebyshev.h"
 
 namespace gainsmith::claims {
 
@@ -35,6 +37,20 @@ struct SmoothPart {
   double time(int point) const;
   /// The series at t.
   double operator()(double t) const;
+  /// At some times at once, with the same bits.
+  template <std::size_t n>
+  std::array<double, n> operator()(const std::array<double, n>& times) const {
+    std::array<double, n> x{}, sum{}, after{};
+    for (std::size_t k = 0; k < n; ++k) x[k] = ode::chebyshev::inner(times[k], from, to);
+    for (Eigen::Index i = series.size() - 1; i > 0; --i)
+      for (std::size_t k = 0; k < n; ++k) {
+        const double next = series(i) + 2 * x[k] * sum[k] - after[k];
+        after[k] = sum[k];
+        sum[k] = next;
+      }
+    for (std::size_t k = 0; k < n; ++k) sum[k] = series(0) + x[k] * sum[k] - after[k];
+    return sum;
+  }
 };
 
 /// In order, at least one. `near`: takes the places at which it nearly branches.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include "expr/branches.h"
@@ -278,6 +279,7 @@ std::optional<std::vector<ode::Break>> Breaks::on(const std::function<const Vect
   for (Text& text : texts_) {
     const Index size = text.program->shape().size();
     const bool bounded = text.value.enclose(box);
+    std::map<double, Matrix> known;  // of all elements
     for (Index e = 0; e < size; ++e) {
       if (bounded && is_apart(text.value.range(static_cast<std::size_t>(e)), near != nullptr))
         continue;
@@ -287,7 +289,13 @@ std::optional<std::vector<ode::Break>> Breaks::on(const std::function<const Vect
       if (is_slow && ode::StepRange(at, *points).is_far_from_zero()) continue;
       double terms = 0;
       for (const VectorXd& point : *points) terms = std::fmax(terms, element(text.terms, point, e));
-      const auto difference = [&](double t) { return at(x(t)); };
+      const auto difference = [&](double t) {
+        if (size == 1) return at(x(t));
+        const auto [value, fresh] = known.try_emplace(t);
+        if (fresh) value->second = value_at(text.value, x(t));
+        return value->second.size() > 0 ? value->second(e)
+                                        : std::numeric_limits<double>::quiet_NaN();
+      };
       if (!add_roots({difference, false, kAddedUp * terms}, text.jumps, from, to, breaks))
         return std::nullopt;
       if (near != nullptr) add_near(difference, from, to, *near);

@@ -57,8 +57,9 @@ bool EventFunction::is_noise(const VectorXd& values, Eigen::Index element) {
 }
 
 const std::vector<int>& EventFunction::sides(const numbers::Box& values, double near) {
-  sides_.assign(static_cast<std::size_t>(size_), 0);
+  sides_.clear();
   if (!value_.enclose(values) || !terms_.enclose(values)) return sides_;
+  sides_.assign(static_cast<std::size_t>(size_), 0);
   for (std::size_t e = 0; e < sides_.size(); ++e) {
     const numbers::Range& value = value_.range(e);
     const double terms = terms_.range(e).largest();

@@ -51,7 +51,8 @@ class EventFunction {
   /// The sums of the terms' absolute values, element by element.
   const numbers::Matrix& terms(const Eigen::VectorXd& values) { return terms_(values); }
   /// Of each element, on which side of 0 it is all over a box: 1 or -1; 0: it may come to 0, or
-  /// next to it, which is within `near` of its terms or where a turning point is reported.
+  /// next to it, which is within `near` of its terms or where a turning point is reported. Empty:
+  /// no bounds are known.
   const std::vector<int>& sides(const numbers::Box& values, double near = 0);
   /// Whether an element is 0 but for the rounding of its terms.
   bool is_noise(const Eigen::VectorXd& values, Eigen::Index element = 0);

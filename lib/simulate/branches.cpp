@@ -91,7 +91,7 @@ std::optional<Branches::Change> Branches::first_change(const StepValues& inside,
     const std::vector<int>& sides = function.sides(on_step->box);
     for (Index e = 0; e < function.size(); ++e) {
       const double branch = values(offset(k) + e);
-      if (sides[static_cast<std::size_t>(e)] * branch > 0) continue;
+      if (!sides.empty() && sides[static_cast<std::size_t>(e)] * branch > 0) continue;
       const ode::StepRange range([&](const VectorXd& x) { return function(x)(e); }, on_step->three());
       if (!function.waves() && range.is_far_from_zero(branch)) continue;
       if (const auto change = change_of(k, e, branch, *on_step);
