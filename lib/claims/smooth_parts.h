@@ -27,7 +27,9 @@ struct SmoothPart {
   bool before_jump = false;  ///< just after it
   /// The value on [from, to] as a sum of Chebyshev polynomials (ode/chebyshev.h).
   Eigen::RowVectorXd series{};
-  double noise = 0;  ///< how far the series may be off: to what it agrees, and rounding
+  /// How far the series may be off: to what it agrees, and what rounding of the variables makes of
+  /// the value, where that is asked for.
+  double noise = 0;
   /// A time at which the value is no number; then there is no series.
   std::optional<double> undefined{};
   bool followed = true;  ///< false: the step, which has more breaks than can be searched
@@ -53,10 +55,11 @@ struct SmoothPart {
   }
 };
 
-/// In order, at least one. `near`: takes the places at which it nearly branches.
+/// In order, at least one. `near`: takes the places at which it nearly branches. `noise`: whether
+/// rounding of the variables is part of the noise.
 std::vector<SmoothPart> smooth_parts(RunValue& value, const hybrid::DenseStep& step,
                                      std::vector<double>* near = nullptr,
-                                     double agreement = kAgreement);
+                                     double agreement = kAgreement, bool noise = false);
 
 /// Where the series of a part turns, in rising order.
 std::vector<double> turns_of(const SmoothPart& part);
