@@ -1,6 +1,8 @@
 #include "gainsmith/run_table.h"
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "gainsmith/run_figure.h"
 #include "io/csv.h"
@@ -29,8 +31,12 @@ std::string run_csv(const verify::Setup& setup, const hybrid::Trajectory& run) {
 }
 
 std::string run_picture(const model::Design& design, const verify::Setup& setup,
-                        std::uint64_t number, const hybrid::Trajectory& run) {
-  return run_figure(design.name, {drawn_run(setup, number, run, 0)}, view_of(design));
+                        std::uint64_t number, hybrid::Trajectory& run) {
+  std::vector<DrawnRun> drawn;  // a list in braces would copy it
+  drawn.push_back(drawn_run(setup, number, std::move(run), 0));
+  std::string picture = run_figure(design.name, drawn, view_of(design));
+  run = std::move(drawn.front().replay.run);
+  return picture;
 }
 
 std::string events_csv(const verify::Replay& replay) {

@@ -20,9 +20,9 @@ std::string events_csv(const verify::Replay& replay);
 /// With the units of the columns, where some are stated.
 io::Json events_json(const verify::Replay& replay, const RunView& view);
 
-/// The run of that number as SVG (run_figure.h): the usual panels, with the units and bands that the
+/// The run of that number, which is used and given back, as SVG (run_figure.h): the usual panels, with the units and bands that the
 /// problem states.
 std::string run_picture(const model::Design& design, const verify::Setup& setup,
-                        std::uint64_t number, const hybrid::Trajectory& run);
+                        std::uint64_t number, hybrid::Trajectory& run);
 
 }  // namespace gainsmith::app
