@@ -122,7 +122,8 @@ class Job {
         instance_, gains, campaign ? std::optional(campaign->verdict) : std::nullopt);
     const bool nothing = design::lacks_gains(*instance_.design, gains);
     const verify::RunDifferences run =
-        nothing ? verify::RunDifferences{} : verify::run_differences(instance_, gains, std::exchange(first_run_, {}));
+        nothing ? verify::RunDifferences{}
+                : verify::run_differences(instance_, gains, std::exchange(first_run_, {}));
     if (is_stopping()) throw Interrupted("interrupted while figures of the first run were found");
     result.differences.insert(result.differences.end(), run.different.begin(), run.different.end());
     result.exit = judge(*instance_.design, gains, campaign, result.differences);

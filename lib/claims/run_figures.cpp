@@ -119,6 +119,9 @@ std::optional<double> FigureOf::at_time(const Trajectory& run) {
 /// The largest of `most` and the values of a step times `sign`: where a top of a series may lie
 /// above it, by golden section.
 double FigureOf::extreme(const DenseStep& step, double sign, double most) {
+  value_->follow(step);
+  if (const auto range = value_->range(); range && (sign > 0 ? range->high : -range->low) <= most)
+    return most;
   const auto at = [&](double t) { return sign * value_->at(t); };
   std::vector<Top> tops;
   for (const SmoothPart& part : smooth_parts(*value_, step)) {
@@ -149,6 +152,8 @@ double FigureOf::extreme(const Trajectory& run, double sign) {
 
 /// The last time of a step at which the value is not below a level; minus infinity: never.
 double FigureOf::last_above(const DenseStep& step, double level) {
+  value_->follow(step);
+  if (const auto range = value_->range(); range && range->high < level) return -infinity;
   const auto above = [&](double t) { return !(value_->at(t) < level); };
   const auto last_between = [&](double high, double below) {
     while (true) {

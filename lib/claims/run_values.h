@@ -28,6 +28,8 @@ class RunValue {
   /// From now on at() and breaks() are along this step: the variables that it uses are computed
   /// alone.
   void follow(const hybrid::DenseStep& step);
+  /// Bounds of the value all along the step; none: they are not known, or it may have no value.
+  std::optional<numbers::Range> range();
   /// The value at t in the step.
   double at(double t) { return number(point(t)); }
   /// At t all variables that it uses; others are 0.

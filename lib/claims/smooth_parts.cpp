@@ -70,8 +70,7 @@ class Halving {
       part.series = chebyshev::coefficients(seen);
       double error = part.series.tail(2).cwiseAbs().sum();
       for (std::size_t k = 0; k < check_points.size(); ++k)
-        error = larger(error,
-                       std::abs(chebyshev::first(part.series, check_points[k]) - checks[k]));
+        error = larger(error, std::abs(chebyshev::first(part.series, check_points[k]) - checks[k]));
       part.noise = agreement_ * (seen.maxCoeff() - seen.minCoeff()) +
                    kValueRounding * seen.cwiseAbs().maxCoeff();
       if (error <= part.noise || error <= part.noise + noise()) return true;
@@ -113,8 +112,8 @@ class Halving {
     // At a break itself a sign may be 0, beside it never.
     const double inside = std::clamp(x, -1 + kBesideBreak, 1 - kBesideBreak);
     const double t = chebyshev::outer(inside, part.from, part.to);
-    const auto known = std::find_if(checks_.begin(), checks_.end(),
-                                    [&](const Place& one) { return one.t == t; });
+    const auto known =
+        std::find_if(checks_.begin(), checks_.end(), [&](const Place& one) { return one.t == t; });
     const bool is_kept = known != checks_.end();
     const double value = is_kept && known->value ? *known->value : value_.at(t);
     if (is_kept) known->value = value;

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "expr/branches.h"
-#include "numerics/golden_section.h"
 #include "hybrid/tolerances.h"
+#include "numerics/golden_section.h"
 #include "ode/step_range.h"
 
 namespace gainsmith::hybrid {

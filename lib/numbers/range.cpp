@@ -20,7 +20,8 @@ Range product(const Range& a, const Range& b, bool square) {
     return {std::max(made.low, 0.0), made.high};
   }
   const double p = a.low * b.low, q = a.low * b.high, r = a.high * b.low, s = a.high * b.high;
-  return widened(std::min(std::min(p, q), std::min(r, s)), std::max(std::max(p, q), std::max(r, s)));
+  return widened(std::min(std::min(p, q), std::min(r, s)),
+                 std::max(std::max(p, q), std::max(r, s)));
 }
 
 Range sum(const Range& a, const Range& b) { return widened(a.low + b.low, a.high + b.high); }
@@ -70,8 +71,7 @@ bool power(const Range& a, const Range& b, Range& out) {
 
 }  // namespace
 
-bool enclose(ScalarOp op, const Range& a, const Range& b, const Range& c, bool square,
-             Range& out) {
+bool enclose(ScalarOp op, const Range& a, const Range& b, const Range& c, bool square, Range& out) {
   switch (op) {
     case ScalarOp::add:
       out = sum(a, b);
@@ -108,7 +108,12 @@ bool enclose(ScalarOp op, const Range& a, const Range& b, const Range& c, bool s
       out = {a.least(), a.largest()};
       break;
     case ScalarOp::sign:
-      out = {a.low > 0 ? 1.0 : a.low == 0 ? 0.0 : -1.0, a.high < 0 ? -1.0 : a.high == 0 ? 0.0 : 1.0};
+      out = {a.low > 0    ? 1.0
+             : a.low == 0 ? 0.0
+                          : -1.0,
+             a.high < 0    ? -1.0
+             : a.high == 0 ? 0.0
+                           : 1.0};
       break;
     case ScalarOp::floor:
       out = {std::floor(a.low), std::floor(a.high)};

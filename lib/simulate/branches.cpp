@@ -20,8 +20,7 @@ struct Branches::OnStep {
   /// The start, the middle and the end.
   const std::array<VectorXd, 3>& three() {
     const double from = inside.from(), to = inside.to();
-    if (!points)
-      points = {inside.at(from), inside.at(from + (to - from) / 2), inside.at(to)};
+    if (!points) points = {inside.at(from), inside.at(from + (to - from) / 2), inside.at(to)};
     return *points;
   }
 
@@ -92,7 +91,8 @@ std::optional<Branches::Change> Branches::first_change(const StepValues& inside,
     for (Index e = 0; e < function.size(); ++e) {
       const double branch = values(offset(k) + e);
       if (!sides.empty() && sides[static_cast<std::size_t>(e)] * branch > 0) continue;
-      const ode::StepRange range([&](const VectorXd& x) { return function(x)(e); }, on_step->three());
+      const ode::StepRange range([&](const VectorXd& x) { return function(x)(e); },
+                                 on_step->three());
       if (!function.waves() && range.is_far_from_zero(branch)) continue;
       if (const auto change = change_of(k, e, branch, *on_step);
           change && (!first || change->t < first->t))

@@ -46,9 +46,9 @@ bool seems_apart(hybrid::EventFunction& function, const StepValues& inside, doub
   const Matrix series = ode::chebyshev::coefficients(values);
   VectorXd error = series.rightCols(2).cwiseAbs().rowwise().sum();
   for (Index k = 0; k < checks.cols(); ++k)
-    error = error.cwiseMax((checks.col(k) - ode::chebyshev::at(
-                                                series, check_points[static_cast<std::size_t>(k)]))
-                               .cwiseAbs());
+    error = error.cwiseMax(
+        (checks.col(k) - ode::chebyshev::at(series, check_points[static_cast<std::size_t>(k)]))
+            .cwiseAbs());
   for (Index e = 0; e < function.size(); ++e) {
     const double swing = series.row(e).tail(few).cwiseAbs().sum();
     const double border = std::max(2 * (near + hybrid::kTermRounding) * terms(e),

@@ -30,8 +30,7 @@ class TwoRuns {
   TwoRuns(const EventSetup& setup, std::uint64_t seed, std::optional<hybrid::Trajectory> usual)
       : setup_(&setup) {
     simulate::Simulator simulator(setup_->system, setup_->scenario);
-    usual_ = usual ? std::move(*usual)
-                   : simulator.run(seed, 0, setup_->accuracy(kAccuracyOfOne));
+    usual_ = usual ? std::move(*usual) : simulator.run(seed, 0, setup_->accuracy(kAccuracyOfOne));
     sharper_ = simulator.run(seed, 0, setup_->accuracy(kAccuracyOfOne, bounded::kSharper));
     check_stop();
   }

@@ -205,7 +205,7 @@ class EventTable {
   const EventSetup& setup_;
   std::vector<std::string> observers_;
   std::vector<Source> sources_;
-  std::vector<const expr::Program*> programs_;           ///< of the signals and claims of all rows
+  std::vector<const expr::Program*> programs_;         ///< of the signals and claims of all rows
   std::optional<numbers::StackedFunctions> together_;  ///< of these; what they share is made once
   Eigen::VectorXd moved_;
 };
@@ -214,11 +214,7 @@ class EventTable {
 std::vector<judge::Fault> faults_of(const hybrid::Trajectory& run, const EventSetup& setup,
                                     std::uint64_t seed, std::uint64_t number) {
   const simulate::Accuracy accuracy = setup.accuracy(kAccuracyOfOne);
-  judge::Question question{accuracy.relative,
-                           accuracy.absolute,
-                           accuracy.absolute_of,
-                           {},
-                           {}};
+  judge::Question question{accuracy.relative, accuracy.absolute, accuracy.absolute_of, {}, {}};
   // What is given is not drawn again.
   if (setup.scenario.given == nullptr)
     question.drawn = judge::DrawnFrom{seed, number, &setup.texts.campaign};

@@ -37,8 +37,8 @@ TEST(Range, ValuesOfAllPointsLieInIt) {
        {"x(1)*x(2) - x(3)", "x(1)^2 + x(2)^3 - x(3)^4", "x(1)/(2.5 + x(2)) + x(3)",
         "sin(3*x(1))*cos(7*x(2)) + sin(x(3))", "exp(x(1)) - tanh(x(2)) + abs(x(3))",
         "where(x(1) > 0.2, x(2), x(3)^2)", "max(x(1), min(x(2), x(3)))", "norm(x)",
-        "sqrt(x'*x + 1)*sign(x(1))", "log(3 + x(1))*floor(2*x(2))", "clip(x(1) - x(1)^3, -0.1, 0.2)",
-        "abs(x(1) - 2*x(2))^1.5"}) {
+        "sqrt(x'*x + 1)*sign(x(1))", "log(3 + x(1))*floor(2*x(2))",
+        "clip(x(1) - x(1)^3, -0.1, 0.2)", "abs(x(1) - 2*x(2))^1.5"}) {
     StackedFunctions function = RangeOf(text).function();
     for (int trial = 0; trial < 200; ++trial) {
       const double width = std::pow(10, -4 * share(random));
