@@ -14,7 +14,7 @@ namespace gainsmith::numbers {
 struct Range {
   double low = 0, high = 0;
 
-  double largest() const { return std::max(-low, high); }  ///< |x| is not above it
+  double largest() const { return std::max(-low, high); }       ///< |x| is not above it
   double least() const { return std::max({low, -high, 0.0}); }  ///< not below it
   void widen(double x) {
     low = std::min(low, x);
