@@ -81,7 +81,8 @@ void draw_first_run(const fs::path& path, page::Results& results) {
     const LoadedGains loaded = load_run(path);
     const std::uint64_t seed = loaded.stated.design->campaign.seed;
     const auto setup = verify::make_setup(loaded.stated, loaded.gains);
-    results.picture = run_picture(*loaded.stated.design, *setup, seed, 0);
+    hybrid::Trajectory run = verify::run_of(*setup, seed, 0);
+    results.picture = run_picture(*loaded.stated.design, *setup, 0, run);
     results.picture_title = run_title(0, seed) + ", the first of a campaign";
     results.no_campaign =
         "none was made; gainsmith verify " + path.filename().string() + " makes one.";
