@@ -68,6 +68,14 @@ INSTANTIATE_TEST_SUITE_P(
         Own{"never_shown", "hybrid-kalman-like",
             "data: {F: [[-1, 0], [0, 0.5]], Hc: [1, 0], J: eye(2), T1: 0.3, T2: 1}\n" + kStarts,
             "the assumption 'uniformly observable'"},
+        Own{"jumps_without_flows", "hybrid-kalman-like",
+            "data: {F: [[0, 1], [-1, 0]], Hc: 'zeros(1, 2)', J: [[0.9, 0.5], [-0.5, 0.9]], Hd: [1, "
+            "0], T1: 0, T2: 0.4}\n" +
+                kStarts,
+            ""},
+        Own{"jumps_without_flows_show_nothing", "hybrid-kalman-like",
+            "data: {F: [[0, 1], [-1, 0]], Hc: [1, 0], J: eye(2), T1: 0, T2: 0.4}\n" + kStarts,
+            "the assumption 'uniformly observable'"},
         Own{"turning_rate", "hybrid-kalman-like-varying",
             "data:\n  known(t): 2 + sin(t)\n  F(v): '[0, -v; v, 0]'\n  Hc(v): '[1, 0]'\n"
             "  J(v): '[1, 0; 0, v/2]'\n  T1: 0.3\n  T2: 1\n" +
@@ -225,8 +233,13 @@ INSTANTIATE_TEST_SUITE_P(
             "parameters: {c0: 0.4, c1: 0.15}\n"
             "campaign: {runs: 1, horizon: 15}\n",
             ""},
+        Own{"bank_of_local_observers", "uniting-observers",
+            kPendulum + "  restart(z): \"[z, z + [0; 1], z - [0; 1]]\"\n" + kSwitches, ""},
         Own{"restarted_elsewhere", "uniting-observers",
             kPendulum + "  restart(z): \"[0; 0]\"\n" + kSwitches,
+            "the assumption 'restart keeps the estimate'"},
+        Own{"bank_without_the_estimate", "uniting-observers",
+            kPendulum + "  restart(z): \"[z + [0; 1], z]\"\n" + kSwitches,
             "the assumption 'restart keeps the estimate'"},
         Own{"never_left", "uniting-observers",
             "data:\n"
