@@ -145,6 +145,28 @@ INSTANTIATE_TEST_SUITE_P(
                 "  Jono(z): \"[0; 1]\"\n" +
                 kFlights,
             ""},
+        // (14): the first state grows at a rate that varies with time and output
+        Own{"varying_chain", "coupled-observer",
+            "let:\n  a(y, t): 1.5 + 0.5*sin(3*t) + 0.05*y\n"
+            "data:\n"
+            "  low:  [-1, -20]\n"
+            "  high: [30, 20]\n"
+            "  fo(z, t): \"[a(z(1), t)*z(2); -9.81]\"\n"
+            "  Av(y, t): \"[0, a(y(1), t); 0, 0]\"\n"
+            "  guard(z): z\n"
+            "  Ano:  0\n"
+            "  Jo(z, t): \"[z(1); -0.5*z(2)]\"\n"
+            "  Jono(z): \"[0; 1]\"\n" +
+                kFlights,
+            ""},
+        Own{"chain_that_is_not_stable", "coupled-observer",
+            kBall +
+                "  Ano:  0\n"
+                "  Jo(z, t): \"[z(1); -0.5*z(2)]\"\n"
+                "  Jono(z): \"[0; 1]\"\n"
+                "  K:    [[-2], [1]]\n" +
+                kFlights,
+            "the assumption 'stable chain'"},
         Own{"integrate_and_fire", "coupled-observer",
             "data:\n"
             "  low:  -2\n"
@@ -314,6 +336,19 @@ INSTANTIATE_TEST_SUITE_P(
             "  invP(S): S\n"
             "campaign: {runs: 1, horizon: 30}\n",
             ""},
+        Own{"outside_between_samples",
+            "{like: constrained-redesign-jumps, events: {jump: {every: 0.5}}}",
+            "data:\n"
+            "  x0:  [2, 0]\n"
+            "  xh0: [0, 0]\n"
+            "  a:   \"[eye(2); -eye(2)]\"\n"
+            "  b:   1.5*ones(4, 1)\n"
+            "  f(x, t): \"[x(2); -x(1)]\"\n"
+            "  hd(x, t): x(1)\n"
+            "  G(xh, S, y, t): \"xh + [0.8; 0.3]*(y - xh(1))\"\n"
+            "  invP(S): eye(2)\n"
+            "campaign: {runs: 1, horizon: 5}\n",
+            "the assumption 'the plant starts in the set'"},
         Own{"samples", "{like: constrained-redesign-jumps, events: {jump: {every: [0.2, 0.5]}}}",
             "data:\n"
             "  x0:  [1, 0]\n"
