@@ -147,12 +147,11 @@ INSTANTIATE_TEST_SUITE_P(
             ""},
         // (14): the first state grows at a rate that varies with time and output
         Own{"varying_chain", "coupled-observer",
-            "let:\n  a(y, t): 1.5 + 0.5*sin(3*t) + 0.05*y\n"
             "data:\n"
             "  low:  [-1, -20]\n"
             "  high: [30, 20]\n"
-            "  fo(z, t): \"[a(z(1), t)*z(2); -9.81]\"\n"
-            "  Av(y, t): \"[0, a(y(1), t); 0, 0]\"\n"
+            "  fo(z, t): \"[(1.5 + 0.5*sin(3*t) + 0.05*z(1))*z(2); -9.81]\"\n"
+            "  Av(y, t): \"[0, 1.5 + 0.5*sin(3*t) + 0.05*y; 0, 0]\"\n"
             "  guard(z): z\n"
             "  Ano:  0\n"
             "  Jo(z, t): \"[z(1); -0.5*z(2)]\"\n"
