@@ -66,15 +66,25 @@ std::string shards_with(const std::vector<verify::RunRange>& missing, const Part
   return text;
 }
 
-void require_all_runs(const PartFile& whole) {
+[[noreturn]] void refuse_twice(const std::string& file, const Shard& shard,
+                               const verify::RunRange& runs, const std::string& owner) {
+  if (owner == file) throw InputError({file}, "this part is given twice");
+  throw InputError({file}, fmt::format("{} of this part, {}, are in {} too; each run may be in one "
+                                       "part only",
+                                       range_text(runs), to_text(shard), owner));
+}
+
+/// `other_cut`: that some parts are of another number of parts; empty: none is.
+void require_all_runs(const PartFile& whole, const std::string& other_cut) {
   const auto missing = whole.part.runs.missing_in({0, whole.part.facts.asked});
   if (missing.empty()) return;
   throw InputError(
       {}, fmt::format(
-              "{} {} in no part{}; make what is missing with --shard {}",
-              range_text(missing.front()), missing.front().count() == 1 ? "is" : "are",
+              "{} {} in no part{}; {}", range_text(missing.front()),
+              missing.front().count() == 1 ? "is" : "are",
               missing.size() > 1 ? fmt::format(", nor {} other ranges", missing.size() - 1) : "",
-              shards_with(missing, whole)));
+              other_cut.empty() ? "make what is missing with --shard " + shards_with(missing, whole)
+                                : other_cut + ": make all parts of one number"));
 }
 
 /// Where nothing is drawn no run says anything of another.
@@ -99,6 +109,7 @@ io::Json campaign_statement(const verify::CampaignFacts& facts, const std::strin
       {"confidence", facts.confidence},
       {"machine", isa() == "v2" ? "without fused products" : "with fused products"}};
   if (compare) statement[kCompare] = "yes";
+  if (facts.until_violated) statement["until"] = "violated";
   return statement;
 }
 
@@ -115,18 +126,19 @@ PartFile merged_campaign(const std::vector<std::string>& files) {
   const io::Json first = read_part(files.front());
   PartFile whole = part_from(first, files.front());
   std::vector<std::pair<std::string, verify::RunSet>> known{{files.front(), whole.part.runs}};
+  std::string other_cut;
   for (std::size_t k = 1; k < files.size(); ++k) {
     const io::Json document = read_part(files[k]);
     require_same_work(document, files[k], first, files.front());
     const PartFile next = part_from(document, files[k]);
     const verify::RunRange twice = add(next.part, whole.part);
-    if (twice.count() > 0)
-      throw InputError({files[k]}, range_text(twice) + " of this part are in " +
-                                       owner_of(twice, known) +
-                                       " too; each run may be in one part only");
+    if (twice.count() > 0) refuse_twice(files[k], next.shard, twice, owner_of(twice, known));
+    if (next.shard.of != whole.shard.of && other_cut.empty())
+      other_cut = fmt::format("{} is one of {} parts, and {} one of {}", files[k], next.shard.of,
+                              files.front(), whole.shard.of);
     known.emplace_back(files[k], next.part.runs);
   }
-  require_all_runs(whole);
+  require_all_runs(whole, other_cut);
   return whole;
 }
 

@@ -212,7 +212,7 @@ model::CampaignRecord campaign_record(const verify::Report& report, const std::s
   record.notes = notes_on(report);
   for (const verify::CheckReport& check : report.checks)
     record.checks.push_back(claim_record(check));
-  record.runs_asked = report.asked;
+  record.runs_asked = report.ended ? report.runs : report.asked;
   if (report.interrupted()) record.message = interruption_text(report);
   record.version = kVersion;
   record.gains_hash = gains_hash;

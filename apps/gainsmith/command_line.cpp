@@ -30,7 +30,8 @@ std::string whole_number_error(const std::string& text) {
 }
 
 CLI::Validator validator(const Option::Range<double>& range) {
-  const std::string ends = brief(range.first) + " to " + brief(range.second);
+  constexpr int kDigits = 12;
+  const std::string ends = brief(range.first, kDigits) + " to " + brief(range.second, kDigits);
   return {[range, ends](const std::string& text) -> std::string {
             const auto value = parse_decimal(text);
             if (value && range.first <= *value && *value <= range.second) return {};

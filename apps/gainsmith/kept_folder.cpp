@@ -34,22 +34,31 @@ std::string holder_text(const fs::path& lock) {
   }
 }
 
-/// What a program that was killed was writing. InputError for a folder that holds other files.
+/// InputError for a folder that cannot be read, or holds files and no lock. Another program may make its
+/// lock at any moment.
+void require_ours(const fs::path& folder) {
+  std::error_code error;
+  std::string other;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error))
+    other = entry->path().filename().string();
+  if (error) throw InputError({folder.string()}, "cannot read this folder: " + error.message());
+  if (!other.empty() && !fs::exists(folder / kLock, error))
+    throw InputError({folder.string()},
+                     "this folder holds other files, such as '" + other +
+                         "'; expected an empty or new one, or one of an earlier --resume");
+}
+
+/// Removes what a program that was killed was writing. Who holds the lock may do that.
 void tidy(const fs::path& folder) {
   std::error_code error;
-  bool is_ours = fs::exists(folder / kLock, error);
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
     const std::string name = entry->path().filename().string();
-    if (!is_ours)
-      throw InputError({folder.string()},
-                       "this folder holds other files, such as '" + name +
-                           "'; expected an empty or new one, or one of an earlier --resume");
     std::error_code ignored;
     if (name.starts_with("kept-") && name.find(".tmp.") != std::string::npos)
       fs::remove(entry->path(), ignored);
   }
-  if (error) throw InputError({folder.string()}, "cannot read this folder: " + error.message());
 }
 
 }  // namespace
@@ -59,7 +68,7 @@ KeptFolder::KeptFolder(fs::path folder, io::Json statement)
   std::error_code error;
   fs::create_directories(folder_, error);
   if (error) throw InputError({folder_.string()}, "cannot make this folder: " + error.message());
-  if (!fs::exists(folder_ / kLock, error)) tidy(folder_);
+  require_ours(folder_);
   lock();
   try {
     tidy(folder_);
@@ -126,7 +135,11 @@ void KeptFolder::read() {
     newest = std::move(found);
   }
   if (!newest) return;
-  const std::string different = difference_of(newest->done["statement"], statement_);
+  const io::Json& found = newest->done["statement"];
+  const std::string kind = found.value(kWork, "");
+  const std::string different = kind == statement_.value(kWork, "")
+                                    ? difference_of(found, statement_)
+                                    : "a " + kind;
   if (!different.empty())
     throw InputError({folder_.string()}, "this folder keeps other work: " + different +
                                              "; choose another folder, or remove this one");

@@ -58,6 +58,9 @@ std::string note_on_careful_runs(const verify::Report& report) {
 
 std::vector<std::string> notes_on(const verify::Report& report) {
   std::vector<std::string> notes = notes_on_observers(report.idle_observers);
+  if (report.ended && report.runs < report.asked)
+    notes.push_back(fmt::format("ended by the first run that violates a claim, of at most {} runs",
+                                report.asked));
   if (const std::string drawn = note_on_runs(report.different); !drawn.empty())
     notes.push_back(drawn);
   if (!report.silent_events.empty())

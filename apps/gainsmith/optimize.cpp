@@ -4,9 +4,15 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "base/save_pace.h"
+#include "base/stop.h"
+#include "base/version.h"
 #include "gainsmith/commands.h"
+#include "gainsmith/exact_number.h"
+#include "gainsmith/kept_folder.h"
 #include "gainsmith/load.h"
 #include "gainsmith/output.h"
 #include "gainsmith/range_option.h"
@@ -29,6 +35,7 @@ struct OptimizeOptions {
   std::optional<int> evaluations;
   unsigned threads = 0;
   bool refine = false;
+  std::string resume;
   std::string output;
   bool json = false;
 };
@@ -67,6 +74,71 @@ void add_search(const OptimizeOptions& options, model::Problem& problem) {
   problem.search = search;
 }
 
+io::Json values_json(const search::KnownValues& known) {
+  io::Json values = io::Json::array();
+  for (const auto& [key, value] : known.all())
+    values.push_back({{"function", key.first},
+                      {"point", key.second},
+                      {"value", value ? bits(*value) : io::Json()}});
+  return values;
+}
+
+void take_values(const io::Json& document, const std::string& file, search::KnownValues& known) {
+  for (const io::JsonReader& item : io::JsonReader(document, file).items()) {
+    search::KnownValues::Key key{item.at("function").text(), {}};
+    for (const io::JsonReader& argument : item.at("point").items())
+      key.second.push_back(argument.count());
+    const io::JsonReader value = item.at("value");
+    known.add(std::move(key), value.is_null() ? std::nullopt : std::optional(from_bits(value)));
+  }
+}
+
+/// What the values follow from.
+io::Json statement_of(const OptimizeOptions& options, const model::Instance& instance) {
+  const auto text = [](const auto& value) { return value ? fmt::format("{}", *value) : ""; };
+  return {{"gainsmith", kVersion},
+          {kWork, "search"},
+          {"problem_sha256", instance.design->statement.hash},
+          {"--over", options.over},
+          {"--largest", options.largest},
+          {"--smallest", options.smallest},
+          {"--minimize", options.minimize},
+          {"--tolerance", text(options.tolerance)},
+          {"--evaluations", text(options.evaluations)}};
+}
+
+/// The search; with --resume from the values that its folder has.
+model::Gains search(const OptimizeOptions& options, const model::Instance& instance,
+                    const design::SearchRequest& request) {
+  search::KnownValues known;
+  if (options.resume.empty())
+    return design::optimize(instance, request, options.threads, {}, known);
+  KeptFolder folder(options.resume, statement_of(options, instance));
+  if (folder.kept()) take_values(folder.kept()->done, folder.kept()->file, known);
+  const auto keep = [&] { folder.keep(values_json(known)); };
+  keep();  // whether the folder can be written to is known before the work
+  SavePace pace;
+  known.grown = [&] {
+    if (pace.is_due()) pace.save(keep);
+  };
+  const auto say_kept = [&] {
+    keep();
+    say(fmt::format("gainsmith: {} keeps {} values; the same command goes on from there\n",
+                    options.resume, known.all().size()));
+  };
+  try {
+    model::Gains gains = design::optimize(instance, request, options.threads, {}, known);
+    if (gains.search && !gains.search->finished)
+      say_kept();
+    else
+      keep();
+    return gains;
+  } catch (const Stopped&) {
+    say_kept();
+    throw;
+  }
+}
+
 ExitCode optimize(const OptimizeOptions& options) {
   prepare_outputs(options.problem, {options.output});
   check_positive(options.tolerance, "--tolerance");
@@ -78,7 +150,7 @@ ExitCode optimize(const OptimizeOptions& options) {
     throw InputError({options.problem},
                      "nothing to optimise over: give --over NAME=LOW:HIGH, or write search: {over: "
                      "{NAME: [low, high]}} into the problem");
-  const model::Gains gains = design::optimize(instance, request, options.threads, {});
+  const model::Gains gains = search(options, instance, request);
   const Telling telling;
   write_result(gains, options.output,
                options.json ? io::to_text(json_without_statement(gains)) : synthesis_summary(gains),
@@ -110,6 +182,9 @@ Command optimize_command() {
        Option("--threads", options->threads,
               "threads, 0: as many as cores it may use; the result does not depend on it")
            .within(0, 1024),
+       Option("--resume", options->resume,
+              "keep in this folder what is done: after a stop of any kind the same command goes on "
+              "from it"),
        Option("-o,--output", options->output, "write the gain file here; - for standard output"),
        Option("--json", options->json, "print the result as JSON")},
       "Exit code: 0 gains found, 2 wrong input, 3 nothing feasible was found.\n"

@@ -53,7 +53,11 @@ void require_same_work(const io::Json& part, const std::string& file, const io::
     throw InputError(
         {file}, fmt::format("this is a part of a {}, and {} one of a {}", word_of(kind_of(part)),
                             first_file, word_of(kind_of(first))));
-  const std::string different = difference_of(part.at("statement"), first.at("statement"));
+  std::string different = difference_of(part.at("statement"), first.at("statement"));
+  if (different.starts_with("gains_sha256"))
+    different = fmt::format("other gains, {}", part.value("source", ""));
+  if (different.starts_with("problem_sha256"))
+    different = "another text of the problem, or other values of --set";
   if (!different.empty())
     throw InputError({file}, fmt::format("this part is of another {} than {}: {}",
                                          word_of(kind_of(part)), first_file, different));

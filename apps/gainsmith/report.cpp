@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -38,13 +39,19 @@ io::Json line_json(const page::Results& results) {
 ExitCode report(const ReportOptions& options) {
   prepare_outputs(options.results, {options.output});
   const std::vector<page::Results> results = read_results(options.results);
+  const auto missing = std::count_if(results.begin(), results.end(),
+                                     [](const auto& one) { return one.mark == "missing"; });
+  const ExitCode exit = missing > 0 ? ExitCode::undecided : ExitCode::yes;
+  if (missing > 0)
+    say(fmt::format("{} of {} problems have no result: parts of 'run --shard' are missing\n", missing,
+                    results.size()));
   const Telling telling;
   const bool to_stdout = options.output.empty() || options.output == "-";
   if (options.json) {
     io::Json table = io::Json::array();
     for (const page::Results& one : results) table.push_back(line_json(one));
     fmt::print("{}", io::to_text(table));
-    if (to_stdout) return ExitCode::yes;
+    if (to_stdout) return exit;
   }
   const std::string title = results.size() == 1 ? results.front().name : title_of(options.results);
   const std::string page = page::page(results, title);
@@ -52,7 +59,7 @@ ExitCode report(const ReportOptions& options) {
     fmt::print("{}", page);
   else
     write_atomically(options.output, page);
-  return ExitCode::yes;
+  return exit;
 }
 
 }  // namespace
@@ -69,6 +76,7 @@ Command report_command() {
        Option("--json", options->json,
               "print the table as JSON; a page is then written with -o alone")},
       "The page needs no network, no script and no other file.\n"
+      "Exit code: 0, 2 wrong input, 3 parts of 'run --shard' are missing.\n"
       "Examples:\n"
       "  gainsmith report gains.json -o report.html\n"
       "  gainsmith run problems/ -o out && gainsmith report out -o report.html",

@@ -13,6 +13,7 @@
 #include "gainsmith/campaign_text.h"
 #include "gainsmith/job.h"
 #include "gainsmith/load.h"
+#include "gainsmith/problem_list.h"
 #include "gainsmith/run_table.h"
 #include "gainsmith/search_text.h"
 #include "gainsmith/summary.h"
@@ -221,6 +222,14 @@ std::vector<page::Results> read_results(const fs::path& path) {
   std::vector<page::Results> all;
   for (const fs::path& folder : folders_below(path))
     all.push_back(read_folder(folder, folder.lexically_relative(path).string()));
+  for (const std::string& name : read_problem_list(path)) {
+    if (holds_results(path / name)) continue;
+    page::Results missing;
+    missing.name = name;
+    missing.mark = "missing";
+    missing.error = "no result: the part of --shard that has it was not made, or died";
+    all.push_back(std::move(missing));
+  }
   if (all.empty())
     throw InputError({path.string()}, "no results here; expected those that 'gainsmith run -o " +
                                           path.string() + "' writes");

@@ -10,11 +10,14 @@
 
 #include "base/file.h"
 #include "base/parallel.h"
+#include "base/progress.h"
 #include "gainsmith/commands.h"
 #include "gainsmith/job.h"
 #include "gainsmith/junit.h"
 #include "gainsmith/output.h"
 #include "gainsmith/problem_files.h"
+#include "gainsmith/problem_list.h"
+#include "gainsmith/problem_shares.h"
 #include "gainsmith/progress_line.h"
 #include "gainsmith/results_folder.h"
 #include "gainsmith/shard_option.h"
@@ -32,6 +35,7 @@ struct RunOptions {
   std::string output = "gainsmith-run";
   std::string junit;
   std::string shard;
+  std::string times;
   unsigned threads = 0;
   bool json = false;
   bool report = false;
@@ -100,26 +104,39 @@ void write_report(const RunOptions& options, const std::vector<JobResult>& resul
   write_atomically(report_file(options), page::page(all, title));
 }
 
-/// Every N-th problem from the I-th on. The names are those among all.
-std::vector<ProblemFile> problems_of_shard(const RunOptions& options) {
+/// The names are those among all.
+std::vector<ProblemFile> own_problems(const RunOptions& options) {
+  if (!options.times.empty() && options.shard.empty())
+    throw InputError({"--times"}, "it shares out the problems to the parts of --shard");
+  std::error_code none;
+  if (!options.times.empty() && fs::equivalent(options.times, options.output, none))
+    throw InputError({options.times},
+                     "the times must not change while parts are made; write the results to another "
+                     "folder with -o");
   const std::vector<ProblemFile> all = problem_files(options.problems);
-  const Shard shard = parse_shard(options.shard);
-  std::vector<ProblemFile> own;
-  for (std::size_t k = shard.index - 1; k < all.size(); k += shard.of) own.push_back(all[k]);
-  return own;
+  if (!options.shard.empty()) {
+    std::vector<std::string> names;
+    for (const ProblemFile& problem : all) names.push_back(problem.name);
+    write_problem_list(options.output, names);
+  }
+  return problems_of_shard(all, parse_shard(options.shard), options.times);
 }
 
 ExitCode run(const RunOptions& options) {
-  const std::vector<ProblemFile> items = problems_of_shard(options);
+  const std::vector<ProblemFile> items = own_problems(options);
+  if (items.empty()) say(fmt::format("no problem is in part {}\n", options.shard));
   const std::string page = options.report ? report_file(options) : "";
   for (const ProblemFile& item : items) prepare_outputs(item.path.string(), {options.junit, page});
   JobOptions job = options.job;
   job.threads = options.threads;
   std::vector<JobResult> results(items.size());
   Lines lines(items);
+  // Of one problem its own progress is shown.
+  const Doing doing("problems", items.size() > 1 ? items.size() : 0);
   const auto run_one = [&](std::size_t i) {
     results[i] =
         run_job(items[i].path, items[i].name, fs::path(options.output) / items[i].name, job);
+    doing.step();
     if (!options.json) lines.add(i, results[i]);
   };
   try {
@@ -166,6 +183,8 @@ Command run_command() {
            .within(0, 1024),
        shard_option(options->shard,
                     "only part I of N of the problems; the parts may share the folder of results"),
+       Option("--times", options->times,
+              "results of an earlier run, whose times make the parts take equally long"),
        Option("--resume", options->job.resume,
               "keep the results that are whole and of the same problem, runs and seed: after a "
               "stop of any kind the same command goes on"),

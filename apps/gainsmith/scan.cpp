@@ -116,6 +116,7 @@ void answer_points(const ScanOptions& options, const model::Instance& instance, 
   if (options.resume.empty()) return answer({});
   io::Json statement = part.statement;
   statement["shard"] = to_text(part.shard);
+  statement[kWork] = "scan";
   KeptFolder folder(options.resume, std::move(statement));
   if (folder.kept()) take_rows(folder.kept()->done, folder.kept()->file, part);
   const auto keep = [&] { folder.keep(rows_json(part)); };
@@ -204,7 +205,7 @@ Command scan_command() {
       "Examples:\n"
       "  gainsmith scan problem.yaml --over T2=0.5:0.8:13\n"
       "  gainsmith scan problem.yaml --over delta=1e-3:10:20:log --over eta=1e-6:1:7 -o table.csv\n"
-      "  gainsmith scan problem.yaml --over T2=0.5:0.8 --show norm(L) --plot scan.svg",
+      "  gainsmith scan problem.yaml --over T2=0.5:0.8 --show 'norm(L)' --plot scan.svg",
       [options] { return scan(*options); }};
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -160,9 +161,19 @@ io::Json document_of(const ScanPart& part) {
 ScanPart merged_scan(const std::vector<std::string>& files) {
   const io::Json first = read_part(files.front());
   ScanPart whole = scan_from(first, files.front());
+  std::map<std::uint64_t, std::string> known;
   for (const std::string& file : files) {
     const io::Json document = read_part(file);
     require_same_work(document, file, first, files.front());
+    const Shard shard = shard_of(document);
+    if (shard.of != whole.shard.of)
+      throw InputError({file}, fmt::format("this is one of {} parts, and {} one of {}: all must be of "
+                                           "one number",
+                                           shard.of, files.front(), whole.shard.of));
+    if (const auto [at, added] = known.emplace(shard.index, file); !added)
+      throw InputError({file}, at->second == file ? "this part is given twice"
+                                                  : fmt::format("this is part {}, and so is {}",
+                                                                to_text(shard), at->second));
     take_rows(document.at("rows"), file, whole);
   }
   require_all_points(whole);

@@ -211,7 +211,7 @@ ExitCode draw_envelope(const SimulateOptions& options, const model::Design& desi
       figure.add(replay);
       early += is_complete(replay.run.ending) ? 0 : 1;
       ++made;
-      Doing::step();
+      doing.step();
     }
   }
   const Telling telling;

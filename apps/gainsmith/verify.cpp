@@ -39,6 +39,7 @@ struct VerifyOptions {
   std::optional<double> probability;
   double confidence = 0.95;
   bool compare = false;
+  std::string until;
   bool worst = false;
   std::string shard;
   std::string resume;
@@ -95,7 +96,7 @@ struct PartWork {
 
   bool is_whole() const {
     const verify::CampaignPart& part = file.part;
-    return part.runs.count() == range.count() &&
+    return (part.runs.count() == range.count() || part.ended()) &&
            (!compare || part.figures.runs.count() == range.count());
   }
   void make(const verify::Save& save) const {
@@ -115,6 +116,7 @@ void make_runs(const VerifyOptions& options, const PartWork& work) {
   PartFile& file = work.file;
   io::Json statement = file.statement;
   statement["shard"] = to_text(file.shard);
+  statement[kWork] = "campaign";
   KeptFolder folder(options.resume, std::move(statement));
   if (folder.kept()) take_kept(folder.kept()->done, folder.kept()->file, file.part);
   const auto keep = [&] { folder.keep(runs_json(file.part)); };
@@ -153,7 +155,7 @@ ExitCode verify_gains(const VerifyOptions& options) {
   };
   verify::RunRange range;
   verify::CampaignOptions asked{runs_of(options), options.seed, options.threads,
-                                options.confidence};
+                                options.confidence, !options.until.empty()};
   if (options.compare)
     asked.between = [&](std::uint64_t runs) { survey({range.first, range.first + runs}, {}); };
   const verify::Campaign campaign(*setup, asked);
@@ -207,9 +209,14 @@ Command verify_command() {
            "--compare", options->compare,
            "also print quantiles of the figures under 'compare' over all runs, each simulated on "
            "its own, which takes longer"),
+       Option("--until", options->until,
+              "violated: end with the first run that violates a claim; the bound on the probability "
+              "knows of it")
+           .one_of({"violated"})
+           .excludes({"--compare", "--worst"}),
        shard_option(options->shard,
                     "make only part I of N of the runs, and write it with -o for 'merge'")
-           .excludes({"--worst"}),
+           .excludes({"--worst", "--until"}),
        Option("--resume", options->resume,
               "keep in this folder what is done: after a stop of any kind the same command goes on "
               "from it")

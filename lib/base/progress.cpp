@@ -14,6 +14,7 @@ namespace {
 std::atomic<const char*> current = nullptr;
 std::atomic<std::uint64_t> all = 0;
 std::atomic<std::uint64_t> done = 0;
+std::atomic<std::uint64_t> before = 0;  ///< the count began
 std::atomic<std::int64_t> began = 0;  ///< the count, in milliseconds of the clock
 
 std::int64_t milliseconds() {
@@ -43,8 +44,8 @@ std::string rate_text(double rate) {
 
 std::optional<double> Progress::rate() const {
   constexpr double kEarly = 3;  // seconds
-  if (done == 0 || of == 0 || seconds < kEarly) return std::nullopt;
-  return static_cast<double>(done) / seconds;
+  if (done <= before || of == 0 || seconds < kEarly) return std::nullopt;
+  return static_cast<double>(done - before) / seconds;
 }
 
 std::optional<double> Progress::left() const {
@@ -62,10 +63,11 @@ std::string to_text(const Progress& progress) {
          " left";
 }
 
-Doing::Doing(const char* what, std::uint64_t of) : shown_(all == 0) {
+Doing::Doing(const char* what, std::uint64_t of, std::uint64_t made) : shown_(all == 0) {
   if (!shown_) return;
   // The name is last: who sees it sees its count.
-  done = 0;
+  done = made;
+  before = made;
   began = milliseconds();
   all = of;
   before_ = current.exchange(what);
@@ -77,7 +79,9 @@ Doing::~Doing() {
   current = before_;
 }
 
-void Doing::step(std::uint64_t steps) { done += steps; }
+void Doing::step(std::uint64_t steps) const {
+  if (shown_) done += steps;
+}
 
 Progress Doing::now() {
   Progress progress;
@@ -87,6 +91,7 @@ Progress Doing::now() {
   progress.of = all;
   if (progress.of == 0) return progress;
   progress.done = done;
+  progress.before = before;
   progress.seconds = 1e-3 * static_cast<double>(milliseconds() - began);
   return progress;
 }

@@ -35,8 +35,8 @@ double smallest_margin(const model::Gains& gains) {
 class OuterSearch {
  public:
   OuterSearch(const model::Instance& own, const SearchRequest& request, unsigned threads,
-              const sdp::Options& solver)
-      : own_(own), request_(request), threads_(threads), solver_(solver) {}
+              const sdp::Options& solver, search::KnownValues& known)
+      : own_(own), request_(request), threads_(threads), solver_(solver), known_(known) {}
 
   model::Gains run() {
     std::vector<search::Axis> axes;
@@ -45,19 +45,27 @@ class OuterSearch {
     options.evaluations = request_.evaluations;
     options.threads = threads_;
     options.starts = {own_values()};
-    const auto cold = [&](const search::Point& point) { return figure(point, std::nullopt); };
+    const auto cold = [&](const search::Point& point) {
+      doing_->step();
+      return known_.value("figure", point, [&] { return figure(point, std::nullopt); });
+    };
     if (request_.extreme)
       options.warm = [&](const search::Point& point, double best) {
-        return figure(point, request_.largest ? -best : best);
+        search::Point at = point;
+        at.push_back(best);
+        doing_->step();
+        return known_.value("figure near", at,
+                            [&] { return figure(point, request_.largest ? -best : best); });
       };
     // A design by formula has nothing to violate.
     const bool has_slacks = !own_.design->inequalities.empty();
     if (const auto scales = has_slacks ? scales_at(options.starts.front()) : std::nullopt)
       options.violation = [&, scales = *scales](const search::Point& point) {
-        return violation(scales, point);
+        return *known_.value("violation", point, [&] { return violation(scales, point); });
       };
     const auto search = [&] {
       const Doing doing("evaluations", static_cast<std::uint64_t>(options.evaluations));
+      doing_ = &doing;
       return search::minimize(cold, axes, local_, options);
     };
     return result(search());
@@ -95,7 +103,6 @@ class OuterSearch {
   /// What is minimised: none where there are no gains, or where the values are refused.
   std::optional<double> figure(const search::Point& point, std::optional<double> guess) const {
     const model::Overrides values = overrides(point);
-    Doing::step();
     try {
       if (request_.extreme) {
         BisectResult result = bracket(values, kSharper, guess, Depth::quick);
@@ -224,13 +231,16 @@ class OuterSearch {
     bool finished = minimum.finished;
     if (minimum.point) {
       // Unless the search comes to its end, those that it met.
-      gains = best_->gains;
-      best = request_.extreme && request_.largest ? -best_->figure : best_->figure;
+      if (best_) {
+        gains = best_->gains;
+        best = request_.extreme && request_.largest ? -best_->figure : best_->figure;
+      }
       try {
         std::tie(gains, best) = design_at(overrides(*minimum.point), extreme_of(minimum));
         if (request_.measure && gains.verdict == model::Verdict::yes) best = minimum.value;
         if (request_.refine && best && finished) refined = refine_design(gains, best);
       } catch (const Stopped&) {
+        if (!best_) throw;  // all figures were known
         finished = false;
       }
     } else {
@@ -286,6 +296,8 @@ class OuterSearch {
   const search::SmoothSolver smooth_ = search::ipopt_solver();
   unsigned threads_;
   const sdp::Options& solver_;
+  search::KnownValues& known_;
+  const Doing* doing_ = nullptr;  ///< the search
   mutable std::mutex mutex_;
   mutable std::optional<Found> best_;  ///< of the search so far
 };
@@ -293,8 +305,8 @@ class OuterSearch {
 }  // namespace
 
 model::Gains optimize(const model::Instance& own, const SearchRequest& request, unsigned threads,
-                      const sdp::Options& solver) {
-  return OuterSearch(own, request, threads, solver).run();
+                      const sdp::Options& solver, search::KnownValues& known) {
+  return OuterSearch(own, request, threads, solver, known).run();
 }
 
 model::Gains synthesize_searched(const model::Instance& own, const SearchRequest& request,
@@ -304,7 +316,8 @@ model::Gains synthesize_searched(const model::Instance& own, const SearchRequest
     return bisect(own, {}, {*request.extreme, request.largest, request.tolerance, std::nullopt},
                   solver)
         .gains;
-  return optimize(own, request, threads, solver);
+  search::KnownValues none;
+  return optimize(own, request, threads, solver, none);
 }
 
 }  // namespace gainsmith::design

@@ -3,6 +3,7 @@
 
 #include "design/bisect.h"
 #include "design/search_request.h"
+#include "search/known_values.h"
 
 namespace gainsmith::design {
 
@@ -11,9 +12,11 @@ namespace gainsmith::design {
 /// infeasible, undecided, or refused by the method's assumptions is worse than every other. When
 /// nothing feasible was found the verdict is undecided: that each value tried is infeasible says
 /// nothing of those between. Deterministic for any number of threads.
+/// What is in `known`, of an earlier search for the same, is not computed again, and what is computed
+/// is added; the result does not depend on it.
 /// InputError where the optimisation libraries are not installed.
 model::Gains optimize(const model::Instance& own, const SearchRequest& request, unsigned threads,
-                      const sdp::Options& solver);
+                      const sdp::Options& solver, search::KnownValues& known);
 
 /// The gains of a problem with everything that it wants searched: synthesize() for an empty
 /// request, bisect() for one with a scalar to bisect alone, otherwise optimize().

@@ -66,7 +66,7 @@ void scan(const model::DesignPtr& design, const std::vector<std::string>& names,
       ScanRow row = answer(design, names, rows[which[k]].at, solver);
       const std::scoped_lock lock(mutex);
       rows[which[k]] = std::move(row);
-      Doing::step();
+      doing.step();
       if (answered) answered();
     });
   } catch (const Stopped&) {

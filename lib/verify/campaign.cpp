@@ -1,7 +1,10 @@
 #include "verify/campaign.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <limits>
+#include <map>
 #include <mutex>
 #include <set>
 #include <utility>
@@ -22,19 +25,35 @@ using Seconds = std::chrono::duration<double>;
 
 constexpr std::uint64_t kFirstRuns = 64;  ///< by which it is decided whether packs go on
 
-/// What threads have done, added as it comes, and saved now and then.
+/// What threads have done, added as it comes, and saved now and then. Of a campaign until its first
+/// violated run it is added in the order of the runs, and nothing behind that run.
 class Collector {
  public:
-  Collector(CampaignPart& part, const Save& save) : part_(part), save_(save) {}
+  Collector(CampaignPart& part, const Save& save, const Doing& doing)
+      : part_(part), save_(save), doing_(doing), next_(part.runs.count()) {}
 
   void add(RunRange range, const Tally& tally) {
     if (range.count() == 0) return;
     const std::scoped_lock lock(mutex_);
-    part_.runs.add(range);
-    verify::add(tally, part_.tally);
-    unsaved_ = true;
-    if (pace_.is_due()) save();
+    if (!part_.facts.until_violated) return take(range, tally);
+    waiting_.emplace(range.first, Waiting{range, tally});
+    for (auto at = waiting_.begin(); at != waiting_.end() && at->first == next_ && !part_.ended();
+         at = waiting_.erase(at)) {
+      next_ = at->second.range.last;
+      take(at->second.range, at->second.tally);
+    }
   }
+
+  /// This run is made.
+  void note(std::uint64_t run, const Tally& tally) {
+    doing_.step();
+    if (!part_.facts.until_violated || tally.violations == 0) return;
+    std::uint64_t known = last_;
+    while (run < known && !last_.compare_exchange_weak(known, run)) {
+    }
+  }
+  /// Whether the campaign ends before this run.
+  bool is_behind_the_end(std::uint64_t run) const { return run > last_; }
 
   void finish() {
     const std::scoped_lock lock(mutex_);
@@ -42,6 +61,18 @@ class Collector {
   }
 
  private:
+  struct Waiting {
+    RunRange range;
+    Tally tally;
+  };
+
+  void take(RunRange range, const Tally& tally) {
+    part_.runs.add(range);
+    verify::add(tally, part_.tally);
+    unsaved_ = true;
+    if (pace_.is_due()) save();
+  }
+
   void save() {
     if (!save_) return;
     pace_.save(save_);
@@ -51,8 +82,12 @@ class Collector {
   std::mutex mutex_;
   CampaignPart& part_;
   const Save& save_;
+  const Doing& doing_;
   bool unsaved_ = false;
   SavePace pace_;
+  std::atomic<std::uint64_t> last_ = std::numeric_limits<std::uint64_t>::max();
+  std::map<std::uint64_t, Waiting> waiting_;  ///< for runs before them
+  std::uint64_t next_;                        ///< run that is to be added
 };
 
 /// Makes these runs, or those until the campaign is stopped. Slow runs are handed over as they come.
@@ -63,17 +98,19 @@ void judge_runs(const Setup& setup, const Packs* packs, std::uint64_t seed, RunR
   Tally sum;
   std::uint64_t from = range.first, next = range.first;
   auto begin = Clock::now();
+  if (collector.is_behind_the_end(range.first)) return;
   try {
     judge.begin(seed, range.first, range.last);
     for (; next < range.last; ++next) {
       check_stop();
+      if (collector.is_behind_the_end(next)) break;
       const CampaignVerdictOnRun made = judge(next);
       if (made.careful && !setup.sampled) check_stop();  // perhaps amid the run
       Tally tally = tally_of(next, made.verdict);
       tally.careful = made.careful ? 1 : 0;
       if (made.why) tally.open[static_cast<std::size_t>(*made.why)] = 1;
       add(tally, sum);
-      Doing::step();
+      collector.note(next, tally);
       if (!made.careful || Clock::now() < begin + kSlow) continue;
       collector.add({from, next + 1}, std::exchange(sum, {}));
       from = next + 1;
@@ -166,6 +203,7 @@ Campaign::Campaign(const Setup& setup, const CampaignOptions& options)
     : setup_(&setup), threads_(options.threads), between_(options.between) {
   require_a_claim(setup.events->texts.method, setup.claims());
   facts_ = facts_of(setup, options);
+  facts_.until_violated = options.until_violated;
   packs_ = make_packs(setup, facts_.asked);
   facts_.many_at_once = static_cast<bool>(packs_);
 }
@@ -181,17 +219,17 @@ bool Campaign::packs_go_on() const {
 
 void Campaign::make_runs(RunRange range, CampaignPart& part, const Save& save) const {
   const std::vector<RunRange> missing = part.runs.missing_in(range);
-  Collector collector(part, save);
-  if (missing.empty()) return;
+  if (missing.empty() || part.ended()) return;
   std::uint64_t count = 0;
   for (const RunRange& one : missing) count += one.count();
-  const Doing doing("runs", count);
+  const Doing doing("runs", range.count(), range.count() - count);
+  Collector collector(part, save, doing);
   try {
     const Packs* const first = packs_ ? &packs_ : nullptr;
     const Packs* const packs = packs_go_on() ? &packs_ : nullptr;
     // Linear packs put runs of one law together.
     const std::uint64_t size = packs == nullptr ? kFirstRuns : packs->linear ? 2048 : 256;
-    const bool grows = between_ && packs == nullptr;
+    const bool grows = (between_ && packs == nullptr) || facts_.until_violated;
     const auto work_between = [&](std::uint64_t runs) {
       if (between_ && runs > 0) between_(runs);
     };
@@ -210,7 +248,7 @@ void Campaign::make_runs(RunRange range, CampaignPart& part, const Save& save) c
         });
         check_stop();
         first_run = last_run;
-        if (first_run == late.last) break;
+        if (first_run == late.last || part.ended()) break;
         work_between(part.tally.runs);
         at_once *= 2;
       }

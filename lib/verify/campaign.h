@@ -28,6 +28,8 @@ struct CampaignOptions {
   std::optional<std::uint64_t> seed;  ///< none: the problem's
   unsigned threads = 0;               ///< 0: one a core; the report does not depend on it
   double confidence = 0.95;           ///< of the bound on the probability of a violation
+  /// The campaign ends with the first run, in the order of their numbers, that violates a claim.
+  bool until_violated = false;
   /// More work on the runs that are made so far, as many as it is told. It is called after the
   /// first runs, and where runs are made one by one whenever there are about twice as many.
   std::function<void(std::uint64_t)> between{};
@@ -51,6 +53,7 @@ struct Report {
   model::CampaignVerdict verdict = model::CampaignVerdict::held;
   std::uint64_t runs = 0;   ///< that were made
   std::uint64_t asked = 0;  ///< that were to be made: no run twice
+  bool ended = false;       ///< by its first violated run, as it was to be
   std::uint64_t seed = 0;
   std::uint64_t violations = 0;  ///< runs that violate a claim or do not reach the horizon
   std::uint64_t undecided = 0;   ///< runs of which neither is certain when repeated
@@ -86,7 +89,7 @@ struct Report {
   std::vector<std::string> idle_observers;  ///< that never change
   std::vector<CheckReport> checks;          ///< in the method's order; none when no run was made
 
-  bool interrupted() const { return runs < asked; }
+  bool interrupted() const { return runs < asked && !ended; }
 };
 
 /// Makes the runs of a campaign, or a part of them. The setup must outlive it.
@@ -101,7 +104,7 @@ class Campaign {
 
   /// Adds those of these runs that the part has not; after a stop (base/stop.h) those that were
   /// made. `save` is called now and then, on any thread, one at a time: meanwhile the part does
-  /// not change.
+  /// not change. A campaign until its first violated run begins with run 0, and has those up to it.
   void make_runs(RunRange range, CampaignPart& part, const Save& save = {}) const;
 
   /// Adds what conclude() asks of the worst runs. Of a campaign that was stopped they are not

@@ -34,6 +34,7 @@ struct CampaignFacts {
   double horizon = 0;
   bool integrated = false;
   bool many_at_once = false;  ///< runs are made in packs
+  bool until_violated = false;  ///< it ends with the first run that violates a claim
   std::optional<std::uint64_t> different;
   std::vector<std::string> events;
   std::vector<std::string> idle_observers;
@@ -64,6 +65,9 @@ struct CampaignPart {
   Tally tally;
   std::map<std::uint64_t, Repeat> repeats;  ///< by run: the worst runs of the part
   SurveyOfRuns figures;                     ///< where they are asked for
+
+  /// Whether it has the run that ends the campaign before all runs are made.
+  bool ended() const { return facts.until_violated && tally.violations > 0; }
 
   bool operator==(const CampaignPart&) const = default;
 };

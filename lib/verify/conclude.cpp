@@ -122,6 +122,14 @@ void take_counts(const CampaignPart& part, const Tally& tally, Report& report) {
     if (tally.happened[e] == 0) report.silent_events.push_back(part.facts.events[e]);
 }
 
+/// Where the first violation ends the campaign, the runs before it decide: how many they are says as
+/// much of the probability as runs whose number was fixed (Bernoulli trials up to the first success).
+double probability_bound(const Report& report) {
+  const std::uint64_t last = report.ended ? 1 : 0;
+  return violation_probability_bound(report.violations + report.undecided - last,
+                                     report.runs - last, report.confidence);
+}
+
 }  // namespace
 
 Report conclude(const CampaignPart& part) {
@@ -136,13 +144,12 @@ Report conclude(const CampaignPart& part) {
   report.horizon = facts.horizon;
   report.integrated = facts.integrated;
   report.runs = part.tally.runs;
+  report.ended = part.ended();
   if (report.runs == 0) return report;
   Tally tally = part.tally;
   if (facts.many_at_once) take_careful(part, tally);
   take_counts(part, tally, report);
-  if (!report.different)
-    report.violation_probability = violation_probability_bound(report.violations + report.undecided,
-                                                               report.runs, report.confidence);
+  if (!report.different) report.violation_probability = probability_bound(report);
   report.checks = report_checks(facts, tally);
   report.first_undecided = tally.first_undecided;
   if (report.first_undecided)

@@ -118,13 +118,12 @@ void FigureSurvey::add(const FigureSurvey& more) {
 FigureSurvey survey_figures(const EventSetup& setup, const std::vector<model::Figure>& figures,
                             std::uint64_t seed, const RunNumbers& runs, unsigned threads) {
   FigureSurvey all = empty_survey(figures);
-  const bool counted = Doing::now().what.empty();  // not amid a campaign, which counts its own runs
   const Doing doing("figures", runs.count);
   sum_over_runs(
       runs.count, threads, [&] { return Surveyor(setup, figures, seed); },
       [&](Surveyor& surveyor, std::uint64_t k) {
         surveyor.add(runs[k]);
-        if (counted) Doing::step();
+        doing.step();
       },
       [&](Surveyor& surveyor) { all.add(surveyor.result()); });
   return all;
@@ -148,8 +147,8 @@ void grow(const EventSetup& setup, const std::vector<model::Figure>& figures, st
   const std::vector<RunRange> missing = sum.runs.missing_in(range);
   std::uint64_t count = 0;
   for (const RunRange& one : missing) count += one.count();
-  const bool counted = Doing::now().what.empty();  // not amid a campaign, which counts its own runs
-  const Doing doing("figures", count);
+  const std::uint64_t all = range.count();
+  const Doing doing("figures", all, all - count);
   for (const RunRange& one : missing)
     for (std::uint64_t first = one.first; first < one.last;) {
       const auto begin = Clock::now();
@@ -158,7 +157,7 @@ void grow(const EventSetup& setup, const std::vector<model::Figure>& figures, st
       more.survey = survey_figures(setup, figures, seed, {asked, {}, first}, threads);
       more.runs.add({first, first + more.survey.runs});
       sum.add(more);
-      if (counted) Doing::step(more.survey.runs);
+      doing.step(more.survey.runs);
       if (grown) grown();
       if (more.survey.runs < asked) return;
       first += asked;

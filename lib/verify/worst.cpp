@@ -36,8 +36,10 @@ bool is_worse(const Worst& a, const Worst& b) {
 /// Runs of one thread, in a place of the given runs that is its own.
 class Runs {
  public:
-  Runs(const Setup& setup, hybrid::GivenRun& run, std::size_t number, std::uint64_t seed)
+  Runs(const Setup& setup, const Doing& doing, hybrid::GivenRun& run, std::size_t number,
+       std::uint64_t seed)
       : setup_(&setup),
+        doing_(&doing),
         run_(&run),
         number_(number),
         seed_(seed),
@@ -52,7 +54,7 @@ class Runs {
     const bounded::Track<double>& track = judge_.track(seed_, number_);
     check_stop();  // perhaps amid the run
     ++made_;
-    Doing::step();
+    doing_->step();
     const bool lost = track.termination != bounded::Termination::horizon &&
                       track.termination != bounded::Termination::lost;
     double margin = 0;
@@ -72,6 +74,7 @@ class Runs {
 
  private:
   const Setup* setup_;
+  const Doing* doing_;
   hybrid::GivenRun* run_;
   std::size_t number_;
   std::uint64_t seed_;
@@ -102,6 +105,7 @@ class Search {
     for (const claims::Claim& claim : setup_->claims())
       if (!claim.stated()) report.missing.emplace_back(claim.name, claim.missing);
     const Doing doing("runs of the search", runs_);
+    doing_ = &doing;
     try {
       report.lengths = fastest_lengths(*setup_);
       if (report.lengths && report.lengths->lengths.size() > kPeriods)
@@ -141,7 +145,7 @@ class Search {
     std::vector<std::optional<Runs>> runs(count);
     try {
       parallel_for(count, options_.threads, [&](std::size_t i) {
-        runs[i].emplace(*setup_, given_[i], i, options_.seed);
+        runs[i].emplace(*setup_, *doing_, given_[i], i, options_.seed);
         task(i, *runs[i]);
       });
     } catch (const Stopped&) {
@@ -269,6 +273,7 @@ class Search {
   }
 
   WorstOptions options_;
+  const Doing* doing_ = nullptr;  ///< the search
   std::uint64_t runs_ = 0;
   std::vector<hybrid::GivenRun> given_;  ///< of the setup: those that are being made
   std::unique_ptr<const Setup> setup_;

@@ -108,7 +108,7 @@ class Workflow(unittest.TestCase):
         self.say("20000")
         target = "results/campaigns/t2/campaign.json"
         self.end(self.begin(target))
-        os.remove(os.path.join(self.folder, "results/campaigns/t2/parts/3.json"))
+        os.remove(os.path.join(self.folder, "results/campaigns/t2/parts/4/3.json"))
         os.remove(os.path.join(self.folder, target))
         out = self.end(self.begin(target))
         self.assertEqual(out.count("rule campaign_part:"), 1, out)
@@ -132,6 +132,46 @@ class Local(Workflow):
 
     def test_a_shard_dies(self):
         self.a_shard_dies()
+
+    def test_what_is_asked_for_may_change_after_a_stop(self):
+        self.say("2000000", 3)
+        target = "results/campaigns/t2/campaign.json"
+        running = self.begin(target)
+        self.wait_for("2/3")
+        time.sleep(0.5)
+        running.send_signal(signal.SIGINT)
+        os.kill(self.wait_for("2/3"), signal.SIGKILL)
+        running.communicate(timeout=300)
+        for runs, shards in (("30000", 3), ("30000", 2)):
+            self.say(runs, shards)
+            self.end(self.begin(target))
+            self.expect_campaign(runs)
+
+    def test_a_problem_that_is_edited_is_made_again(self):
+        os.mkdir(os.path.join(self.folder, "few"))
+        problem = os.path.join(self.folder, "few/hinf-norm.yaml")
+        shutil.copy(os.path.join(TREE, "problems/classics/hinf-norm.yaml"), problem)
+        with open(os.path.join(self.folder, "work.yaml"), "w", encoding="utf-8") as file:
+            file.write(f"gainsmith: {PROGRAM}\nfolders:\n  few: {{problems: few}}\n")
+        self.end(self.begin())
+        page = self.read("results/folders/few/report.html")
+        with open(problem, "a", encoding="utf-8") as file:
+            file.write("# edited\n")
+        self.end(self.begin())
+        self.assertNotEqual(self.read("results/folders/few/report.html"), page)
+
+    def test_mistakes_are_named(self):
+        for text, message in (("campaign: {t2: {gains: gains.json}}", "unknown key 'campaign'; expected campaigns, scans"),
+                              ("campaigns: {t2: {gain: gains.json}}", "unknown key 'gain' of campaigns: t2; expected gains"),
+                              ("campaigns: {t2: {options: --runs 9}}", "campaigns: t2: expected gains: FILE"),
+                              ("campaigns: {t2: {gains: gains.json, shards: 0}}", "expected a number of shards, not '0'"),
+                              ("threads: 1", "nothing is asked for")):
+            with open(os.path.join(self.folder, "work.yaml"), "w", encoding="utf-8") as file:
+                file.write(text + "\n")
+            running = self.begin()
+            out = running.communicate(timeout=300)[0]
+            self.assertNotEqual(running.returncode, 0)
+            self.assertIn(message, out)
 
 
 class Slurm(Workflow):

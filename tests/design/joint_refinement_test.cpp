@@ -23,9 +23,9 @@ TEST(JointRefinement, MovesScalarsAndUnknownsTogetherToTheOptimum) {
   const YamlProblem problem(kBowl +
                             "search: {over: {a: [0, 9], b: [0.01, 90]}, evaluations: 20}\n");
   SearchRequest request = request_of(problem.instance);
-  const model::Gains coarse = optimize(problem.instance, request, 1, {});
+  const model::Gains coarse = synthesize_searched(problem.instance, request, 1, {});
   request.refine = true;
-  const model::Gains fine = optimize(problem.instance, request, 1, {});
+  const model::Gains fine = synthesize_searched(problem.instance, request, 1, {});
   ASSERT_TRUE(fine.search->joint_refinement);
   EXPECT_TRUE(fine.search->joint_refinement->kept) << fine.search->joint_refinement->cause;
   EXPECT_EQ(fine.search->joint_refinement->before, *coarse.objective);
@@ -47,7 +47,7 @@ TEST(JointRefinement, RowsOfVanishingBlocksHaveTheSizeOfTheirTerms) {
       largest = std::max(largest, std::abs(element));
     return search::SmoothSolution{program.start, true, "recorded", 0};
   };
-  refine_jointly(problem.instance, request, optimize(problem.instance, request, 1, {}), recorder);
+  refine_jointly(problem.instance, request, synthesize_searched(problem.instance, request, 1, {}), recorder);
   EXPECT_GT(largest, 1);
   EXPECT_LT(largest, 100);
 }
@@ -57,7 +57,7 @@ TEST(JointRefinement, MovesTheLargestScalarToo) {
   SearchRequest request = request_of(problem.instance);
   request.tolerance = {1e-6};
   request.refine = true;
-  const model::Gains gains = optimize(problem.instance, request, 1, {});
+  const model::Gains gains = synthesize_searched(problem.instance, request, 1, {});
   ASSERT_EQ(gains.verdict, model::Verdict::yes);
   EXPECT_TRUE(gains.search->joint_refinement->kept) << gains.search->joint_refinement->cause;
   EXPECT_NEAR(gains.searched.at("c"), 4, 1e-5);
@@ -74,7 +74,7 @@ TEST(JointRefinement, WorksOnMatrixInequalities) {
       "search: {over: {a: [-1, 2.5]}, evaluations: 6}\n");
   SearchRequest request = request_of(problem.instance);
   request.refine = true;
-  const model::Gains gains = optimize(problem.instance, request, 1, {});
+  const model::Gains gains = synthesize_searched(problem.instance, request, 1, {});
   ASSERT_EQ(gains.verdict, model::Verdict::yes);
   EXPECT_TRUE(gains.search->joint_refinement->kept) << gains.search->joint_refinement->cause;
   EXPECT_NEAR(gains.searched.at("a"), 0, 2e-2);
@@ -87,7 +87,7 @@ TEST(JointRefinement, IsNotKeptWithoutGain) {
                             "search: {over: {a: [0, 9]}, minimize: K^2}\nparameters: {b: 3}\n");
   SearchRequest request = request_of(problem.instance);
   request.refine = true;
-  const model::Gains gains = optimize(problem.instance, request, 1, {});
+  const model::Gains gains = synthesize_searched(problem.instance, request, 1, {});
   ASSERT_EQ(gains.verdict, model::Verdict::yes);
   ASSERT_TRUE(gains.search->joint_refinement);
   EXPECT_FALSE(gains.search->joint_refinement->kept);

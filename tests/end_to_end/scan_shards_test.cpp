@@ -62,11 +62,11 @@ TEST_F(ScanShards, ThatDoNotFitAreRefusedByName) {
   refused({files[0], files[2]},
           "7 of 21 points are in no part; make what is missing with --shard 2/3");
   refused({files[0], files[1], files[1]},
-          files[1] + ": point 1 of this part is in another one too");
+          files[1] + ": this part is given twice");
   const std::string other = folder_.path("other.json");
   scan({"--shard", "2/3", "-o", other, "--set", "eta=1e-3"});
   refused({files[0], other, files[2]},
-          other + ": this part is of another scan than " + files[0] + ": problem_sha256 ");
+          other + ": this part is of another scan than " + files[0] + ": another text of the problem");
   refused({files[0], files[1], folder_.file("cut.json", text_of(files[2]).substr(0, 500))},
           "cut.json:");
 }
@@ -85,6 +85,37 @@ TEST_F(ScanShards, AScanGoesOn) {
   const Outcome other = scan({"--resume", kept, "--set", "eta=1e-3"});
   EXPECT_EQ(other.exit, 2);
   EXPECT_TRUE(has(other.err, "keeps other work: problem_sha256")) << other.err;
+}
+
+TEST_F(ScanShards, ASearchGoesOn) {
+  const std::string kept = folder_.path("kept");
+  const auto optimize = [](std::vector<std::string> more) {
+    more.insert(more.begin(),
+                {"optimize", problem("ferrante-seuret-2021/t2-0.70.yaml"), "--over",
+                 "delta=1e-3:1", "--largest", "T2=0.5:1.1", "--evaluations", "40"});
+    return gainsmith(more);
+  };
+  const std::string out = folder_.path("whole.json"), resumed = folder_.path("resumed.json");
+  EXPECT_EQ(optimize({"-o", out}).exit, 0);
+  std::size_t known = 0;
+  for (int k = 0; k < 4; ++k) {
+    const Outcome part = optimize({"--resume", kept, "--time", "0.1", "--threads", "1"});
+    EXPECT_TRUE(part.exit == 0 || part.exit == 3) << part.exit << part.err;
+    std::size_t values = 0;
+    for (const char* turn : {"0", "1"}) {
+      const std::string file = kept + "/kept-" + turn + ".json";
+      if (!fs::exists(file)) continue;
+      values = std::max(values, nlohmann::json::parse(text_of(file))["done"].size());
+    }
+    EXPECT_GE(values, known);
+    known = values;
+  }
+  EXPECT_GT(known, 0U);
+  EXPECT_EQ(optimize({"--resume", kept, "-o", resumed}).exit, 0);
+  EXPECT_EQ(without_timings(text_of(resumed)), without_timings(text_of(out)));
+  const Outcome other = optimize({"--resume", kept, "--tolerance", "1e-3"});
+  EXPECT_EQ(other.exit, 2);
+  EXPECT_TRUE(has(other.err, "keeps other work: --tolerance")) << other.err;
 }
 
 class RunShards : public testing::Test {
@@ -109,14 +140,49 @@ TEST_F(RunShards, EachProblemIsInOne) {
   run("whole", {});
   EXPECT_EQ(run("parts", {"--shard", "1/2"}).exit, 0);
   EXPECT_FALSE(fs::exists(folder_.path("parts/t2-0.70")));
+  const Outcome incomplete = gainsmith({"report", folder_.path("parts"), "--json"});
+  EXPECT_EQ(incomplete.exit, 3);
+  EXPECT_TRUE(has(incomplete.err, "1 of 3 problems have no result")) << incomplete.err;
+  EXPECT_TRUE(has(incomplete.out, "no result: the part of --shard")) << incomplete.out;
   EXPECT_EQ(run("parts", {"--shard", "2/2"}).exit, 0);
+  EXPECT_EQ(gainsmith({"report", folder_.path("parts"), "--json"}).exit, 0);
   for (const char* name : {"hinf-norm", "t2-0.70", "dc-motor"}) {
     const auto gains = [&](const char* folder) {
       return without_timings(text_of(folder_.path(folder) + "/" + name + "/gains.json"));
     };
     EXPECT_EQ(gains("parts"), gains("whole")) << name;
   }
-  EXPECT_EQ(run("empty", {"--shard", "5/5"}).exit, 0);
+  const Outcome empty = run("empty", {"--shard", "5/5"});
+  EXPECT_EQ(empty.exit, 0);
+  EXPECT_EQ(empty.err, "no problem is in part 5/5\n");
+}
+
+/// Two problems in one part because the third takes as long as both.
+TEST_F(RunShards, TimesOfAnEarlierRunBalanceTheParts) {
+  for (const auto& [name, seconds] : {std::pair("hinf-norm", 2.0), {"t2-0.70", 1.5}, {"dc-motor", 4.0}}) {
+    fs::create_directories(folder_.path("earlier") + "/" + name);
+    std::ofstream(folder_.path("earlier") + "/" + name + "/result.json")
+        << nlohmann::json({{"timings", {{"total", seconds}}}});
+  }
+  const std::string times = folder_.path("earlier");
+  EXPECT_EQ(run("first", {"--shard", "1/2", "--times", times}).exit, 0);
+  EXPECT_TRUE(fs::exists(folder_.path("first/dc-motor")));
+  EXPECT_FALSE(fs::exists(folder_.path("first/hinf-norm")));
+  EXPECT_EQ(run("second", {"--shard", "2/2", "--times", times}).exit, 0);
+  EXPECT_TRUE(fs::exists(folder_.path("second/hinf-norm")));
+  EXPECT_TRUE(fs::exists(folder_.path("second/t2-0.70")));
+  EXPECT_FALSE(fs::exists(folder_.path("second/dc-motor")));
+  const auto refused = [&](const std::vector<std::string>& words, const std::string& message,
+                           const std::string& to = "third") {
+    const Outcome outcome = run(to, words);
+    EXPECT_EQ(outcome.exit, 2);
+    EXPECT_TRUE(has(outcome.err, message)) << outcome.err;
+  };
+  refused({"--times", times}, "parts of --shard");
+  refused({"--shard", "1/2", "--times", folder_.path("first/dc-motor")}, "no results of these");
+  refused({"--shard", "1/2", "--times", times}, "another folder", "earlier");
+  std::ofstream(times + "/t2-0.70/result.json") << "{";
+  refused({"--shard", "1/2", "--times", times}, "t2-0.70/result.json:1:");
 }
 
 TEST_F(RunShards, WhatIsFinishedIsKept) {

@@ -130,7 +130,7 @@ TEST_F(Shards, ThatDoNotFitAreRefusedByName) {
   refused({first, third},
           "runs 1000 to 1999 are in no part; make what is missing with --shard 2/3");
   refused({first, second, second, third},
-          second + ": runs 1000 to 1999 of this part are in " + second + " too");
+          second + ": this part is given twice");
   const std::string other = folder_.path("other.json");
   verify("3000", {"--seed", "5", "--shard", "2/3", "-o", other});
   refused({first, other, third},
@@ -161,7 +161,7 @@ TEST_F(Shards, OfOtherGainsAreRefused) {
   const Outcome outcome = merge({files[0], part});
   EXPECT_EQ(outcome.exit, 2);
   EXPECT_TRUE(has(outcome.err,
-                  part + ": this part is of another campaign than " + files[0] + ": gains_sha256 "))
+                  part + ": this part is of another campaign than " + files[0] + ": other gains, "))
       << outcome.err;
 }
 
@@ -218,6 +218,29 @@ TEST_F(Shards, ACampaignThatIsKilledGoesOn) {
   // All is done: it is told again at once.
   EXPECT_EQ(kept_runs(kept), 400000U);
   EXPECT_EQ(verify(runs, {"--resume", kept, "--json"}).out, whole.out);
+}
+
+/// Of row III, whose runs are violated often: stopped before and after its end.
+TEST_F(Shards, ACampaignUntilViolatedGoesOn) {
+  const std::string row = folder_.path("row.json"), kept = folder_.path("kept");
+  const std::string file = problem("ferrante-seuret-2021/row-3.yaml");
+  ASSERT_EQ(gainsmith({"synth", file, "-o", row}).exit, 1);  // its inequalities do not hold
+  const auto until = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"verify", row, "--runs", "1e9", "--until", "violated"});
+    return gainsmith(more);
+  };
+  const Outcome whole = until({"--json"});
+  EXPECT_EQ(whole.exit, 1);
+  const auto report = nlohmann::json::parse(whole.out);
+  EXPECT_EQ(report["violations"], 1);
+  EXPECT_EQ(report["worst_run"], report["runs"].get<int>() - 1);
+  EXPECT_TRUE(has(whole.out, "ended by the first run that violates a claim, of at most 1000000000"));
+  EXPECT_EQ(until({"--threads", "1", "--json"}).out, whole.out);
+  EXPECT_EQ(until({"--resume", kept, "--json"}).out, whole.out);
+  EXPECT_EQ(until({"--resume", kept, "--json"}).out, whole.out);
+  EXPECT_TRUE(has(gainsmith({"verify", row, "--runs", "1e9", "--resume", kept}).err,
+                  "keeps other work: until"));
+  EXPECT_EQ(until({"--shard", "1/2", "-o", folder_.path("part.json")}).exit, 2);
 }
 
 TEST_F(Shards, ACampaignThatIsInterruptedSaysHowToGoOn) {
