@@ -68,6 +68,14 @@ INSTANTIATE_TEST_SUITE_P(
         Own{"never_shown", "hybrid-kalman-like",
             "data: {F: [[-1, 0], [0, 0.5]], Hc: [1, 0], J: eye(2), T1: 0.3, T2: 1}\n" + kStarts,
             "the assumption 'uniformly observable'"},
+        Own{"jumps_without_flows", "hybrid-kalman-like",
+            "data: {F: [[0, 1], [-1, 0]], Hc: 'zeros(1, 2)', J: [[0.9, 0.5], [-0.5, 0.9]], Hd: [1, "
+            "0], T1: 0, T2: 0.4}\n" +
+                kStarts,
+            ""},
+        Own{"jumps_without_flows_show_nothing", "hybrid-kalman-like",
+            "data: {F: [[0, 1], [-1, 0]], Hc: [1, 0], J: eye(2), T1: 0, T2: 0.4}\n" + kStarts,
+            "the assumption 'uniformly observable'"},
         Own{"turning_rate", "hybrid-kalman-like-varying",
             "data:\n  known(t): 2 + sin(t)\n  F(v): '[0, -v; v, 0]'\n  Hc(v): '[1, 0]'\n"
             "  J(v): '[1, 0; 0, v/2]'\n  T1: 0.3\n  T2: 1\n" +
@@ -137,6 +145,27 @@ INSTANTIATE_TEST_SUITE_P(
                 "  Jono(z): \"[0; 1]\"\n" +
                 kFlights,
             ""},
+        // (14): the first state grows at a rate that varies with time and output
+        Own{"varying_chain", "coupled-observer",
+            "data:\n"
+            "  low:  [-1, -20]\n"
+            "  high: [30, 20]\n"
+            "  fo(z, t): \"[(1.5 + 0.5*sin(3*t) + 0.05*z(1))*z(2); -9.81]\"\n"
+            "  Av(y, t): \"[0, 1.5 + 0.5*sin(3*t) + 0.05*y; 0, 0]\"\n"
+            "  guard(z): z\n"
+            "  Ano:  0\n"
+            "  Jo(z, t): \"[z(1); -0.5*z(2)]\"\n"
+            "  Jono(z): \"[0; 1]\"\n" +
+                kFlights,
+            ""},
+        Own{"chain_that_is_not_stable", "coupled-observer",
+            kBall +
+                "  Ano:  0\n"
+                "  Jo(z, t): \"[z(1); -0.5*z(2)]\"\n"
+                "  Jono(z): \"[0; 1]\"\n"
+                "  K:    [[-2], [1]]\n" +
+                kFlights,
+            "the assumption 'stable chain'"},
         Own{"integrate_and_fire", "coupled-observer",
             "data:\n"
             "  low:  -2\n"
@@ -225,8 +254,13 @@ INSTANTIATE_TEST_SUITE_P(
             "parameters: {c0: 0.4, c1: 0.15}\n"
             "campaign: {runs: 1, horizon: 15}\n",
             ""},
+        Own{"bank_of_local_observers", "uniting-observers",
+            kPendulum + "  restart(z): \"[z, z + [0; 1], z - [0; 1]]\"\n" + kSwitches, ""},
         Own{"restarted_elsewhere", "uniting-observers",
             kPendulum + "  restart(z): \"[0; 0]\"\n" + kSwitches,
+            "the assumption 'restart keeps the estimate'"},
+        Own{"bank_without_the_estimate", "uniting-observers",
+            kPendulum + "  restart(z): \"[z + [0; 1], z]\"\n" + kSwitches,
             "the assumption 'restart keeps the estimate'"},
         Own{"never_left", "uniting-observers",
             "data:\n"
@@ -301,6 +335,19 @@ INSTANTIATE_TEST_SUITE_P(
             "  invP(S): S\n"
             "campaign: {runs: 1, horizon: 30}\n",
             ""},
+        Own{"outside_between_samples",
+            "{like: constrained-redesign-jumps, events: {jump: {every: 0.5}}}",
+            "data:\n"
+            "  x0:  [2, 0]\n"
+            "  xh0: [0, 0]\n"
+            "  a:   \"[eye(2); -eye(2)]\"\n"
+            "  b:   1.5*ones(4, 1)\n"
+            "  f(x, t): \"[x(2); -x(1)]\"\n"
+            "  hd(x, t): x(1)\n"
+            "  G(xh, S, y, t): \"xh + [0.8; 0.3]*(y - xh(1))\"\n"
+            "  invP(S): eye(2)\n"
+            "campaign: {runs: 1, horizon: 5}\n",
+            "the assumption 'the plant starts in the set'"},
         Own{"samples", "{like: constrained-redesign-jumps, events: {jump: {every: [0.2, 0.5]}}}",
             "data:\n"
             "  x0:  [1, 0]\n"
