@@ -72,7 +72,7 @@ class Tree(unittest.TestCase):
     @unittest.skipUnless(os.geteuid() == 0, "only root changes the root folder")
     def test_the_program_needs_the_c_library_alone(self):
         node = os.path.join(self.folder.name, "node")
-        os.makedirs(os.path.join(node, "work"))
+        os.makedirs(node)
         needed = re.findall(r"(/\S+)", run("ldd", self.program).stdout)
         self.assertEqual(sorted(os.path.basename(library) for library in needed),
                          ["ld-linux-x86-64.so.2", "libc.so.6", "libm.so.6"])
@@ -80,10 +80,10 @@ class Tree(unittest.TestCase):
             os.makedirs(node + os.path.dirname(file), exist_ok=True)
             shutil.copy(os.path.realpath(file), node + file)
         problem = os.path.join(self.prefix, "share/gainsmith/problems/ferrante-seuret-2021/t2-0.70.yaml")
-        shutil.copy(problem, os.path.join(node, "work/problem.yaml"))
+        shutil.copy(problem, os.path.join(node, "problem.yaml"))
         command = ["chroot", node, self.program]
-        run(*command, "synth", "/work/problem.yaml", "-o", "/work/gains.json")
-        self.assertIn("held in 5000 runs", run(*command, "verify", "/work/gains.json", "--runs", "5000").stdout)
+        run(*command, "synth", "/problem.yaml", "-o", "/gains.json")
+        self.assertIn("held in 5000 runs", run(*command, "verify", "/gains.json", "--runs", "5000").stdout)
 
     def test_the_manual_page_says_what_help_says(self):
         page = run("gzip", "-dc", os.path.join(self.prefix, "share/man/man1/gainsmith.1.gz")).stdout
