@@ -7,8 +7,6 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "base/isa.h"
-#include "base/version.h"
 #include "gainsmith/campaign_json.h"
 #include "gainsmith/campaign_text.h"
 #include "gainsmith/figures_text.h"
@@ -100,14 +98,11 @@ std::optional<model::FiguresRecord> record_of_figures(const PartFile& whole) {
 
 io::Json campaign_statement(const verify::CampaignFacts& facts, const std::string& gains_hash,
                             bool compare) {
-  // Machines without fused products round otherwise.
-  io::Json statement = {
-      {"gainsmith", kVersion},
-      {"gains_sha256", gains_hash},
-      {"seed", facts.seed},
-      {"runs", facts.asked},
-      {"confidence", facts.confidence},
-      {"machine", isa() == "v2" ? "without fused products" : "with fused products"}};
+  io::Json statement = begin_statement("campaign");
+  statement["gains_sha256"] = gains_hash;
+  statement["seed"] = facts.seed;
+  statement["runs"] = facts.asked;
+  statement["confidence"] = facts.confidence;
   if (compare) statement[kCompare] = "yes";
   if (facts.until_violated) statement["until"] = "violated";
   return statement;

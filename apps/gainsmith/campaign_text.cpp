@@ -30,10 +30,13 @@ model::ClaimRecord claim_record(const verify::CheckReport& check) {
   record.violations = check.violations;
   record.undecided = check.undecided;
   record.worst_run = check.worst_run;
+  const auto measured = [&](double value) {
+    return check.measured ? finite(value) : std::nullopt;
+  };
   record.worst = {finite(check.worst.score),
-                  finite(check.worst.value),
-                  finite(check.worst.bound),
-                  finite(check.worst.rounding),
+                  measured(check.worst.value),
+                  measured(check.worst.bound),
+                  measured(check.worst.rounding),
                   check.worst.t,
                   check.worst.j};
   record.tolerance = check.worst.tolerance;
@@ -88,6 +91,9 @@ std::string check_text(const verify::CheckReport& check, std::size_t width) {
                             : "held";
   std::string text =
       fmt::format("  {:<{}} {:<17} {:<8}  ", check.name, width, kind_text(check.kind), verdict);
+  if (!check.measured)
+    return text + fmt::format("{} run {}, which was not repeated\n", held ? "nearest" : "worst",
+                              check.worst_run);
   if (worst.ended) return text + fmt::format("run {} {}\n", check.worst_run, end_text(worst));
   text +=
       fmt::format("{} run {}: {} against {} at (t, j) = ({}, {})\n", held ? "nearest" : "worst",

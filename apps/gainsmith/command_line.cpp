@@ -85,6 +85,11 @@ CLI::Option& add_option(CLI::App& command, const Option& option, Value& value) {
       added.transform(CLI::Validator(write_in_digits, ""));
     if constexpr (is_one_of<Value, std::uint64_t, std::optional<std::uint64_t>>)
       if (option.range.index() == 0) added.check(whole_number_error, "WHOLE");
+    // As of a variable of a script that is not set.
+    if constexpr (is_one_of<Value, std::string, std::vector<std::string>>)
+      added.check(CLI::Validator(
+          [](const std::string& text) { return std::string(text.empty() ? "a value is missing" : ""); },
+          ""));
     if constexpr (is_one_of<Value, std::vector<std::string>>)
       if (!added.get_positional() && !option.count) added.allow_extra_args(false);
     return added;
@@ -167,7 +172,8 @@ std::string in_words(const CLI::App& command, const CLI::ParseError& error) {
   const std::size_t colon = said.find(": ");
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) == nullptr || colon == said.npos)
     return said;
-  return said.substr(0, colon) + ": a value is missing";
+  const bool twice = said.find("[At Most") != said.npos || said.find("At Most 1 required") != said.npos;
+  return said.substr(0, colon) + (twice ? ": given twice" : ": a value is missing");
 }
 
 /// What is wrong with the command line, and where help is.

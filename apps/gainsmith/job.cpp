@@ -4,8 +4,10 @@
 #include <chrono>
 #include <exception>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
 #include "base/file.h"
 #include "base/stop.h"
@@ -26,6 +28,7 @@
 #include "io/result_json.h"
 #include "verify/campaign.h"
 #include "verify/expected_run.h"
+#include "verify/replay.h"
 
 namespace gainsmith::app {
 
@@ -119,7 +122,8 @@ class Job {
         instance_, gains, campaign ? std::optional(campaign->verdict) : std::nullopt);
     const bool nothing = design::lacks_gains(*instance_.design, gains);
     const verify::RunDifferences run =
-        nothing ? verify::RunDifferences{} : verify::run_differences(instance_, gains);
+        nothing ? verify::RunDifferences{}
+                : verify::run_differences(instance_, gains, std::exchange(first_run_, {}));
     if (is_stopping()) throw Interrupted("interrupted while figures of the first run were found");
     result.differences.insert(result.differences.end(), run.different.begin(), run.different.end());
     result.exit = judge(*instance_.design, gains, campaign, result.differences);
@@ -183,13 +187,16 @@ class Job {
     return report;
   }
 
-  void write_campaign(const verify::Setup& setup, const verify::Report& report) const {
+  void write_campaign(const verify::Setup& setup, const verify::Report& report) {
     write_atomically(folder_ / "campaign.json",
                      io::to_text(io::to_json(campaign_record(report, hash_))));
+    hybrid::Trajectory worst = verify::run_of(setup, report.seed, report.worst_run);
     write_atomically(folder_ / "worst-run.svg",
-                     run_picture(*instance_.design, setup, report.seed, report.worst_run));
+                     run_picture(*instance_.design, setup, report.worst_run, worst));
     if (report.verdict != model::CampaignVerdict::held)
-      write_atomically(folder_ / "worst-run.csv", run_csv(setup, report.seed, report.worst_run));
+      write_atomically(folder_ / "worst-run.csv", run_csv(setup, worst));
+    if (report.worst_run == 0 && report.seed == instance_.design->campaign.seed)
+      first_run_ = std::move(worst);
   }
 
   io::Json report(const model::Gains& gains, const std::optional<verify::Report>& campaign,
@@ -225,6 +232,7 @@ class Job {
   fs::path folder_;
   const JobOptions& options_;
   std::string& hash_;
+  std::optional<hybrid::Trajectory> first_run_;  ///< where the campaign drew it
 };
 
 /// The path of a problem from the folder of its results; empty for standard input.

@@ -152,6 +152,7 @@ void KeptFolder::keep(io::Json done) {
   try {
     write_atomically(path_of(next), sealed(document));
   } catch (const InputError& error) {
+    if (saved_ == 0) throw;
     throw InputError(error.place(), error.message() +
                                         "; what was kept before is whole, and the same command "
                                         "goes on from it");

@@ -15,13 +15,10 @@
 
 namespace gainsmith::app {
 
-/// The key of a statement whose value is "campaign", "scan" or "search".
-inline constexpr const char* kWork = "work";
-
 class KeptFolder {
  public:
-  /// Makes the folder where there is none, and locks it. `statement`: what the work is, key by key,
-  /// the kind under kWork.
+  /// Makes the folder where there is none, and locks it. `statement`: what the work is, key by key
+  /// (begin_statement()).
   /// InputError where that cannot be done, another program works in it, it holds other files, or
   /// other work.
   KeptFolder(std::filesystem::path folder, io::Json statement);

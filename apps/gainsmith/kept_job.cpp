@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/hash.h"
-#include "base/version.h"
+#include "gainsmith/part_file.h"
 #include "gainsmith/results_folder.h"
 #include "io/json_reader.h"
 
@@ -55,10 +55,11 @@ std::string job_fingerprint(const model::Instance& instance, const JobOptions& o
   const auto number = [](const std::optional<std::uint64_t>& value) {
     return value ? io::Json(*value) : io::Json();
   };
-  return sha256(io::to_text({{"gainsmith", kVersion},
-                             {"problem", instance.design->statement.hash},
-                             {"runs", number(options.runs)},
-                             {"seed", number(options.seed)}}));
+  io::Json statement = begin_statement("problem");
+  statement["problem"] = instance.design->statement.hash;
+  statement["runs"] = number(options.runs);
+  statement["seed"] = number(options.seed);
+  return sha256(io::to_text(statement));
 }
 
 io::Json with_fingerprint(io::Json document, const JobResult& result) {

@@ -51,6 +51,11 @@ std::vector<std::string> files_of(const std::vector<std::string>& parts) {
 ExitCode merge(const MergeOptions& options) {
   check_picture_name(options.plot);
   const std::vector<std::string> files = files_of(options.parts);
+  std::error_code none;
+  for (const std::string& part : options.parts)
+    if (!options.output.empty() && fs::is_directory(part, none) &&
+        fs::equivalent(fs::absolute(options.output, none).parent_path(), part, none))
+      throw InputError({options.output}, "expected a file outside the folder of the parts");
   for (const std::string& file : files) prepare_outputs(file, {options.output, options.plot});
   if (kind_of(read_part(files.front())) == PartKind::campaign) {
     if (!options.plot.empty())

@@ -9,12 +9,12 @@
 
 #include "base/save_pace.h"
 #include "base/stop.h"
-#include "base/version.h"
 #include "gainsmith/commands.h"
 #include "gainsmith/exact_number.h"
 #include "gainsmith/kept_folder.h"
 #include "gainsmith/load.h"
 #include "gainsmith/output.h"
+#include "gainsmith/part_file.h"
 #include "gainsmith/range_option.h"
 #include "gainsmith/search_wanted.h"
 #include "gainsmith/summary.h"
@@ -96,15 +96,15 @@ void take_values(const io::Json& document, const std::string& file, search::Know
 /// What the values follow from.
 io::Json statement_of(const OptimizeOptions& options, const model::Instance& instance) {
   const auto text = [](const auto& value) { return value ? fmt::format("{}", *value) : ""; };
-  return {{"gainsmith", kVersion},
-          {kWork, "search"},
-          {"problem_sha256", instance.design->statement.hash},
-          {"--over", options.over},
-          {"--largest", options.largest},
-          {"--smallest", options.smallest},
-          {"--minimize", options.minimize},
-          {"--tolerance", text(options.tolerance)},
-          {"--evaluations", text(options.evaluations)}};
+  io::Json statement = begin_statement("search");
+  statement["problem_sha256"] = instance.design->statement.hash;
+  statement["--over"] = options.over;
+  statement["--largest"] = options.largest;
+  statement["--smallest"] = options.smallest;
+  statement["--minimize"] = options.minimize;
+  statement["--tolerance"] = text(options.tolerance);
+  statement["--evaluations"] = text(options.evaluations);
+  return statement;
 }
 
 /// The search; with --resume from the values that its folder has.

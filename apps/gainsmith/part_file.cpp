@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/isa.h"
 #include "base/version.h"
 #include "gainsmith/sealed.h"
 #include "gainsmith/terminal.h"
@@ -20,11 +21,19 @@ const char* word_of(PartKind kind) { return kind == PartKind::campaign ? "campai
 std::string said(const io::Json& statement, const std::string& key) {
   const auto found = statement.find(key);
   if (found == statement.end()) return "none";
-  if (found->is_string()) return found->get<std::string>();
+  if (found->is_string() && !found->get<std::string>().empty()) return found->get<std::string>();
+  if (found->empty() || found->is_string()) return "none";
   return io::is_number(*found) ? io::decimal_of(*found) : found->dump();
 }
 
 }  // namespace
+
+io::Json begin_statement(const char* kind) {
+  // Machines without fused products round otherwise.
+  return {{"gainsmith", kVersion},
+          {"machine", isa() == "v2" ? "without fused products" : "with fused products"},
+          {kWork, kind}};
+}
 
 io::Json part_head(PartKind kind, const Shard& shard, const io::Json& statement) {
   return {{"part", word_of(kind)}, {"shard", to_text(shard)}, {"statement", statement}};

@@ -13,6 +13,12 @@ namespace gainsmith::app {
 
 enum class PartKind { campaign, scan };
 
+/// What the results of all work follow from: the version, and how the machine rounds. `kind`: of the
+/// work, "campaign", "scan", "search" or "problem".
+io::Json begin_statement(const char* kind);
+/// The key of the kind.
+inline constexpr const char* kWork = "work";
+
 /// The beginning of a part's document.
 io::Json part_head(PartKind kind, const Shard& shard, const io::Json& statement);
 

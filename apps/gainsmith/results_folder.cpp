@@ -81,7 +81,8 @@ void draw_first_run(const fs::path& path, page::Results& results) {
     const LoadedGains loaded = load_run(path);
     const std::uint64_t seed = loaded.stated.design->campaign.seed;
     const auto setup = verify::make_setup(loaded.stated, loaded.gains);
-    results.picture = run_picture(*loaded.stated.design, *setup, seed, 0);
+    hybrid::Trajectory run = verify::run_of(*setup, seed, 0);
+    results.picture = run_picture(*loaded.stated.design, *setup, 0, run);
     results.picture_title = run_title(0, seed) + ", the first of a campaign";
     results.no_campaign =
         "none was made; gainsmith verify " + path.filename().string() + " makes one.";
@@ -220,9 +221,14 @@ std::vector<page::Results> read_results(const fs::path& path) {
   }
   if (holds_results(path)) return {read_folder(path, title_of(path))};
   std::vector<page::Results> all;
+  const std::vector<std::string> listed = read_problem_list(path);
+  const auto is_left_over = [&](const std::string& name) {
+    return !listed.empty() && std::find(listed.begin(), listed.end(), name) == listed.end();
+  };
   for (const fs::path& folder : folders_below(path))
-    all.push_back(read_folder(folder, folder.lexically_relative(path).string()));
-  for (const std::string& name : read_problem_list(path)) {
+    if (const std::string name = folder.lexically_relative(path).string(); !is_left_over(name))
+      all.push_back(read_folder(folder, name));
+  for (const std::string& name : listed) {
     if (holds_results(path / name)) continue;
     page::Results missing;
     missing.name = name;

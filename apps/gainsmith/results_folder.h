@@ -9,8 +9,8 @@
 
 namespace gainsmith::app {
 
-/// Of a gain file, the folder of one problem, or a folder of many, in the order of their paths; then
-/// those that no part of `run --shard` has made. A
+/// Of a gain file, the folder of one problem, or a folder of many, in the order of their paths; of
+/// parts of `run --shard` those of the last command, then those that no part has made. A
 /// gain file alone has the picture of its first run. InputError with the place for a folder without
 /// results, a file that is truncated or of a later version, and what is no result.
 std::vector<page::Results> read_results(const std::filesystem::path& path);

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
+#include "claims/run_values.h"
 #include "gainsmith/run_panels.h"
 #include "model/problem.h"
 
@@ -73,12 +75,15 @@ bool is_flow(const Replay& replay, Eigen::Index row) {
   return replay.table(row, 1) == replay.table(row - 1, 1);
 }
 
-/// The longest time between two points of a flow.
-double widest_gap(const Replay& replay) {
-  double widest = 0;
-  for (Eigen::Index row = 1; row < replay.table.rows(); ++row)
-    if (is_flow(replay, row))
-      widest = std::max(widest, replay.table(row, 0) - replay.table(row - 1, 0));
+/// The longest time between two points of a flow, as the integration went.
+double widest_gap(const hybrid::Trajectory& run) {
+  double widest = 0, last = 0;
+  std::int64_t j = 0;
+  claims::visit(run, 0, [&](const claims::Moment& moment) {
+    if (moment.j == j) widest = std::max(widest, moment.t - last);
+    last = moment.t;
+    j = moment.j;
+  });
   return widest;
 }
 
@@ -139,19 +144,27 @@ std::string unit_of(const RunView& view, const Column& column) {
   return {};
 }
 
-DrawnRun drawn_run(const verify::Setup& setup, std::uint64_t number, const hybrid::Trajectory& run,
+DrawnRun drawn_run(const verify::Setup& setup, std::uint64_t number, hybrid::Trajectory run,
                    double step) {
   constexpr double kPoints = 1500, kMostPoints = 12000;
-  verify::Replay replay = verify::table_of_run(setup, run, step, true);
-  if (step > 0 || run.end <= 0 || run.ending == hybrid::Ending::interrupted)
-    return {number, std::move(replay)};
-  if (widest_gap(replay) <= run.end / kPoints && bend_of(replay) <= 1)
-    return {number, std::move(replay)};
-  replay = verify::table_of_run(setup, run, run.end / kPoints, true);
-  const double bend = bend_of(replay);
-  if (bend <= 1) return {number, std::move(replay)};
-  const double points = std::min(kPoints * std::ceil(std::sqrt(bend)), kMostPoints);
-  return {number, verify::table_of_run(setup, run, run.end / points, true)};
+  verify::Replay replay;
+  replay.run = std::move(run);
+  const double usual = replay.run.end / kPoints;
+  const auto fill = [&](double next) {
+    step = next;
+    replay = verify::table_of_run(setup, std::move(replay.run), step);
+  };
+  const bool as_asked =
+      step > 0 || replay.run.end <= 0 || replay.run.ending == hybrid::Ending::interrupted;
+  const bool is_dense = as_asked || widest_gap(replay.run) <= usual;
+  if (is_dense) fill(step);
+  if (!as_asked && (!is_dense || bend_of(replay) > 1)) {
+    fill(usual);
+    if (const double bend = bend_of(replay); bend > 1)
+      fill(replay.run.end / std::min(kPoints * std::ceil(std::sqrt(bend)), kMostPoints));
+  }
+  verify::add_rounding(setup, step, replay);
+  return {number, std::move(replay)};
 }
 
 std::vector<double> values_of(const Replay& replay, std::size_t column) {

@@ -48,7 +48,7 @@ std::string unit_of(const RunView& view, const verify::Column& column);
 
 /// A run of a number with what a picture needs: points so dense that curves have no corners, 12,000
 /// at most (those of `step` where it is positive), and the rounding of all values.
-DrawnRun drawn_run(const verify::Setup& setup, std::uint64_t number, const hybrid::Trajectory& run,
+DrawnRun drawn_run(const verify::Setup& setup, std::uint64_t number, hybrid::Trajectory run,
                    double step);
 
 /// The runs, all of one setup, as SVG. One run: the plant solid, observers dashed, each in a colour

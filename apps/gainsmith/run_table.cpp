@@ -1,6 +1,8 @@
 #include "gainsmith/run_table.h"
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "gainsmith/run_figure.h"
 #include "io/csv.h"
@@ -24,14 +26,17 @@ std::vector<std::string> names_of(const verify::Replay& replay) {
 
 }  // namespace
 
-std::string run_csv(const verify::Setup& setup, std::uint64_t seed, std::uint64_t run) {
-  return events_csv(verify::table_of_run(setup, seed, run, 0));
+std::string run_csv(const verify::Setup& setup, const hybrid::Trajectory& run) {
+  return events_csv(verify::table_of_run(setup, run, 0));
 }
 
-std::string run_picture(const model::Design& design, const verify::Setup& setup, std::uint64_t seed,
-                        std::uint64_t run) {
-  const hybrid::Trajectory made = verify::table_of_run(setup, seed, run, 0).run;
-  return run_figure(design.name, {drawn_run(setup, run, made, 0)}, view_of(design));
+std::string run_picture(const model::Design& design, const verify::Setup& setup,
+                        std::uint64_t number, hybrid::Trajectory& run) {
+  std::vector<DrawnRun> drawn;  // a list in braces would copy it
+  drawn.push_back(drawn_run(setup, number, std::move(run), 0));
+  std::string picture = run_figure(design.name, drawn, view_of(design));
+  run = std::move(drawn.front().replay.run);
+  return picture;
 }
 
 std::string events_csv(const verify::Replay& replay) {

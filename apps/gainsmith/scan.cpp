@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "base/save_pace.h"
-#include "base/version.h"
 #include "design/search_request.h"
 #include "gainsmith/advice.h"
 #include "gainsmith/commands.h"
@@ -116,7 +115,6 @@ void answer_points(const ScanOptions& options, const model::Instance& instance, 
   if (options.resume.empty()) return answer({});
   io::Json statement = part.statement;
   statement["shard"] = to_text(part.shard);
-  statement[kWork] = "scan";
   KeptFolder folder(options.resume, std::move(statement));
   if (folder.kept()) take_rows(folder.kept()->done, folder.kept()->file, part);
   const auto keep = [&] { folder.keep(rows_json(part)); };
@@ -156,10 +154,10 @@ ExitCode scan(const ScanOptions& options) {
                    [&](model::Problem& problem) { add_questions(options, ranges, problem); });
   ScanPart part;
   part.facts = facts_of(options, ranges, instance);
-  part.statement = {{"gainsmith", kVersion},
-                    {"problem_sha256", instance.design->statement.hash},
-                    {"--over", options.over},
-                    {"--show", options.show}};
+  part.statement = begin_statement("scan");
+  part.statement["problem_sha256"] = instance.design->statement.hash;
+  part.statement["--over"] = options.over;
+  part.statement["--show"] = options.show;
   part.shard = parse_shard(options.shard);
   part.rows = design::rows_of(points_of(part.facts));
   answer_points(options, instance, part);

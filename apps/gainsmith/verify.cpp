@@ -116,7 +116,6 @@ void make_runs(const VerifyOptions& options, const PartWork& work) {
   PartFile& file = work.file;
   io::Json statement = file.statement;
   statement["shard"] = to_text(file.shard);
-  statement[kWork] = "campaign";
   KeptFolder folder(options.resume, std::move(statement));
   if (folder.kept()) take_kept(folder.kept()->done, folder.kept()->file, file.part);
   const auto keep = [&] { folder.keep(runs_json(file.part)); };

@@ -16,7 +16,8 @@ thread_local Allowance* allowance = nullptr;
 bool is_stopping() noexcept {
   if (!stop_requested) return false;
   for (const Allowance* each = allowance; each != nullptr; each = each->around_)
-    if (each->concludes_) return false;
+    if (each->concludes_until_ != Allowance::Clock::time_point::min())
+      return Allowance::Clock::now() > each->concludes_until_;
   return true;
 }
 
@@ -24,7 +25,14 @@ Allowance::Allowance(double seconds) : seconds_(seconds), around_(std::exchange(
 
 Allowance::~Allowance() { allowance = around_; }
 
-Concluding::Concluding() : Allowance(std::numeric_limits<double>::infinity()) { concludes_ = true; }
+Concluding::Concluding() : Allowance(std::numeric_limits<double>::infinity()) {
+  concludes_until_ = Clock::time_point::max();
+}
+
+Concluding::Concluding(double seconds) : Concluding() {
+  concludes_until_ =
+      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+}
 
 void spend(double seconds) {
   check_stop();

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <exception>
 
 namespace gainsmith {
@@ -59,8 +60,10 @@ class Allowance {
   friend void spend(double seconds);
   friend bool is_stopping() noexcept;
 
+  using Clock = std::chrono::steady_clock;
+
   const double seconds_;
-  bool concludes_ = false;
+  Clock::time_point concludes_until_ = Clock::time_point::min();
   std::atomic<double> spent_ = 0;
   Allowance* const around_;
 };
@@ -70,6 +73,8 @@ class Allowance {
 class Concluding : public Allowance {
  public:
   Concluding();
+  /// Where it may be much: after these seconds it stops.
+  explicit Concluding(double seconds);
 };
 
 /// Counts work, and throws Stopped or OutOfAllowance.

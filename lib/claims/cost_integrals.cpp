@@ -57,7 +57,7 @@ void CostIntegrals::add_to(std::vector<DenseStep>& steps, Integral& integral, bo
   constexpr double agreement = 1e-12;
   std::vector<DenseStep> all;
   for (DenseStep& step : steps) {
-    std::vector<SmoothPart> parts = smooth_parts(integral.rate, step, nullptr, agreement);
+    std::vector<SmoothPart> parts = smooth_parts(integral.rate, step, nullptr, agreement, true);
     // Breaks lie between two numbers that are next to each other.
     for (std::size_t k = 0; k + 1 < parts.size(); ++k) parts[k].to = parts[k + 1].from;
     parts.back().to = step.to;

@@ -119,6 +119,9 @@ std::optional<double> FigureOf::at_time(const Trajectory& run) {
 /// The largest of `most` and the values of a step times `sign`: where a top of a series may lie
 /// above it, by golden section.
 double FigureOf::extreme(const DenseStep& step, double sign, double most) {
+  value_->follow(step);
+  if (const auto range = value_->range(); range && (sign > 0 ? range->high : -range->low) <= most)
+    return most;
   const auto at = [&](double t) { return sign * value_->at(t); };
   std::vector<Top> tops;
   for (const SmoothPart& part : smooth_parts(*value_, step)) {
@@ -149,6 +152,8 @@ double FigureOf::extreme(const Trajectory& run, double sign) {
 
 /// The last time of a step at which the value is not below a level; minus infinity: never.
 double FigureOf::last_above(const DenseStep& step, double level) {
+  value_->follow(step);
+  if (const auto range = value_->range(); range && range->high < level) return -infinity;
   const auto above = [&](double t) { return !(value_->at(t) < level); };
   const auto last_between = [&](double high, double below) {
     while (true) {
@@ -233,9 +238,13 @@ std::optional<double> FigureOf::integral(const Trajectory& run, const Rate& rate
       const auto pieces = static_cast<int>(part.series.size());
       const double half = (std::min(to, part.to) - low) / (2 * pieces);
       if (part.undefined) sum = std::numeric_limits<double>::quiet_NaN();
-      for (int piece = 0; half > 0 && piece < pieces; ++piece)
-        for (const auto& [node, weight] : rule)
-          sum += half * weight * rate(part(low + half * (2 * piece + 1 + node)));
+      std::array<double, rule.size()> at{};
+      for (int piece = 0; half > 0 && piece < pieces; ++piece) {
+        for (std::size_t k = 0; k < at.size(); ++k)
+          at[k] = low + half * (2 * piece + 1 + rule[k].first);
+        at = part(at);
+        for (std::size_t k = 0; k < at.size(); ++k) sum += half * rule[k].second * rate(at[k]);
+      }
     }
   });
   return sum;

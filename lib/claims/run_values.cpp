@@ -43,6 +43,19 @@ const Eigen::VectorXd& RunValue::point(double t) {
   return point_;
 }
 
+numbers::Box RunValue::box() const {
+  numbers::Box box(static_cast<std::size_t>(point_.size()));
+  const numbers::Box ranges = ode::chebyshev::ranges(followed_);
+  for (std::size_t k = 0; k < used_.size(); ++k)
+    box[static_cast<std::size_t>(used_[k])] = ranges[k];
+  return box;
+}
+
+std::optional<numbers::Range> RunValue::range() {
+  if (!function_.enclose(box())) return std::nullopt;
+  return function_.range(0, 0);
+}
+
 namespace {
 
 void visit_flow(const hybrid::FlowPiece& flow, double step,

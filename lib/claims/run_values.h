@@ -28,6 +28,8 @@ class RunValue {
   /// From now on at() and breaks() are along this step: the variables that it uses are computed
   /// alone.
   void follow(const hybrid::DenseStep& step);
+  /// Bounds of the value all along the step; none: they are not known, or it may have no value.
+  std::optional<numbers::Range> range();
   /// The value at t in the step.
   double at(double t) { return number(point(t)); }
   /// At t all variables that it uses; others are 0.
@@ -42,7 +44,7 @@ class RunValue {
   /// Where it is not, on a step: Breaks::on.
   std::optional<std::vector<ode::Break>> breaks(std::vector<double>* near = nullptr) {
     return breaks_.on([this](double t) -> const Eigen::VectorXd& { return point(t); }, from_, to_,
-                      near);
+                      breaks_.none() ? numbers::Box() : box(), near);
   }
   /// Until when, in a run, its breaks can be searched.
   double followed_until = std::numeric_limits<double>::infinity();
@@ -54,6 +56,9 @@ class RunValue {
   }
 
  private:
+  /// Where the variables lie all along the step: |T_k| <= 1.
+  numbers::Box box() const;
+
   numbers::StackedFunctions function_;
   hybrid::Breaks breaks_;
   numbers::Matrix none_;

@@ -43,14 +43,15 @@ struct Stretch {
 
 /// In order, with where the value jumps and where it nearly branches.
 std::vector<Stretch> stretches_of(const FlowPiece& flow, RunValue& function, double after,
-                                  Breaks* breaks = nullptr, double agreement = kAgreement) {
+                                  Breaks* breaks = nullptr, double agreement = kAgreement,
+                                  bool noise = false) {
   std::vector<Stretch> result;
   bool jumped = false;  // at the end of the part before
   for (const DenseStep& step : flow.steps) {
     if (step.to < after) continue;
     if (step.from >= function.followed_until) break;
     const std::vector<SmoothPart> parts =
-        smooth_parts(function, step, breaks != nullptr ? &breaks->near : nullptr, agreement);
+        smooth_parts(function, step, breaks != nullptr ? &breaks->near : nullptr, agreement, noise);
     if (!parts.front().followed) {
       function.followed_until = step.from;
       break;
@@ -157,7 +158,7 @@ std::vector<double> rises_of(const SamplePoints::Falling& falling, const FlowPie
   std::vector<double> undefined;
   Rises rises(limits.noise, limits.floor(static_cast<Eigen::Index>(falling.function)));
   for (const Stretch& one :
-       stretches_of(flow, function, falling.after, nullptr, limits.agreement)) {
+       stretches_of(flow, function, falling.after, nullptr, limits.agreement, true)) {
     if (one.part.undefined)
       undefined.push_back(*one.part.undefined);
     else

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "claims/tolerances.h"
 #include "ode/chebyshev.h"
@@ -25,7 +26,17 @@ constexpr int evaluations_of_part = largest_degree + 1 + static_cast<int>(check_
 class Halving {
  public:
   Halving(RunValue& value, const hybrid::DenseStep& step, double agreement)
-      : value_(value), step_(step), agreement_(agreement), noise_(noise()) {}
+      : value_(value), step_(step), agreement_(agreement) {
+    for (std::size_t k = 0; k < check_points.size(); ++k)
+      checks_[k].t = chebyshev::outer(check_points[k], step.from, step.to);
+  }
+
+  /// What the rounding of the variables makes of the value: the lesser at two places, since a place
+  /// at a break shows the jump there.
+  double noise() {
+    if (!noise_) noise_ = std::fmin(noise_at(checks_[0]), noise_at(checks_[1]));
+    return *noise_;
+  }
 
   /// Appends the parts of a part; what the first half leaves of the patience is the second one's.
   void halve(SmoothPart part, int patience, std::vector<SmoothPart>& parts) {
@@ -57,29 +68,30 @@ class Halving {
       RowVectorXd seen(degree + 1);
       for (int k = 0; k <= degree; ++k) seen(k) = values[static_cast<std::size_t>(apart * k)];
       part.series = chebyshev::coefficients(seen);
-      const double tolerance = agreement_ * (seen.maxCoeff() - seen.minCoeff()) +
-                               kValueRounding * seen.cwiseAbs().maxCoeff() + noise_;
-      part.noise = tolerance;
-      bool agrees = part.series.tail(2).cwiseAbs().sum() <= tolerance;
+      double error = part.series.tail(2).cwiseAbs().sum();
       for (std::size_t k = 0; k < check_points.size(); ++k)
-        agrees = agrees &&
-                 std::abs(chebyshev::first(part.series, check_points[k]) - checks[k]) <= tolerance;
-      if (agrees) return true;
+        error = larger(error, std::abs(chebyshev::first(part.series, check_points[k]) - checks[k]));
+      part.noise = agreement_ * (seen.maxCoeff() - seen.minCoeff()) +
+                   kValueRounding * seen.cwiseAbs().maxCoeff();
+      if (error <= part.noise || error <= part.noise + noise()) return true;
     }
     return false;
   }
 
-  /// What the rounding of the variables makes of the value: the lesser at two places, since a place
-  /// at a break shows the jump there.
-  double noise() {
-    return std::fmin(noise_at(chebyshev::outer(check_points[0], step_.from, step_.to)),
-                     noise_at(chebyshev::outer(check_points[1], step_.from, step_.to)));
-  }
+  /// What is no number stays so.
+  static double larger(double a, double b) { return std::isnan(b) || b > a ? b : a; }
+
+  /// A place with the value there, once it is known.
+  struct Place {
+    double t = 0;
+    std::optional<double> value;
+  };
 
   /// In some directions.
-  double noise_at(double t) {
-    const Eigen::VectorXd& x = value_.point(t);
-    const double value = value_.number(x);
+  double noise_at(Place& place) {
+    const Eigen::VectorXd& x = value_.point(place.t);
+    if (!place.value) place.value = value_.number(x);
+    const double value = *place.value;
     const Eigen::VectorXd sizes = value_.sizes();
     const std::vector<Index>& used = value_.used();
     Eigen::VectorXd rounded = x;
@@ -100,7 +112,11 @@ class Halving {
     // At a break itself a sign may be 0, beside it never.
     const double inside = std::clamp(x, -1 + kBesideBreak, 1 - kBesideBreak);
     const double t = chebyshev::outer(inside, part.from, part.to);
-    const double value = value_.at(t);
+    const auto known =
+        std::find_if(checks_.begin(), checks_.end(), [&](const Place& one) { return one.t == t; });
+    const bool is_kept = known != checks_.end();
+    const double value = is_kept && known->value ? *known->value : value_.at(t);
+    if (is_kept) known->value = value;
     if (!std::isfinite(value) && !part.undefined) part.undefined = t;
     return value;
   }
@@ -108,7 +124,8 @@ class Halving {
   RunValue& value_;
   const hybrid::DenseStep& step_;
   double agreement_;
-  double noise_;
+  std::array<Place, check_points.size()> checks_;  ///< those of the whole step
+  std::optional<double> noise_;                    ///< computed when it is asked for
   int evaluations_ = 0;
 };
 
@@ -156,7 +173,7 @@ double SmoothPart::operator()(double t) const {
 }
 
 std::vector<SmoothPart> smooth_parts(RunValue& value, const hybrid::DenseStep& step,
-                                     std::vector<double>* near, double agreement) {
+                                     std::vector<double>* near, double agreement, bool noise) {
   value.follow(step);
   std::vector<SmoothPart> parts;
   Halving halving(value, step, agreement);
@@ -174,6 +191,9 @@ std::vector<SmoothPart> smooth_parts(RunValue& value, const hybrid::DenseStep& s
     part = {one.right, step.to, one.jumps};
   }
   if (part.from < part.to || parts.empty()) halving.halve(part, kMostEvaluations, parts);
+  if (noise)
+    for (SmoothPart& one : parts)
+      if (!one.undefined) one.noise += halving.noise();
   return parts;
 }
 

@@ -9,12 +9,14 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <optional>
 #include <vector>
 
 #include "claims/run_values.h"
 #include "claims/tolerances.h"
+#include "ode/chebyshev.h"
 
 namespace gainsmith::claims {
 
@@ -25,7 +27,9 @@ struct SmoothPart {
   bool before_jump = false;  ///< just after it
   /// The value on [from, to] as a sum of Chebyshev polynomials (ode/chebyshev.h).
   Eigen::RowVectorXd series{};
-  double noise = 0;  ///< how far the series may be off: to what it agrees, and rounding
+  /// How far the series may be off: to what it agrees, and what rounding of the variables makes of
+  /// the value, where that is asked for.
+  double noise = 0;
   /// A time at which the value is no number; then there is no series.
   std::optional<double> undefined{};
   bool followed = true;  ///< false: the step, which has more breaks than can be searched
@@ -35,12 +39,27 @@ struct SmoothPart {
   double time(int point) const;
   /// The series at t.
   double operator()(double t) const;
+  /// At some times at once, with the same bits.
+  template <std::size_t n>
+  std::array<double, n> operator()(const std::array<double, n>& times) const {
+    std::array<double, n> x{}, sum{}, after{};
+    for (std::size_t k = 0; k < n; ++k) x[k] = ode::chebyshev::inner(times[k], from, to);
+    for (Eigen::Index i = series.size() - 1; i > 0; --i)
+      for (std::size_t k = 0; k < n; ++k) {
+        const double next = series(i) + 2 * x[k] * sum[k] - after[k];
+        after[k] = sum[k];
+        sum[k] = next;
+      }
+    for (std::size_t k = 0; k < n; ++k) sum[k] = series(0) + x[k] * sum[k] - after[k];
+    return sum;
+  }
 };
 
-/// In order, at least one. `near`: takes the places at which it nearly branches.
+/// In order, at least one. `near`: takes the places at which it nearly branches. `noise`: whether
+/// rounding of the variables is part of the noise.
 std::vector<SmoothPart> smooth_parts(RunValue& value, const hybrid::DenseStep& step,
                                      std::vector<double>* near = nullptr,
-                                     double agreement = kAgreement);
+                                     double agreement = kAgreement, bool noise = false);
 
 /// Where the series of a part turns, in rising order.
 std::vector<double> turns_of(const SmoothPart& part);

@@ -4,11 +4,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include "expr/branches.h"
-#include "numerics/golden_section.h"
 #include "hybrid/tolerances.h"
+#include "numerics/golden_section.h"
 #include "ode/step_range.h"
 
 namespace gainsmith::hybrid {
@@ -178,6 +179,11 @@ void add_near(const std::function<double(double)>& g, double from, double to,
   near.push_back(numerics::peak_between([&](double t) { return -std::abs(g(t)); }, low, high));
 }
 
+/// Whether what lies in a range has no root; with `near`, nor a place for add_near.
+bool is_apart(const numbers::Range& range, bool near) {
+  return range.least() > (near ? kNearBreak * range.largest() : 0);
+}
+
 /// Makes one of breaks with next to nothing between them.
 void merge(std::vector<ode::Break>& breaks, double from, double to) {
   const double nothing =
@@ -265,20 +271,31 @@ double Breaks::distance(std::size_t k, const VectorXd& x, const VectorXd& r) {
 }
 
 std::optional<std::vector<ode::Break>> Breaks::on(const std::function<const VectorXd&(double)>& x,
-                                                  double from, double to,
+                                                  double from, double to, const numbers::Box& box,
                                                   std::vector<double>* near) {
   std::vector<ode::Break> breaks;
   if (none() || !(from < to)) return breaks;
-  const std::array<VectorXd, 3> points = {x(from), x(from + (to - from) / 2), x(to)};
+  std::optional<std::array<VectorXd, 3>> points;
   for (Text& text : texts_) {
     const Index size = text.program->shape().size();
+    const bool bounded = text.value.enclose(box);
+    std::map<double, Matrix> known;  // of all elements
     for (Index e = 0; e < size; ++e) {
+      if (bounded && is_apart(text.value.range(static_cast<std::size_t>(e)), near != nullptr))
+        continue;
+      if (!points) points = {x(from), x(from + (to - from) / 2), x(to)};
       const auto at = [&](const VectorXd& values) { return element(text.value, values, e); };
       const bool is_slow = breaks.empty() && !text.waves;
-      if (is_slow && ode::StepRange(at, points).is_far_from_zero()) continue;
+      if (is_slow && ode::StepRange(at, *points).is_far_from_zero()) continue;
       double terms = 0;
-      for (const VectorXd& point : points) terms = std::fmax(terms, element(text.terms, point, e));
-      const auto difference = [&](double t) { return at(x(t)); };
+      for (const VectorXd& point : *points) terms = std::fmax(terms, element(text.terms, point, e));
+      const auto difference = [&](double t) {
+        if (size == 1) return at(x(t));
+        const auto [value, fresh] = known.try_emplace(t);
+        if (fresh) value->second = value_at(text.value, x(t));
+        return value->second.size() > 0 ? value->second(e)
+                                        : std::numeric_limits<double>::quiet_NaN();
+      };
       if (!add_roots({difference, false, kAddedUp * terms}, text.jumps, from, to, breaks))
         return std::nullopt;
       if (near != nullptr) add_near(difference, from, to, *near);

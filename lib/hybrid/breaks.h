@@ -24,12 +24,12 @@ class Breaks {
   /// Whether it is smooth everywhere.
   bool none() const { return texts_.empty(); }
 
-  /// In rising order, each once, on a step over which `x` is smooth. Where a difference has no
-  /// value nothing is found. None where there are more than can be searched (Found::whole).
-  /// `near` takes the places where a difference comes near 0, by a 50th of its largest size on the
+  /// In rising order, each once, on a step over which `x` is smooth and lies in `box`. Where a
+  /// difference has no value nothing is found. None where there are more than can be searched
+  /// (Found::whole). `near` takes the places where a difference comes near 0, by a 50th of its largest size on the
   /// step, and turns back.
   std::optional<std::vector<ode::Break>> on(const std::function<const Eigen::VectorXd&(double)>& x,
-                                            double from, double to,
+                                            double from, double to, const numbers::Box& box,
                                             std::vector<double>* near = nullptr);
 
   /// What is 0 at a break.

@@ -6,6 +6,7 @@
 
 #include "base/number.h"
 #include "hybrid/affine.h"
+#include "ode/tolerances.h"
 
 namespace gainsmith::hybrid {
 
@@ -53,6 +54,20 @@ EventFunction::EventFunction(const expr::Program& program, const System& system)
 bool EventFunction::is_noise(const VectorXd& values, Eigen::Index element) {
   const double size = std::abs(value_(values)(element));
   return size <= kTermRounding * terms_(values)(element);
+}
+
+const std::vector<int>& EventFunction::sides(const numbers::Box& values, double near) {
+  sides_.clear();
+  if (!value_.enclose(values) || !terms_.enclose(values)) return sides_;
+  sides_.assign(static_cast<std::size_t>(size_), 0);
+  for (std::size_t e = 0; e < sides_.size(); ++e) {
+    const numbers::Range& value = value_.range(e);
+    const double terms = terms_.range(e).largest();
+    const double border =
+        kTermRounding * terms + std::max(near * terms, ode::kTurnsNear * value.largest());
+    if (value.least() > border) sides_[e] = value.low > 0 ? 1 : -1;
+  }
+  return sides_;
 }
 
 EventCondition::EventCondition(const expr::Condition& condition, const System& system)

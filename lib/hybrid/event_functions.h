@@ -31,6 +31,9 @@ class SystemFunction {
   bool is_line() const { return is_line_; }
   /// The elements of the values that it uses.
   std::vector<Eigen::Index> elements() const { return function_.elements(); }
+  /// Bounds of its elements over a box of values; false: none are known.
+  bool enclose(const numbers::Box& values) { return function_.enclose(values); }
+  const numbers::Range& range(std::size_t element) const { return function_.range(0, element); }
 
  private:
   bool rests_ = true;
@@ -47,6 +50,10 @@ class EventFunction {
   const numbers::Matrix& operator()(const Eigen::VectorXd& values) { return value_(values); }
   /// The sums of the terms' absolute values, element by element.
   const numbers::Matrix& terms(const Eigen::VectorXd& values) { return terms_(values); }
+  /// Of each element, on which side of 0 it is all over a box: 1 or -1; 0: it may come to 0, or
+  /// next to it, which is within `near` of its terms or where a turning point is reported. Empty:
+  /// no bounds are known.
+  const std::vector<int>& sides(const numbers::Box& values, double near = 0);
   /// Whether an element is 0 but for the rounding of its terms.
   bool is_noise(const Eigen::VectorXd& values, Eigen::Index element = 0);
   /// Between them it is smooth along a flow.
@@ -67,6 +74,7 @@ class EventFunction {
   std::unique_ptr<const expr::Program> terms_program_;
   SystemFunction terms_;
   Breaks breaks_;
+  std::vector<int> sides_;
 };
 
 enum class Truth { no, yes, open };

@@ -50,6 +50,9 @@ class PointFunction {
   const numbers::Matrix& operator()(const Eigen::VectorXd& x, double tau) {
     return function_(x, tau);
   }
+  /// Bounds of its elements over a box of states; false: none are known.
+  bool enclose(const numbers::Box& x) { return function_.enclose(x); }
+  const numbers::Range& range(std::size_t element) const { return function_.range(0, element); }
 
  private:
   numbers::StackedFunctions function_;

@@ -53,7 +53,13 @@ struct FlowMapEvaluator::Kept {
     };
     const auto rate_at = [&](double q, const Matrix& y, Matrix& out) {
       go_to(q, y);
-      out = d * rate(point).reshaped();
+      if (!rate.run(point)) {
+        out = d * rate.at(0, point).reshaped();
+        return;
+      }
+      out.resize(y.rows(), 1);
+      for (Index k = 0; k < y.rows(); ++k)
+        out(k) = d * rate.element(0, static_cast<std::size_t>(k));
     };
     Extrapolation::Watch watch;
     watch.jumps = jumps;

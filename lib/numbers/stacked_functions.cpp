@@ -83,6 +83,11 @@ bool StackedFunctions::run(const Eigen::VectorXd& x, double beside) {
   return tape_->run();
 }
 
+bool StackedFunctions::enclose(const Box& x) {
+  if (!tape_) make();
+  return tape_->enclose(x);
+}
+
 const Matrix& StackedFunctions::value(std::size_t k) {
   tape_->copy(k, values_[k].data());
   return values_[k];

@@ -26,6 +26,20 @@ bool Tape::is_finite() const {
   return found == 0;
 }
 
+bool Tape::enclose(const Box& inputs) {
+  if (!blocks_.empty()) return false;
+  if (ranges_.empty())
+    for (const double value : registers_) ranges_.push_back({value, value});
+  for (const std::uint32_t k : reads_) {
+    if (k >= inputs.size()) return false;
+    ranges_[k] = inputs[k];
+  }
+  return std::all_of(steps_.begin(), steps_.end(), [&](const TapeCode::Step& step) {
+    return numbers::enclose(step.op, ranges_[step.a], ranges_[step.b], ranges_[step.c],
+                            step.a == step.b, ranges_[step.out]);
+  });
+}
+
 bool Tape::run() {
   double* const r = registers_.data();
   for (const TapeCode::Step& step : steps_) {

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "numbers/range.h"
 #include "numbers/scalar_trace.h"
 #include "numbers/tape_block.h"
 #include "numbers/tape_code.h"
@@ -40,6 +41,14 @@ class Tape {
   }
   std::size_t operations() const { return steps_.size(); }
 
+  /// Bounds of the results when the inputs lie anywhere in the box, in which those that are read
+  /// have a place. False: something may have no value there, or no bounds are known, as of blocks.
+  bool enclose(const Box& inputs);
+  /// Of element `k` of a result, after enclose().
+  const Range& range(std::size_t result, std::size_t k) const {
+    return ranges_[results_[result][k]];
+  }
+
  private:
   bool is_finite() const;
 
@@ -49,6 +58,7 @@ class Tape {
   std::vector<std::vector<std::uint32_t>> results_;
   std::vector<std::uint32_t> reads_;
   std::size_t first_ = 0;  ///< register that is computed
+  Box ranges_;             ///< of the registers
 };
 
 }  // namespace gainsmith::numbers

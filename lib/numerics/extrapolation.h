@@ -10,13 +10,15 @@
 //
 // What f branches on (Watch) must keep its sign at the points of the last D_k, and stay away from 0
 // by more than twice what it changes from point to point; otherwise the step is shortened, down to
-// where f is taken as it comes. So steps go up to a border and do not pass over a pair of them.
+// where f is taken as it comes. So steps go up to a border and do not pass over a pair of them. The
+// lines through two points say where a border lies, and so how long the next step may be.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -67,10 +69,10 @@ class Extrapolation {
         q = last ? Scalar(1) : Scalar(q + step);
         start_known_ = false;
         fault_.clear();
-        step = step * growth(columns);
+        step = std::min<Scalar>(step * growth(columns), clear_after(step));
         continue;
       }
-      step = step / Scalar(columns == kGaveUp ? 2 : 4);
+      step = shorter(q, step, columns);
       if (!(step > (watch_.at ? kShortestAtBorder : kShortest)))
         stop(q, y.cwiseAbs().maxCoeff() > beyond);
     }
@@ -82,12 +84,16 @@ class Extrapolation {
   static constexpr int kGaveUp = 0;     ///< all columns were tried
   static constexpr int kFailed = -1;    ///< they do not converge
   static constexpr int kCrosses = -2;   ///< what f branches on comes near 0
+  static constexpr int kNoRate = -3;    ///< at one of the points
   static constexpr int kMost = 400000;  ///< evaluations
   const Scalar kShortest{0x1p-44};
   const Scalar kShortestAtBorder{0x1p-51};  ///< where f is known to branch
   // The lengths below which borders are crossed: what f does at a kink changes y by their square.
   const Scalar kAcrossJumps{0x1p-40};
   const Scalar kAcrossKinks{0x1p-24};
+  // Of the way to a border, and times that from it: steps of 6 points stay away.
+  const Scalar kUpTo{0.7};
+  const Scalar kAwayFrom{2.8};
   const Scalar kEscaped{1e6};
   /// Of what is computed: Decimal100 has digits to spare.
   const Scalar kError =
@@ -108,7 +114,7 @@ class Extrapolation {
     throw Unreached{at, "the steps become too short"};
   }
 
-  /// The columns that a step took, which is in the last of them; otherwise kGaveUp or kFailed.
+  /// The columns that a step took, which is in the last of them; otherwise why there are none.
   int attempt(const Scalar& q, const Scalar& step, const M& y) {
     try {
       if (!start_known_) {
@@ -119,7 +125,7 @@ class Extrapolation {
       return columns(q, step, y);
     } catch (const InputError& error) {
       fault_ = error.message();
-      return kFailed;
+      return kNoRate;
     }
   }
 
@@ -171,18 +177,12 @@ class Extrapolation {
 
   /// Whether the step that ends with the last column passes over no border; short ones may cross.
   bool may_be_taken(const Scalar& q, const Scalar& step, const M& y) {
-    if (!watch_.at || before_.size() == 0) return true;
-    watched_.resize(before_.rows(), points_.cols());
-    const Scalar h = step / Scalar(static_cast<int>(points_.cols()));
-    for (Eigen::Index i = 0; i < points_.cols(); ++i) {
-      watch_.at(Scalar(q + h * Scalar(static_cast<int>(i) + 1)), points_.col(i), watched_at_);
-      watched_.col(i) = watched_at_;
-    }
+    if (!is_watched()) return true;
+    watch(q, step);
     for (Eigen::Index e = 0; e < before_.rows(); ++e) {
-      const bool jumps = watch_.jumps[static_cast<std::size_t>(e)];
       const bool crosses =
           (before_(e) > Scalar(0)) != (watched_(e, watched_.cols() - 1) > Scalar(0));
-      const bool is_short = step <= (jumps ? kAcrossJumps : kAcrossKinks);
+      const bool is_short = step <= across(e);
       if (!is_short && (crosses || !stays_away(e))) return false;
       if (crosses && watch_.crossed) watch_.crossed(q, y, e);
     }
@@ -203,6 +203,73 @@ class Extrapolation {
       last = next;
     }
     return change == Scalar(0) || nearest > change + change;
+  }
+
+  bool is_watched() const { return watch_.at && before_.size() > 0; }
+
+  /// A step of that length may pass over a border.
+  const Scalar& across(Eigen::Index e) const {
+    return watch_.jumps[static_cast<std::size_t>(e)] ? kAcrossJumps : kAcrossKinks;
+  }
+
+  /// What f branches on at the points of the last column.
+  void watch(const Scalar& q, const Scalar& step) {
+    watched_.resize(before_.rows(), points_.cols());
+    const Scalar h = step / Scalar(static_cast<int>(points_.cols()));
+    for (Eigen::Index i = 0; i < points_.cols(); ++i) {
+      watch_.at(Scalar(q + h * Scalar(static_cast<int>(i) + 1)), points_.col(i), watched_at_);
+      watched_.col(i) = watched_at_;
+    }
+  }
+
+  Scalar watched(Eigen::Index e, Eigen::Index point) const {
+    return point == 0 ? before_(e) : watched_(e, point - 1);
+  }
+
+  /// The length after one with which there is no step: where it passes over a border, up to short of
+  /// it, or where that is nearer than across(), over it.
+  Scalar shorter(const Scalar& q, const Scalar& step, int columns) {
+    const Scalar usual = step / Scalar(columns == kGaveUp ? 2 : 4);
+    if (!is_watched() || columns == kNoRate) return usual;
+    if (columns != kCrosses) {
+      try {
+        watch(q, step);
+      } catch (const InputError&) {
+        return usual;
+      }
+    }
+    std::optional<Scalar> nearest;
+    const Eigen::Index points = watched_.cols();
+    for (Eigen::Index e = 0; e < before_.rows(); ++e) {
+      if (step <= across(e)) continue;
+      for (Eigen::Index i = 1; i <= points; ++i) {
+        const Scalar left = watched(e, i - 1), right = watched(e, i);
+        if ((left > Scalar(0)) == (right > Scalar(0))) continue;
+        const Scalar root = (Scalar(static_cast<int>(i) - 1) + left / (left - right)) * step /
+                            Scalar(static_cast<int>(points));
+        const Scalar length = std::max<Scalar>(across(e), kUpTo * root);
+        if (!nearest || length < *nearest) nearest = length;
+        break;
+      }
+    }
+    return nearest && *nearest < step ? *nearest : usual;
+  }
+
+  /// How long the step after one may be that stays_away() as what f branches on goes on in a line
+  /// through its last two points; across() at least.
+  Scalar clear_after(const Scalar& step) const {
+    using std::abs;
+    Scalar length(1);
+    if (!is_watched()) return length;
+    const Eigen::Index points = watched_.cols();
+    for (Eigen::Index e = 0; e < before_.rows(); ++e) {
+      const Scalar last = watched(e, points), before = watched(e, points - 1);
+      const Scalar change = abs(Scalar(last - before)) * Scalar(static_cast<int>(points));
+      const bool nears = abs(last) < abs(before) && (last > Scalar(0)) == (before > Scalar(0));
+      const Scalar most = abs(last) * step * (nears ? kUpTo : kAwayFrom);
+      if (most < length * change) length = std::max<Scalar>(across(e), Scalar(most / change));
+    }
+    return length;
   }
 
   /// Row k of the table, in the place of row k - 1; whether it is finite.

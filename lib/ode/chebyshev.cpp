@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <vector>
@@ -91,6 +92,22 @@ VectorXd at(const Matrix& coefficients, double x) {
   VectorXd result(coefficients.rows());
   at(coefficients, x, result.data());
   return result;
+}
+
+numbers::Box ranges(const Matrix& coefficients) {
+  VectorXd swing = VectorXd::Zero(coefficients.rows());
+  for (Index k = 1; k < coefficients.cols(); ++k) swing += coefficients.col(k).cwiseAbs();
+  // T_k by recurrence err by k^2 units at most.
+  const auto terms = static_cast<double>(coefficients.cols() * coefficients.cols());
+  const double unit = 4 * terms * std::numeric_limits<double>::epsilon();
+  numbers::Box box;
+  box.reserve(static_cast<std::size_t>(swing.size()));
+  for (Index k = 0; k < swing.size(); ++k) {
+    const double first = coefficients(k, 0);
+    const double radius = swing(k) > 0 ? swing(k) + unit * (std::abs(first) + swing(k)) : 0;
+    box.push_back({first - radius, first + radius});
+  }
+  return box;
 }
 
 Matrix part(const Matrix& coefficients, double from, double to) {

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "numbers/matrix.h"
+#include "numbers/range.h"
 
 namespace gainsmith::ode::chebyshev {
 
@@ -37,6 +38,9 @@ double first(const Coefficients& coefficients, double x) {
 }
 /// p(x), to `out`.
 void at(const numbers::Matrix& coefficients, double x, double* out);
+
+/// Where each function lies on [-1, 1], as |T_k| <= 1, and as it is rounded by at().
+numbers::Box ranges(const numbers::Matrix& coefficients);
 
 /// p on [from, to], a part of [-1, 1], as a series of its own.
 numbers::Matrix part(const numbers::Matrix& coefficients, double from, double to);

@@ -15,15 +15,19 @@ using numbers::Matrix;
 
 /// What the kinks of one step share.
 struct Branches::OnStep {
-  explicit OnStep(const StepValues& values)
-      : inside(values),
-        three{values.at(values.from()),
-              values.at(values.from() + (values.to() - values.from()) / 2),
-              values.at(values.to())} {}
+  explicit OnStep(const StepValues& values) : inside(values), box(values.box()) {}
+
+  /// The start, the middle and the end.
+  const std::array<VectorXd, 3>& three() {
+    const double from = inside.from(), to = inside.to();
+    if (!points) points = {inside.at(from), inside.at(from + (to - from) / 2), inside.at(to)};
+    return *points;
+  }
 
   const StepValues& inside;
+  numbers::Box box;
   std::vector<double> times;  ///< ode::first_points; none: not asked for yet
-  std::array<VectorXd, 3> three;
+  std::optional<std::array<VectorXd, 3>> points;
   std::optional<CrossingsOnStep> crossings;  ///< of one kink
   VectorXd slack;                            ///< of its elements
 };
@@ -83,9 +87,12 @@ std::optional<Branches::Change> Branches::first_change(const StepValues& inside,
     if (function.rests()) continue;
     if (!on_step) on_step.emplace(inside);
     on_step->crossings.reset();
+    const std::vector<int>& sides = function.sides(on_step->box);
     for (Index e = 0; e < function.size(); ++e) {
       const double branch = values(offset(k) + e);
-      const ode::StepRange range([&](const VectorXd& x) { return function(x)(e); }, on_step->three);
+      if (!sides.empty() && sides[static_cast<std::size_t>(e)] * branch > 0) continue;
+      const ode::StepRange range([&](const VectorXd& x) { return function(x)(e); },
+                                 on_step->three());
       if (!function.waves() && range.is_far_from_zero(branch)) continue;
       if (const auto change = change_of(k, e, branch, *on_step);
           change && (!first || change->t < first->t))
@@ -103,7 +110,7 @@ std::optional<Branches::Change> Branches::change_of(std::size_t one, Index eleme
       on_step.times = ode::first_points(on_step.inside.from(), on_step.inside.to());
     on_step.crossings.emplace(watch_->switches[one], on_step.inside, times);
     on_step.slack = on_step.crossings->noise();
-    const auto terms = watch_->switches[one].terms(on_step.three[0]).reshaped();
+    const auto terms = watch_->switches[one].terms(on_step.three()[0]).reshaped();
     if (is_kink(one)) on_step.slack += (relative_ * terms.array() + absolute_ * part_).matrix();
   }
   const double slack = on_step.slack(element);

@@ -1,9 +1,11 @@
 #include "simulate/crossings_on_step.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "ode/chebyshev.h"
+#include "ode/tolerances.h"
 #include "simulate/tolerances.h"
 
 namespace gainsmith::simulate {
@@ -22,7 +24,39 @@ constexpr int most_halvings = 60;
 /// Of the step: the earliest turning point that rounding leaves.
 constexpr double earliest = 1 / hybrid::kPlain;
 
+/// Where seems_apart compares.
+constexpr std::array<double, 2> check_points = {-0.617, 0.443};
+
 }  // namespace
+
+bool seems_apart(hybrid::EventFunction& function, const StepValues& inside, double near) {
+  constexpr int few = 4;
+  if (!function.breaks().none()) return false;
+  SomeValues used(inside, function.elements());
+  const auto at = [&](double x) -> const VectorXd& {
+    return used.at(ode::chebyshev::outer(x, inside.from(), inside.to()));
+  };
+  const VectorXd& points = ode::chebyshev::points(few);
+  Matrix values(function.size(), points.size());
+  Matrix checks(function.size(), static_cast<Index>(check_points.size()));
+  for (Index k = 0; k < checks.cols(); ++k)
+    checks.col(k) = function(at(check_points[static_cast<std::size_t>(k)])).reshaped();
+  for (Index k = 0; k < points.size(); ++k) values.col(k) = function(at(points(k))).reshaped();
+  const VectorXd terms = function.terms(at(1)).reshaped();
+  const Matrix series = ode::chebyshev::coefficients(values);
+  VectorXd error = series.rightCols(2).cwiseAbs().rowwise().sum();
+  for (Index k = 0; k < checks.cols(); ++k)
+    error = error.cwiseMax(
+        (checks.col(k) - ode::chebyshev::at(series, check_points[static_cast<std::size_t>(k)]))
+            .cwiseAbs());
+  for (Index e = 0; e < function.size(); ++e) {
+    const double swing = series.row(e).tail(few).cwiseAbs().sum();
+    const double border = std::max(2 * (near + hybrid::kTermRounding) * terms(e),
+                                   ode::kTurnsNear * std::abs(series(e, 0)));
+    if (!(std::abs(series(e, 0)) > swing + ode::kFar * error(e) + border)) return false;
+  }
+  return true;
+}
 
 CrossingsOnStep::CrossingsOnStep(hybrid::EventFunction& function, const StepValues& inside,
                                  const std::vector<double>& times)
@@ -42,7 +76,7 @@ CrossingsOnStep::CrossingsOnStep(hybrid::EventFunction& function, const StepValu
   noise_ *= hybrid::kTermRounding;
   breaks_ = function.breaks()
                 .on([this](double t) -> const VectorXd& { return used_.at(t); }, inside_.from(),
-                    inside_.to())
+                    inside_.to(), function.breaks().none() ? numbers::Box() : inside_.box())
                 .value_or(std::vector<ode::Break>());
 }
 

@@ -11,6 +11,11 @@
 
 namespace gainsmith::simulate {
 
+/// Whether all elements of a function without bounds stay away from 0 on a step, and from what
+/// `near` says in CrossingsOnStep::roots: a polynomial of degree 4 does, by four times its distance
+/// from the function between its points.
+bool seems_apart(hybrid::EventFunction& function, const StepValues& inside, double near);
+
 class CrossingsOnStep {
  public:
   /// All must outlive it. `times`: ode::first_points of the step.

@@ -99,11 +99,17 @@ std::vector<double> EventWatch::crossings(
     const std::function<void(const hybrid::NearTurn&, bool)>& turn, std::optional<double>* hidden) {
   std::vector<double> result;
   std::vector<double> times;
+  const numbers::Box box = inside.box();
   active_functions(values, [&](hybrid::EventFunction& function, Sides sides, const Role& role) {
     if (function.size() == 0) return;
+    const std::vector<int>& apart = function.sides(box, near);
+    if (apart.empty() ? seems_apart(function, inside, near)
+                      : std::find(apart.begin(), apart.end(), 0) == apart.end())
+      return;
     if (times.empty()) times = ode::first_points(inside.from(), inside.to());
     CrossingsOnStep on_step(function, inside, times);
     for (Index element = 0; element < function.size(); ++element) {
+      if (!apart.empty() && apart[static_cast<std::size_t>(element)] != 0) continue;
       if (hidden != nullptr)
         if (const auto early = on_step.hidden_turn(element); early && early < hidden->value_or(1))
           *hidden = early;

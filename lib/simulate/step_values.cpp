@@ -16,6 +16,16 @@ VectorXd StepValues::at(double t) const {
   return values;
 }
 
+numbers::Box StepValues::box() const {
+  numbers::Box box = ode::chebyshev::ranges(step_->coefficients);
+  for (Index k = 0; k < start_->size(); ++k) {
+    const double first = (*start_)(k);
+    if (static_cast<std::size_t>(k) == box.size()) box.push_back({first, first});
+    box[static_cast<std::size_t>(k)].widen(first);
+  }
+  return box;
+}
+
 SomeValues::SomeValues(const StepValues& inside, const std::vector<Index>& elements)
     : inside_(inside), values_(*inside.start_) {
   const numbers::Matrix& all = inside.step_->coefficients;

@@ -16,6 +16,8 @@ class StepValues {
       : field_(&field), start_(&start), step_(&step) {}
 
   Eigen::VectorXd at(double t) const;
+  /// Where each of them lies all along the step: |T_k| <= 1.
+  numbers::Box box() const;
   double from() const { return step_->from; }
   double to() const { return step_->to; }
 

@@ -25,6 +25,8 @@ using Seconds = std::chrono::duration<double>;
 
 constexpr std::uint64_t kFirstRuns = 64;  ///< by which it is decided whether packs go on
 
+}  // namespace
+
 /// What threads have done, added as it comes, and saved now and then. Of a campaign until its first
 /// violated run it is added in the order of the runs, and nothing behind that run.
 class Collector {
@@ -90,17 +92,15 @@ class Collector {
   std::uint64_t next_;                        ///< run that is to be added
 };
 
+namespace {
+
 /// Makes these runs, or those until the campaign is stopped. Slow runs are handed over as they come.
-void judge_runs(const Setup& setup, const Packs* packs, std::uint64_t seed, RunRange range,
-                Collector& collector) {
+void judge_runs(const Setup& setup, RunRange range, PackJudge& judge, Collector& collector) {
   constexpr Seconds kSlow(1);
-  PackJudge judge(setup, packs);
   Tally sum;
   std::uint64_t from = range.first, next = range.first;
   auto begin = Clock::now();
-  if (collector.is_behind_the_end(range.first)) return;
   try {
-    judge.begin(seed, range.first, range.last);
     for (; next < range.last; ++next) {
       check_stop();
       if (collector.is_behind_the_end(next)) break;
@@ -158,6 +158,7 @@ void repeat_carefully(const Setup& setup, CampaignPart& part) {
     auto& careful = part.repeats[claim.run].careful;
     if (!careful) {
       RunVerdict again = judge.careful(part.facts.seed, claim.run);
+      check_stop();  // perhaps amid the run
       careful = {std::move(again.findings), again.termination, std::move(again.message)};
     }
     require_agreement(claim.run, claim.worst.judgement, careful->findings[c].judgement);
@@ -208,13 +209,26 @@ Campaign::Campaign(const Setup& setup, const CampaignOptions& options)
   facts_.many_at_once = static_cast<bool>(packs_);
 }
 
-/// Where packs decide most of the first runs.
-bool Campaign::packs_go_on() const {
-  if (!packs_) return false;
-  const std::uint64_t first = std::min(facts_.asked, kFirstRuns);
-  PackJudge judge(*setup_, &packs_);
-  judge.begin(facts_.seed, 0, first);
-  return 2 * judge.careful_count() <= first;
+/// Whether packs decide most of the first runs; then they make the others too.
+bool Campaign::packs_go_on(const PackJudge& first) const {
+  return 2 * first.careful_count() <= std::min(facts_.asked, kFirstRuns);
+}
+
+void Campaign::make_range(RunRange range, const Packs* packs, const PackJudge* prepared,
+                          std::uint64_t size, Collector& collector) const {
+  parallel_for((range.count() + size - 1) / size, threads_, [&](std::size_t block) {
+    const RunRange own{range.first + block * size,
+                       std::min(range.last, range.first + (block + 1) * size)};
+    if (collector.is_behind_the_end(own.first)) return;
+    PackJudge judge(*setup_, packs);
+    try {
+      prepared ? judge.begin_as(*prepared) : judge.begin(facts_.seed, own.first, own.last);
+    } catch (const Stopped&) {
+      return;
+    }
+    judge_runs(*setup_, own, judge, collector);
+  });
+  check_stop();
 }
 
 void Campaign::make_runs(RunRange range, CampaignPart& part, const Save& save) const {
@@ -225,32 +239,29 @@ void Campaign::make_runs(RunRange range, CampaignPart& part, const Save& save) c
   const Doing doing("runs", range.count(), range.count() - count);
   Collector collector(part, save, doing);
   try {
-    const Packs* const first = packs_ ? &packs_ : nullptr;
-    const Packs* const packs = packs_go_on() ? &packs_ : nullptr;
-    // Linear packs put runs of one law together.
-    const std::uint64_t size = packs == nullptr ? kFirstRuns : packs->linear ? 2048 : 256;
+    PackJudge first(*setup_, packs_ ? &packs_ : nullptr);
+    if (packs_) first.begin(facts_.seed, 0, std::min(facts_.asked, kFirstRuns));
+    const Packs* const packs = packs_ && packs_go_on(first) ? &packs_ : nullptr;
+    // Linear packs put runs of one law together; careful runs may be slow, and are shared out.
+    const std::uint64_t shared = count / (4 * thread_count(threads_)) + 1;
+    const std::uint64_t single = std::min(shared, kFirstRuns);
+    const std::uint64_t size = packs == nullptr ? single : packs->linear ? 2048 : 256;
     const bool grows = (between_ && packs == nullptr) || facts_.until_violated;
-    const auto work_between = [&](std::uint64_t runs) {
-      if (between_ && runs > 0) between_(runs);
+    const auto work_between = [&] {
+      if (between_ && part.tally.runs > 0) between_(part.tally.runs);
     };
     for (const RunRange& one : missing) {
-      const RunRange early{one.first, std::min(one.last, kFirstRuns)};
-      const RunRange late{std::max(one.first, kFirstRuns), one.last};
-      if (early.count() > 0) judge_runs(*setup_, first, facts_.seed, early, collector);
-      work_between(part.tally.runs);
-      std::uint64_t at_once = grows ? size : late.count();
-      for (std::uint64_t first_run = late.first; first_run < late.last;) {
-        const std::uint64_t last_run = std::min(late.last, first_run + at_once);
-        parallel_for((last_run - first_run + size - 1) / size, threads_, [&](std::size_t block) {
-          const std::uint64_t from = first_run + block * size;
-          judge_runs(*setup_, packs, facts_.seed, {from, std::min(last_run, from + size)},
-                     collector);
-        });
-        check_stop();
-        first_run = last_run;
-        if (first_run == late.last || part.ended()) break;
-        work_between(part.tally.runs);
-        at_once *= 2;
+      const RunRange early{one.first, packs_ ? std::min(one.last, kFirstRuns) : one.first};
+      const RunRange late{std::max(one.first, packs_ ? kFirstRuns : 0), one.last};
+      if (early.first < early.last)
+        make_range(early, &packs_, &first, packs ? kFirstRuns : single, collector);
+      work_between();
+      std::uint64_t at_once = grows ? kFirstRuns : one.count();
+      for (RunRange next = late; next.first < late.last && !part.ended(); at_once *= 2) {
+        next.last = next.first + std::min(late.last - next.first, std::max(at_once, size));
+        make_range(next, packs, nullptr, size, collector);
+        next.first = next.last;
+        if (next.first < late.last) work_between();
       }
     }
   } catch (const Stopped&) {
@@ -262,7 +273,8 @@ void Campaign::make_runs(RunRange range, CampaignPart& part, const Save& save) c
 void Campaign::repeat_worst(CampaignPart& part) const {
   if (part.tally.runs == 0) return;
   if (packs_) {
-    const Concluding concluding;
+    // A command that is stopped tells what it knows within a second.
+    const Concluding concluding(0.5);
     repeat_carefully(*setup_, part);
   }
   check_stop();

@@ -46,6 +46,7 @@ struct CheckReport {
   /// Violating runs first, then undecided ones, then by score; ties to the lowest.
   std::uint64_t worst_run = 0;
   claims::Finding worst;  ///< in that run
+  bool measured = true;   ///< false after a stop: of `worst` the judgement and the score are known
   double floor = 0;       ///< the largest Finding::floor
 };
 
@@ -92,6 +93,8 @@ struct Report {
   bool interrupted() const { return runs < asked && !ended; }
 };
 
+class Collector;
+
 /// Makes the runs of a campaign, or a part of them. The setup must outlive it.
 class Campaign {
  public:
@@ -108,11 +111,14 @@ class Campaign {
   void make_runs(RunRange range, CampaignPart& part, const Save& save = {}) const;
 
   /// Adds what conclude() asks of the worst runs. Of a campaign that was stopped they are not
-  /// confirmed. Stopped (base/stop.h) where it cannot be done.
+  /// confirmed, and repeated only as far as half a second goes. Stopped (base/stop.h) where
+  /// something is left to do.
   void repeat_worst(CampaignPart& part) const;
 
  private:
-  bool packs_go_on() const;
+  bool packs_go_on(const PackJudge& first) const;
+  void make_range(RunRange range, const Packs* packs, const PackJudge* prepared, std::uint64_t size,
+                  Collector& collector) const;
 
   const Setup* setup_;
   unsigned threads_;

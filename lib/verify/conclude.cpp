@@ -17,8 +17,10 @@ void take_careful(const CampaignPart& part, Tally& tally) {
   for (std::size_t c = 0; c < tally.claims.size(); ++c) {
     ClaimTally& claim = tally.claims[c];
     const auto known = part.repeats.find(claim.run);
-    if (known == part.repeats.end() || !known->second.careful)
+    if (known == part.repeats.end() || !known->second.careful) {
+      if (tally.runs < part.facts.asked) continue;  // stopped before
       throw std::logic_error("a worst run was not repeated");
+    }
     const Repeat::Careful& again = *known->second.careful;
     const claims::Finding& found = again.findings.at(c);
     if (found.undecided() && !claim.worst.undecided()) {
@@ -39,11 +41,15 @@ void take_careful(const CampaignPart& part, Tally& tally) {
   }
 }
 
-std::vector<CheckReport> report_checks(const CampaignFacts& facts, const Tally& tally) {
+std::vector<CheckReport> report_checks(const CampaignPart& part, const Tally& tally) {
   std::vector<CheckReport> reports;
   std::size_t next = 0;
-  for (const ClaimFacts& claim : facts.claims) {
-    CheckReport report{claim.name, claim.kind, claim.stated(), claim.missing, 0, 0, 0, {}, 0};
+  for (const ClaimFacts& claim : part.facts.claims) {
+    CheckReport report;
+    report.name = claim.name;
+    report.kind = claim.kind;
+    report.stated = claim.stated();
+    report.missing = claim.missing;
     if (claim.stated()) {
       const ClaimTally& found = tally.claims[next++];
       report.violations = found.violations;
@@ -51,6 +57,9 @@ std::vector<CheckReport> report_checks(const CampaignFacts& facts, const Tally& 
       report.floor = found.floor;
       report.worst_run = found.run;
       report.worst = found.worst;
+      const auto known = part.repeats.find(found.run);
+      report.measured = !part.facts.many_at_once ||
+                        (known != part.repeats.end() && known->second.careful.has_value());
     }
     reports.push_back(std::move(report));
   }
@@ -150,7 +159,7 @@ Report conclude(const CampaignPart& part) {
   if (facts.many_at_once) take_careful(part, tally);
   take_counts(part, tally, report);
   if (!report.different) report.violation_probability = probability_bound(report);
-  report.checks = report_checks(facts, tally);
+  report.checks = report_checks(part, tally);
   report.first_undecided = tally.first_undecided;
   if (report.first_undecided)
     report.first_undecided->check = place_of(report.checks, report.first_undecided->check);

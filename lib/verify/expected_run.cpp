@@ -27,9 +27,10 @@ struct FoundFigure {
 class TwoRuns {
  public:
   /// The setup must outlive it.
-  TwoRuns(const EventSetup& setup, std::uint64_t seed) : setup_(&setup) {
+  TwoRuns(const EventSetup& setup, std::uint64_t seed, std::optional<hybrid::Trajectory> usual)
+      : setup_(&setup) {
     simulate::Simulator simulator(setup_->system, setup_->scenario);
-    usual_ = simulator.run(seed, 0, setup_->accuracy(kAccuracyOfOne));
+    usual_ = usual ? std::move(*usual) : simulator.run(seed, 0, setup_->accuracy(kAccuracyOfOne));
     sharper_ = simulator.run(seed, 0, setup_->accuracy(kAccuracyOfOne, bounded::kSharper));
     check_stop();
   }
@@ -63,12 +64,13 @@ std::string said(const std::optional<double>& value) { return value ? brief(*val
 
 }  // namespace
 
-RunDifferences run_differences(const model::Instance& instance, const model::Gains& gains) {
+RunDifferences run_differences(const model::Instance& instance, const model::Gains& gains,
+                               std::optional<hybrid::Trajectory> made) {
   RunDifferences result;
   const auto& expect = instance.design->expect;
   if (!expect || expect->run.empty()) return result;
   const auto setup = make_event_setup(bind::run_texts(instance, gains));
-  TwoRuns runs(*setup, instance.design->campaign.seed);
+  TwoRuns runs(*setup, instance.design->campaign.seed, std::move(made));
   for (const model::ExpectedFigure& expected : expect->run) {
     ++result.figures;
     const model::Figure& figure = expected.figure;

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "hybrid/trajectory.h"
 #include "model/gains.h"
 #include "model/instance.h"
 
@@ -16,7 +18,9 @@ struct RunDifferences {
   std::size_t figures = 0;             ///< that were expected
 };
 
-/// What is expected of the first run (number 0) and is not found there.
-RunDifferences run_differences(const model::Instance& instance, const model::Gains& gains);
+/// What is expected of the first run (number 0) and is not found there. `made`: that run (replay.h),
+/// where it is known already.
+RunDifferences run_differences(const model::Instance& instance, const model::Gains& gains,
+                               std::optional<hybrid::Trajectory> made = {});
 
 }  // namespace gainsmith::verify

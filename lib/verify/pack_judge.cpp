@@ -76,6 +76,12 @@ void PackJudge::begin(std::uint64_t seed, std::uint64_t first, std::uint64_t las
   if (packs_) verdicts_ = packs_->run(seed, first, last);
 }
 
+void PackJudge::begin_as(const PackJudge& prepared) {
+  seed_ = prepared.seed_;
+  first_ = prepared.first_;
+  verdicts_ = prepared.verdicts_;
+}
+
 std::uint64_t PackJudge::careful_count() const {
   std::uint64_t count = 0;
   for (std::size_t k = 0; k < verdicts_.size(); ++k)

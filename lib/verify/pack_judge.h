@@ -38,6 +38,8 @@ class PackJudge {
 
   /// Prepares runs first, ..., last - 1.
   void begin(std::uint64_t seed, std::uint64_t first, std::uint64_t last);
+  /// Those that another one has prepared.
+  void begin_as(const PackJudge& prepared);
   /// How many of them are careful.
   std::uint64_t careful_count() const;
   /// The verdict on one of them. std::logic_error where packs and the careful run contradict each

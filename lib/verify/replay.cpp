@@ -70,9 +70,10 @@ class EventTable {
     for (const claims::Claim& claim : setup.claims)
       if (claim.stated() && add(claim.name, claim.value, Column::Kind::claim, std::nullopt))
         sources_.back().column.scope = scope(claim);
+    together_.emplace(hybrid::stacked(programs_, setup.layout, setup.system.constants));
   }
 
-  void fill(double step, bool with_rounding, Replay& replay) {
+  void fill(double step, Replay& replay) {
     replay.columns = {{"t", "t", "", Column::Kind::time}, {"j", "j", "", Column::Kind::jumps}};
     for (const Source& source : sources_)
       for (int e = 0; e < source.shape.size(); ++e) {
@@ -81,21 +82,50 @@ class EventTable {
         replay.columns.back().element = e;
       }
     std::vector<double> values;
-    std::vector<double> roundings;
     claims::visit(replay.run, step, [&](const claims::Moment& moment) {
       values.push_back(moment.t);
       values.push_back(static_cast<double>(moment.j));
       replay.events.push_back(moment.jump == nullptr ? "" : event_of(*moment.jump));
-      for (Source& source : sources_) add_values(source, moment, values);
-      if (with_rounding) add_roundings(moment, values, roundings);
+      add_values(moment.x, moment.jump, values);
     });
-    const auto rows = static_cast<Index>(replay.events.size());
-    const auto columns = static_cast<Index>(replay.columns.size());
-    replay.table = Rows::Map(values.data(), rows, columns);
-    if (with_rounding) replay.rounding = Rows::Map(roundings.data(), rows, columns);
+    replay.table = Rows::Map(values.data(), static_cast<Index>(replay.events.size()),
+                             static_cast<Index>(replay.columns.size()));
+  }
+
+  /// To a table that has been filled.
+  void round(double step, Replay& replay) {
+    replay.rounding.setZero(replay.table.rows(), replay.table.cols());
+    Index row = 0;
+    std::vector<double> higher, lower;
+    hybrid::JumpPoint jump;
+    claims::visit(replay.run, step, [&](const claims::Moment& moment) {
+      for (const double direction : {1.0, -1.0}) {
+        moved_ = moment.x;
+        move(direction, moved_);
+        if (moment.jump != nullptr) {
+          jump.event = moment.jump->event;
+          jump.before = moment.jump->before;
+          move(direction, jump.before);
+        }
+        std::vector<double>& values = direction > 0 ? higher : lower;
+        values.clear();
+        add_values(moved_, moment.jump == nullptr ? nullptr : &jump, values);
+      }
+      Index column = kFirstSource;
+      std::size_t k = 0;
+      for (const Source& source : sources_)
+        for (int e = 0; e < source.shape.size(); ++e, ++k, ++column) {
+          if (source.offset) continue;
+          const double value = replay.table(row, column);
+          replay.rounding(row, column) =
+              std::fmin(std::abs(higher[k] - value), std::abs(lower[k] - value));
+        }
+      ++row;
+    });
   }
 
  private:
+  static constexpr Index kFirstSource = 2;  ///< columns: t and j stand before it
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
   ClaimScope scope(const claims::Claim& claim) const {
@@ -117,6 +147,7 @@ class EventTable {
         return false;
     sources_.push_back({column(name, kind), program.shape(), std::nullopt,
                         claims::RunValue(program, setup_.layout, setup_.system.constants), at});
+    if (!at) programs_.push_back(&program);
     return true;
   }
 
@@ -138,31 +169,6 @@ class EventTable {
     return {name, name, "", kind};
   }
 
-  /// The last of the values are those of the moment.
-  void add_roundings(const claims::Moment& moment, const std::vector<double>& values,
-                     std::vector<double>& roundings) {
-    std::vector<double> higher, lower;
-    for (const double direction : {1.0, -1.0}) {
-      claims::Moment there = moment;
-      move(direction, there.x);
-      hybrid::JumpPoint jump;
-      if (moment.jump != nullptr) {
-        jump = *moment.jump;
-        move(direction, jump.before);
-        there.jump = &jump;
-      }
-      for (Source& source : sources_) add_values(source, there, direction > 0 ? higher : lower);
-    }
-    roundings.insert(roundings.end(), 2, 0.0);  // of t and j
-    std::size_t k = 0;
-    for (const Source& source : sources_)
-      for (int e = 0; e < source.shape.size(); ++e, ++k) {
-        const double value = values[values.size() - higher.size() + k];
-        roundings.push_back(
-            source.offset ? 0 : std::fmin(std::abs(higher[k] - value), std::abs(lower[k] - value)));
-      }
-  }
-
   /// Each element by another part of kShownPlaces units in the last place, so that differences move too.
   static void move(double direction, Eigen::VectorXd& x) {
     constexpr double kMost = kShownPlaces * std::numeric_limits<double>::epsilon() / 2;
@@ -173,37 +179,42 @@ class EventTable {
     }
   }
 
-  static void add_values(Source& source, const claims::Moment& moment,
-                         std::vector<double>& values) {
-    const int size = source.shape.size();
-    if (source.offset) {
-      for (int e = 0; e < size; ++e) values.push_back(moment.x(*source.offset + e));
-      return;
+  /// Those of all sources in a row of the table; `jump`: the one just before it, if any.
+  void add_values(const Eigen::VectorXd& x, const hybrid::JumpPoint* jump,
+                  std::vector<double>& values) {
+    const bool known = together_->run(x);
+    std::size_t k = 0;
+    for (Source& source : sources_) {
+      const auto size = static_cast<std::size_t>(source.shape.size());
+      if (source.offset) {
+        const double* const first = x.data() + *source.offset;
+        values.insert(values.end(), first, first + size);
+      } else if (!source.at) {
+        const numbers::Matrix& value = known ? together_->value(k) : (*source.value)(x);
+        values.insert(values.end(), value.data(), value.data() + size);
+        ++k;
+      } else if (jump != nullptr && jump->event == *source.at) {
+        const numbers::Matrix& value = (*source.value)(jump->before);
+        values.insert(values.end(), value.data(), value.data() + size);
+      } else {
+        values.insert(values.end(), size, std::numeric_limits<double>::quiet_NaN());
+      }
     }
-    const bool exists = !source.at || (moment.jump != nullptr && moment.jump->event == *source.at);
-    if (!exists) {
-      values.insert(values.end(), static_cast<std::size_t>(size),
-                    std::numeric_limits<double>::quiet_NaN());
-      return;
-    }
-    const numbers::Matrix& value = (*source.value)(source.at ? moment.jump->before : moment.x);
-    values.insert(values.end(), value.data(), value.data() + value.size());
   }
 
   const EventSetup& setup_;
   std::vector<std::string> observers_;
   std::vector<Source> sources_;
+  std::vector<const expr::Program*> programs_;         ///< of the signals and claims of all rows
+  std::optional<numbers::StackedFunctions> together_;  ///< of these; what they share is made once
+  Eigen::VectorXd moved_;
 };
 
 /// Starts that the campaign gives are asked about with what is drawn.
 std::vector<judge::Fault> faults_of(const hybrid::Trajectory& run, const EventSetup& setup,
                                     std::uint64_t seed, std::uint64_t number) {
   const simulate::Accuracy accuracy = setup.accuracy(kAccuracyOfOne);
-  judge::Question question{accuracy.relative,
-                           accuracy.absolute,
-                           accuracy.absolute_of,
-                           {},
-                           {}};
+  judge::Question question{accuracy.relative, accuracy.absolute, accuracy.absolute_of, {}, {}};
   // What is given is not drawn again.
   if (setup.scenario.given == nullptr)
     question.drawn = judge::DrawnFrom{seed, number, &setup.texts.campaign};
@@ -233,18 +244,28 @@ Replay table_of_run(const Setup& setup, hybrid::Trajectory run, double step, boo
   result.run = std::move(run);
   std::optional<Concluding> concluding;
   if (result.run.ending == hybrid::Ending::interrupted) concluding.emplace();
-  EventTable(*setup.events).fill(step, with_rounding, result);
+  EventTable table(*setup.events);
+  table.fill(step, result);
+  if (with_rounding) table.round(step, result);
   return result;
+}
+
+void add_rounding(const Setup& setup, double step, Replay& replay) {
+  std::optional<Concluding> concluding;
+  if (replay.run.ending == hybrid::Ending::interrupted) concluding.emplace();
+  EventTable(*setup.events).round(step, replay);
+}
+
+hybrid::Trajectory run_of(const Setup& setup, std::uint64_t seed, std::uint64_t run) {
+  const EventSetup& events = *setup.events;
+  return simulate::Simulator(events.system, events.scenario)
+      .run(seed, run, events.accuracy(kAccuracyOfOne));
 }
 
 Replay table_of_run(const Setup& setup, std::uint64_t seed, std::uint64_t run, double step,
                     bool with_rounding) {
   check_points(setup, step);
-  const EventSetup& events = *setup.events;
-  return table_of_run(setup,
-                      simulate::Simulator(events.system, events.scenario)
-                          .run(seed, run, events.accuracy(kAccuracyOfOne)),
-                      step, with_rounding);
+  return table_of_run(setup, run_of(setup, seed, run), step, with_rounding);
 }
 
 Replay replay_run(const Setup& setup, std::uint64_t seed, std::uint64_t run, double step,

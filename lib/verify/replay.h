@@ -50,6 +50,10 @@ struct Replay {
   std::vector<judge::Fault> faults;   ///< that the judge of runs found
 };
 
+/// A run of a campaign by itself, to kAccuracyOfOne (tolerances.h). After a stop (base/stop.h) as far
+/// as it came.
+hybrid::Trajectory run_of(const Setup& setup, std::uint64_t seed, std::uint64_t run);
+
 /// The run and its table alone. `step`: of the points of flows; 0: as the integration went.
 /// `with_rounding`: what is rounding in each value, for pictures. After a stop (base/stop.h) the run
 /// as far as it came. InputError for a step that makes more than 1e7 points.
@@ -59,6 +63,8 @@ Replay table_of_run(const Setup& setup, std::uint64_t seed, std::uint64_t run, d
 /// The table of a run that is there, without claims and faults.
 Replay table_of_run(const Setup& setup, hybrid::Trajectory run, double step,
                     bool with_rounding = false);
+/// Adds what is rounding to a table of that step.
+void add_rounding(const Setup& setup, double step, Replay& replay);
 
 /// The same with the claims, which a stop leaves out. `judged`: whether the run is checked against
 /// the texts.

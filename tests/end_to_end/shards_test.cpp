@@ -139,7 +139,7 @@ TEST_F(Shards, ThatDoNotFitAreRefusedByName) {
   refused({first, other, third}, "runs 3001, not 3000");
   const std::string quarter = folder_.path("quarter.json");
   verify("3000", {"--shard", "2/4", "-o", quarter});
-  refused({first, quarter, third}, quarter + ": runs 750 to 999 of this part are in " + first);
+  refused({first, quarter, third}, quarter + ": runs 750 to 999 of this part, 2/4, are in " + first);
   folder_.file("part2of3.json", text_of(second).substr(0, 900));
   refused(files, second + ":");
   folder_.file("part2of3.json", with(text_of(third), "\"violations\": 0", "\"violations\": 1"));

@@ -1,6 +1,8 @@
 // Zero crossings of event functions in runs: all of them, where texts branch and next to jumps too.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -54,6 +56,24 @@ TEST(ZeroCrossings, WhatBranchesForLittleTimeIsCrossed) {
     for (std::size_t k = 0; k < times.size(); ++k)
       EXPECT_NEAR(times[k], one.times[k], 1e-12) << one.text;
   }
+}
+
+/// Of a matrix exponential no bounds over a step are known: some of its points decide.
+TEST(ZeroCrossings, WhatHasNoBoundsIsSearchedWhereItComesNear) {
+  using EventKind = tests::EventProblem::EventKind;
+  const std::string slow = "trace(expm([0, x; -x, 0])) - 1";          // 2 cos(x) - 1
+  const std::string fast = "trace(expm([0, 40*x; -40*x, 0])) - 1.9";  // 2 cos(40 x) - 1.9
+  const std::vector<double> one = times_of({{"e", slow}}, EventKind::falls);
+  ASSERT_EQ(one.size(), 1U);
+  EXPECT_NEAR(one.front(), std::acos(0.5), 1e-12);
+  std::vector<double> expected;
+  for (int turn = 1; turn <= 22; ++turn)
+    expected.push_back((2 * std::numbers::pi * turn - std::acos(0.95)) / 40);
+  const std::vector<double> many = times_of({{"e", fast}}, EventKind::rises);
+  ASSERT_EQ(many.size(), expected.size());
+  for (std::size_t k = 0; k < many.size(); ++k) EXPECT_NEAR(many[k], expected[k], 1e-12);
+  EXPECT_TRUE(
+      times_of({{"e", "trace(expm([0, 40*x; -40*x, 0])) - 2.1"}}, EventKind::crosses).empty());
 }
 
 TEST(ZeroCrossings, AnEquationOfWhatMovesIsRefused) {
