@@ -276,6 +276,15 @@ INSTANTIATE_TEST_SUITE_P(
             "the assumption 'thresholds'"}),
     name_of);
 
+const std::string kSampled =
+    "data:\n"
+    "  a:   \"[eye(2); -eye(2)]\"\n"
+    "  b:   1.5*ones(4, 1)\n"
+    "  f(x, t): \"[x(2); -x(1)]\"\n"
+    "  hd(x, t): x(1)\n"
+    "  G(xh, S, y, t): \"xh + [0.8; 0.3]*(y - xh(1))\"\n"
+    "  invP(S): eye(2)\n";
+
 INSTANTIATE_TEST_SUITE_P(
     ConstrainedRedesign, OwnPlants,
     ::testing::Values(
@@ -337,29 +346,13 @@ INSTANTIATE_TEST_SUITE_P(
             ""},
         Own{"outside_between_samples",
             "{like: constrained-redesign-jumps, events: {jump: {every: 0.5}}}",
-            "data:\n"
-            "  x0:  [2, 0]\n"
-            "  xh0: [0, 0]\n"
-            "  a:   \"[eye(2); -eye(2)]\"\n"
-            "  b:   1.5*ones(4, 1)\n"
-            "  f(x, t): \"[x(2); -x(1)]\"\n"
-            "  hd(x, t): x(1)\n"
-            "  G(xh, S, y, t): \"xh + [0.8; 0.3]*(y - xh(1))\"\n"
-            "  invP(S): eye(2)\n"
-            "campaign: {runs: 1, horizon: 5}\n",
+            kSampled + "  x0:  [2, 0]\n  xh0: [0, 0]\ncampaign: {runs: 1, horizon: 5}\n",
             "the assumption 'the plant starts in the set'"},
         Own{"samples", "{like: constrained-redesign-jumps, events: {jump: {every: [0.2, 0.5]}}}",
-            "data:\n"
-            "  x0:  [1, 0]\n"
-            "  xh0: [-3, 3]\n"
-            "  a:   \"[eye(2); -eye(2)]\"\n"
-            "  b:   1.5*ones(4, 1)\n"
-            "  f(x, t): \"[x(2); -x(1)]\"\n"
-            "  hd(x, t): x(1)\n"
-            "  G(xh, S, y, t): \"xh + [0.8; 0.3]*(y - xh(1))\"\n"
-            "  invP(S): eye(2)\n"
-            "parameters: {rho: 100}\n"
-            "campaign: {runs: 5, horizon: 15}\n",
+            kSampled + "  x0:  [1, 0]\n"
+                       "  xh0: [-3, 3]\n"
+                       "parameters: {rho: 100}\n"
+                       "campaign: {runs: 5, horizon: 15}\n",
             ""}),
     name_of);
 
