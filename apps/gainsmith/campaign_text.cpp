@@ -30,9 +30,7 @@ model::ClaimRecord claim_record(const verify::CheckReport& check) {
   record.violations = check.violations;
   record.undecided = check.undecided;
   record.worst_run = check.worst_run;
-  const auto measured = [&](double value) {
-    return check.measured ? finite(value) : std::nullopt;
-  };
+  const auto measured = [&](double value) { return check.measured ? finite(value) : std::nullopt; };
   record.worst = {finite(check.worst.score),
                   measured(check.worst.value),
                   measured(check.worst.bound),
@@ -251,8 +249,8 @@ std::string campaign_line(const model::CampaignRecord& record) {
 std::vector<std::string> campaign_causes(const verify::Report& report,
                                          const std::string& gains_file) {
   const auto replay = [&](std::uint64_t run) {
-    return fmt::format("; replay: gainsmith simulate {} --run {} --seed {}", model::quoted(gains_file),
-                       run, report.seed);
+    return fmt::format("; replay: gainsmith simulate {} --run {} --seed {}",
+                       model::quoted(gains_file), run, report.seed);
   };
   std::vector<std::string> causes;
   if (report.verdict == model::CampaignVerdict::undecided && report.first_undecided)

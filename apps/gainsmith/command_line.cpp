@@ -88,7 +88,9 @@ CLI::Option& add_option(CLI::App& command, const Option& option, Value& value) {
     // As of a variable of a script that is not set.
     if constexpr (is_one_of<Value, std::string, std::vector<std::string>>)
       added.check(CLI::Validator(
-          [](const std::string& text) { return std::string(text.empty() ? "a value is missing" : ""); },
+          [](const std::string& text) {
+            return std::string(text.empty() ? "a value is missing" : "");
+          },
           ""));
     if constexpr (is_one_of<Value, std::vector<std::string>>)
       if (!added.get_positional() && !option.count) added.allow_extra_args(false);
@@ -172,7 +174,8 @@ std::string in_words(const CLI::App& command, const CLI::ParseError& error) {
   const std::size_t colon = said.find(": ");
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) == nullptr || colon == said.npos)
     return said;
-  const bool twice = said.find("[At Most") != said.npos || said.find("At Most 1 required") != said.npos;
+  const bool twice =
+      said.find("[At Most") != said.npos || said.find("At Most 1 required") != said.npos;
   return said.substr(0, colon) + (twice ? ": given twice" : ": a value is missing");
 }
 

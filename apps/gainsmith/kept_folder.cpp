@@ -137,9 +137,8 @@ void KeptFolder::read() {
   if (!newest) return;
   const io::Json& found = newest->done["statement"];
   const std::string kind = found.value(kWork, "");
-  const std::string different = kind == statement_.value(kWork, "")
-                                    ? difference_of(found, statement_)
-                                    : "a " + kind;
+  const std::string different =
+      kind == statement_.value(kWork, "") ? difference_of(found, statement_) : "a " + kind;
   if (!different.empty())
     throw InputError({folder_.string()}, "this folder keeps other work: " + different +
                                              "; choose another folder, or remove this one");

@@ -40,8 +40,11 @@ std::vector<std::string> files_of(const std::vector<std::string>& parts) {
          entry.increment(error))
       if (entry->path().extension() == ".json") found.push_back(entry->path().string());
     if (error) throw InputError({part}, "cannot read this folder: " + error.message());
-    if (found.empty()) throw InputError({part}, "this folder has no parts; expected .json files. Results of 'gainsmith run' are shown by "
-                                "'gainsmith report'");
+    if (found.empty())
+      throw InputError(
+          {part},
+          "this folder has no parts; expected .json files. Results of 'gainsmith run' are shown by "
+          "'gainsmith report'");
     std::sort(found.begin(), found.end());
     files.insert(files.end(), found.begin(), found.end());
   }

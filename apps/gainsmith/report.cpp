@@ -43,8 +43,8 @@ ExitCode report(const ReportOptions& options) {
                                      [](const auto& one) { return one.mark == "missing"; });
   const ExitCode exit = missing > 0 ? ExitCode::undecided : ExitCode::yes;
   if (missing > 0)
-    say(fmt::format("{} of {} problems have no result: parts of 'run --shard' are missing\n", missing,
-                    results.size()));
+    say(fmt::format("{} of {} problems have no result: parts of 'run --shard' are missing\n",
+                    missing, results.size()));
   const Telling telling;
   const bool to_stdout = options.output.empty() || options.output == "-";
   if (options.json) {

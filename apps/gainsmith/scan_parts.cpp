@@ -167,9 +167,10 @@ ScanPart merged_scan(const std::vector<std::string>& files) {
     require_same_work(document, file, first, files.front());
     const Shard shard = shard_of(document);
     if (shard.of != whole.shard.of)
-      throw InputError({file}, fmt::format("this is one of {} parts, and {} one of {}: all must be of "
-                                           "one number",
-                                           shard.of, files.front(), whole.shard.of));
+      throw InputError({file},
+                       fmt::format("this is one of {} parts, and {} one of {}: all must be of "
+                                   "one number",
+                                   shard.of, files.front(), whole.shard.of));
     if (const auto [at, added] = known.emplace(shard.index, file); !added)
       throw InputError({file}, at->second == file ? "this part is given twice"
                                                   : fmt::format("this is part {}, and so is {}",

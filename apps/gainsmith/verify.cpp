@@ -153,8 +153,8 @@ ExitCode verify_gains(const VerifyOptions& options) {
                    file.part.figures, grown);
   };
   verify::RunRange range;
-  verify::CampaignOptions asked{runs_of(options), options.seed, options.threads,
-                                options.confidence, !options.until.empty()};
+  verify::CampaignOptions asked{runs_of(options), options.seed, options.threads, options.confidence,
+                                !options.until.empty()};
   if (options.compare)
     asked.between = [&](std::uint64_t runs) { survey({range.first, range.first + runs}, {}); };
   const verify::Campaign campaign(*setup, asked);
@@ -208,9 +208,10 @@ Command verify_command() {
            "--compare", options->compare,
            "also print quantiles of the figures under 'compare' over all runs, each simulated on "
            "its own, which takes longer"),
-       Option("--until", options->until,
-              "violated: end with the first run that violates a claim; the bound on the probability "
-              "knows of it")
+       Option(
+           "--until", options->until,
+           "violated: end with the first run that violates a claim; the bound on the probability "
+           "knows of it")
            .one_of({"violated"})
            .excludes({"--compare", "--worst"}),
        shard_option(options->shard,

@@ -15,7 +15,7 @@ std::atomic<const char*> current = nullptr;
 std::atomic<std::uint64_t> all = 0;
 std::atomic<std::uint64_t> done = 0;
 std::atomic<std::uint64_t> before = 0;  ///< the count began
-std::atomic<std::int64_t> began = 0;  ///< the count, in milliseconds of the clock
+std::atomic<std::int64_t> began = 0;    ///< the count, in milliseconds of the clock
 
 std::int64_t milliseconds() {
   const auto now = std::chrono::steady_clock::now().time_since_epoch();

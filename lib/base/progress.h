@@ -10,10 +10,10 @@ namespace gainsmith {
 
 /// What is being done, and how far it has come.
 struct Progress {
-  std::string what;        ///< empty: nothing was said
-  std::uint64_t done = 0;  ///< steps
-  std::uint64_t of = 0;    ///< 0: they are not counted
-  double seconds = 0;      ///< since the count began
+  std::string what;          ///< empty: nothing was said
+  std::uint64_t done = 0;    ///< steps
+  std::uint64_t of = 0;      ///< 0: they are not counted
+  double seconds = 0;        ///< since the count began
   std::uint64_t before = 0;  ///< steps that were done before it began
 
   // Empty while they are no more than guesses.

@@ -30,8 +30,8 @@ Concluding::Concluding() : Allowance(std::numeric_limits<double>::infinity()) {
 }
 
 Concluding::Concluding(double seconds) : Concluding() {
-  concludes_until_ =
-      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+  concludes_until_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                        std::chrono::duration<double>(seconds));
 }
 
 void spend(double seconds) {

@@ -33,7 +33,7 @@ struct CampaignFacts {
   double confidence = 0;
   double horizon = 0;
   bool integrated = false;
-  bool many_at_once = false;  ///< runs are made in packs
+  bool many_at_once = false;    ///< runs are made in packs
   bool until_violated = false;  ///< it ends with the first run that violates a claim
   std::optional<std::uint64_t> different;
   std::vector<std::string> events;

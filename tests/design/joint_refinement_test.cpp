@@ -47,7 +47,8 @@ TEST(JointRefinement, RowsOfVanishingBlocksHaveTheSizeOfTheirTerms) {
       largest = std::max(largest, std::abs(element));
     return search::SmoothSolution{program.start, true, "recorded", 0};
   };
-  refine_jointly(problem.instance, request, synthesize_searched(problem.instance, request, 1, {}), recorder);
+  refine_jointly(problem.instance, request, synthesize_searched(problem.instance, request, 1, {}),
+                 recorder);
   EXPECT_GT(largest, 1);
   EXPECT_LT(largest, 100);
 }

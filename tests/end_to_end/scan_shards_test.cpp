@@ -61,12 +61,11 @@ TEST_F(ScanShards, ThatDoNotFitAreRefusedByName) {
   };
   refused({files[0], files[2]},
           "7 of 21 points are in no part; make what is missing with --shard 2/3");
-  refused({files[0], files[1], files[1]},
-          files[1] + ": this part is given twice");
+  refused({files[0], files[1], files[1]}, files[1] + ": this part is given twice");
   const std::string other = folder_.path("other.json");
   scan({"--shard", "2/3", "-o", other, "--set", "eta=1e-3"});
-  refused({files[0], other, files[2]},
-          other + ": this part is of another scan than " + files[0] + ": another text of the problem");
+  refused({files[0], other, files[2]}, other + ": this part is of another scan than " + files[0] +
+                                           ": another text of the problem");
   refused({files[0], files[1], folder_.file("cut.json", text_of(files[2]).substr(0, 500))},
           "cut.json:");
 }
@@ -90,9 +89,8 @@ TEST_F(ScanShards, AScanGoesOn) {
 TEST_F(ScanShards, ASearchGoesOn) {
   const std::string kept = folder_.path("kept");
   const auto optimize = [](std::vector<std::string> more) {
-    more.insert(more.begin(),
-                {"optimize", problem("ferrante-seuret-2021/t2-0.70.yaml"), "--over",
-                 "delta=1e-3:1", "--largest", "T2=0.5:1.1", "--evaluations", "40"});
+    more.insert(more.begin(), {"optimize", problem("ferrante-seuret-2021/t2-0.70.yaml"), "--over",
+                               "delta=1e-3:1", "--largest", "T2=0.5:1.1", "--evaluations", "40"});
     return gainsmith(more);
   };
   const std::string out = folder_.path("whole.json"), resumed = folder_.path("resumed.json");
@@ -159,7 +157,8 @@ TEST_F(RunShards, EachProblemIsInOne) {
 
 /// Two problems in one part because the third takes as long as both.
 TEST_F(RunShards, TimesOfAnEarlierRunBalanceTheParts) {
-  for (const auto& [name, seconds] : {std::pair("hinf-norm", 2.0), {"t2-0.70", 1.5}, {"dc-motor", 4.0}}) {
+  for (const auto& [name, seconds] :
+       {std::pair("hinf-norm", 2.0), {"t2-0.70", 1.5}, {"dc-motor", 4.0}}) {
     fs::create_directories(folder_.path("earlier") + "/" + name);
     std::ofstream(folder_.path("earlier") + "/" + name + "/result.json")
         << nlohmann::json({{"timings", {{"total", seconds}}}});

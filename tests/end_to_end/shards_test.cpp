@@ -129,8 +129,7 @@ TEST_F(Shards, ThatDoNotFitAreRefusedByName) {
   };
   refused({first, third},
           "runs 1000 to 1999 are in no part; make what is missing with --shard 2/3");
-  refused({first, second, second, third},
-          second + ": this part is given twice");
+  refused({first, second, second, third}, second + ": this part is given twice");
   const std::string other = folder_.path("other.json");
   verify("3000", {"--seed", "5", "--shard", "2/3", "-o", other});
   refused({first, other, third},
@@ -139,7 +138,8 @@ TEST_F(Shards, ThatDoNotFitAreRefusedByName) {
   refused({first, other, third}, "runs 3001, not 3000");
   const std::string quarter = folder_.path("quarter.json");
   verify("3000", {"--shard", "2/4", "-o", quarter});
-  refused({first, quarter, third}, quarter + ": runs 750 to 999 of this part, 2/4, are in " + first);
+  refused({first, quarter, third},
+          quarter + ": runs 750 to 999 of this part, 2/4, are in " + first);
   folder_.file("part2of3.json", text_of(second).substr(0, 900));
   refused(files, second + ":");
   folder_.file("part2of3.json", with(text_of(third), "\"violations\": 0", "\"violations\": 1"));
@@ -234,7 +234,8 @@ TEST_F(Shards, ACampaignUntilViolatedGoesOn) {
   const auto report = nlohmann::json::parse(whole.out);
   EXPECT_EQ(report["violations"], 1);
   EXPECT_EQ(report["worst_run"], report["runs"].get<int>() - 1);
-  EXPECT_TRUE(has(whole.out, "ended by the first run that violates a claim, of at most 1000000000"));
+  EXPECT_TRUE(
+      has(whole.out, "ended by the first run that violates a claim, of at most 1000000000"));
   EXPECT_EQ(until({"--threads", "1", "--json"}).out, whole.out);
   EXPECT_EQ(until({"--resume", kept, "--json"}).out, whole.out);
   EXPECT_EQ(until({"--resume", kept, "--json"}).out, whole.out);
