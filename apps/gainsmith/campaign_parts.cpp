@@ -82,7 +82,7 @@ void require_all_runs(const PartFile& whole, const std::string& other_cut) {
               missing.front().count() == 1 ? "is" : "are",
               missing.size() > 1 ? fmt::format(", nor {} other ranges", missing.size() - 1) : "",
               other_cut.empty() ? "make what is missing with --shard " + shards_with(missing, whole)
-                                : other_cut + ": make all parts of one number"));
+                                : other_cut + ": make all parts with one N in --shard I/N"));
 }
 
 /// Where nothing is drawn no run says anything of another.

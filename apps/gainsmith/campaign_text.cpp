@@ -90,8 +90,8 @@ std::string check_text(const verify::CheckReport& check, std::size_t width) {
   std::string text =
       fmt::format("  {:<{}} {:<17} {:<8}  ", check.name, width, kind_text(check.kind), verdict);
   if (!check.measured)
-    return text + fmt::format("{} run {}, which was not repeated\n", held ? "nearest" : "worst",
-                              check.worst_run);
+    return text + fmt::format("{} run {}, stopped before its values were known\n",
+                              held ? "nearest" : "worst", check.worst_run);
   if (worst.ended) return text + fmt::format("run {} {}\n", check.worst_run, end_text(worst));
   text +=
       fmt::format("{} run {}: {} against {} at (t, j) = ({}, {})\n", held ? "nearest" : "worst",

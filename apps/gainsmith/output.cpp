@@ -53,8 +53,8 @@ void write_result(const model::Gains& gains, const std::string& output, const st
   print_report(report, to_stdout);
   if (!output.empty() && !to_stdout && !quiet) {
     const bool empty = gains.gains.empty() && gains.gain_functions.empty();
-    say("wrote " + output + (empty && gains.verdict != model::Verdict::yes ? ", without gains" : "") +
-        "\n");
+    say("wrote " + output +
+        (empty && gains.verdict != model::Verdict::yes ? ", without gains" : "") + "\n");
   }
 }
 

@@ -107,7 +107,8 @@ void write_report(const RunOptions& options, const std::vector<JobResult>& resul
 /// The names are those among all.
 std::vector<ProblemFile> own_problems(const RunOptions& options) {
   if (!options.times.empty() && options.shard.empty())
-    throw InputError({"--times"}, "it shares out the problems to the parts of --shard");
+    throw InputError({"--times"},
+                     "expected --shard I/N too: the times share out the problems to its parts");
   std::error_code none;
   if (!options.times.empty() && fs::equivalent(options.times, options.output, none))
     throw InputError({options.times},
@@ -124,7 +125,7 @@ std::vector<ProblemFile> own_problems(const RunOptions& options) {
 
 ExitCode run(const RunOptions& options) {
   const std::vector<ProblemFile> items = own_problems(options);
-  if (items.empty()) say(fmt::format("no problem is in part {}\n", options.shard));
+  if (items.empty()) say(fmt::format("part {} has no problem\n", options.shard));
   const std::string page = options.report ? report_file(options) : "";
   for (const ProblemFile& item : items) prepare_outputs(item.path.string(), {options.junit, page});
   JobOptions job = options.job;

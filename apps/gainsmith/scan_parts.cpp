@@ -168,8 +168,8 @@ ScanPart merged_scan(const std::vector<std::string>& files) {
     const Shard shard = shard_of(document);
     if (shard.of != whole.shard.of)
       throw InputError({file},
-                       fmt::format("this is one of {} parts, and {} one of {}: all must be of "
-                                   "one number",
+                       fmt::format("this is one of {} parts, and {} one of {}: all parts need "
+                                   "one N in --shard I/N",
                                    shard.of, files.front(), whole.shard.of));
     if (const auto [at, added] = known.emplace(shard.index, file); !added)
       throw InputError({file}, at->second == file ? "this part is given twice"

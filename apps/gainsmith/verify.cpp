@@ -211,7 +211,7 @@ Command verify_command() {
        Option(
            "--until", options->until,
            "violated: end with the first run that violates a claim; the bound on the probability "
-           "knows of it")
+           "takes it into account")
            .one_of({"violated"})
            .excludes({"--compare", "--worst"}),
        shard_option(options->shard,

@@ -34,7 +34,7 @@ struct CampaignFacts {
   double horizon = 0;
   bool integrated = false;
   bool many_at_once = false;    ///< runs are made in packs
-  bool until_violated = false;  ///< it ends with the first run that violates a claim
+  bool until_violated = false;  ///< ends with the first violated run; of no part of --shard
   std::optional<std::uint64_t> different;
   std::vector<std::string> events;
   std::vector<std::string> idle_observers;

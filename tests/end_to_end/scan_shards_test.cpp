@@ -95,21 +95,23 @@ TEST_F(ScanShards, ASearchGoesOn) {
   };
   const std::string out = folder_.path("whole.json"), resumed = folder_.path("resumed.json");
   EXPECT_EQ(optimize({"-o", out}).exit, 0);
-  std::size_t known = 0;
-  for (int k = 0; k < 4; ++k) {
-    const Outcome part = optimize({"--resume", kept, "--time", "0.1", "--threads", "1"});
-    EXPECT_TRUE(part.exit == 0 || part.exit == 3) << part.exit << part.err;
+  const auto known = [&] {
     std::size_t values = 0;
-    for (const char* turn : {"0", "1"}) {
-      const std::string file = kept + "/kept-" + turn + ".json";
-      if (!fs::exists(file)) continue;
-      values = std::max(values, nlohmann::json::parse(text_of(file))["done"].size());
-    }
-    EXPECT_GE(values, known);
-    known = values;
+    for (const char* turn : {"0", "1"})
+      if (const std::string file = kept + "/kept-" + turn + ".json"; fs::exists(file))
+        values = std::max(values, nlohmann::json::parse(text_of(file))["done"].size());
+    return values;
+  };
+  // The first that comes to a value, however fast the machine is.
+  for (double seconds = 0.1; known() == 0 && seconds < 100; seconds *= 2) {
+    const Outcome part =
+        optimize({"--resume", kept, "--time", std::to_string(seconds), "--threads", "1"});
+    EXPECT_TRUE(part.exit == 0 || has(part.err, "the same command goes on from there")) << part.err;
   }
-  EXPECT_GT(known, 0U);
+  const std::size_t before = known();
+  EXPECT_GT(before, 0U);
   EXPECT_EQ(optimize({"--resume", kept, "-o", resumed}).exit, 0);
+  EXPECT_GE(known(), before);
   EXPECT_EQ(without_timings(text_of(resumed)), without_timings(text_of(out)));
   const Outcome other = optimize({"--resume", kept, "--tolerance", "1e-3"});
   EXPECT_EQ(other.exit, 2);
@@ -152,7 +154,7 @@ TEST_F(RunShards, EachProblemIsInOne) {
   }
   const Outcome empty = run("empty", {"--shard", "5/5"});
   EXPECT_EQ(empty.exit, 0);
-  EXPECT_EQ(empty.err, "no problem is in part 5/5\n");
+  EXPECT_EQ(empty.err, "part 5/5 has no problem\n");
 }
 
 /// Two problems in one part because the third takes as long as both.
@@ -177,7 +179,7 @@ TEST_F(RunShards, TimesOfAnEarlierRunBalanceTheParts) {
     EXPECT_EQ(outcome.exit, 2);
     EXPECT_TRUE(has(outcome.err, message)) << outcome.err;
   };
-  refused({"--times", times}, "parts of --shard");
+  refused({"--times", times}, "expected --shard I/N too");
   refused({"--shard", "1/2", "--times", folder_.path("first/dc-motor")}, "no results of these");
   refused({"--shard", "1/2", "--times", times}, "another folder", "earlier");
   std::ofstream(times + "/t2-0.70/result.json") << "{";
