@@ -76,6 +76,13 @@ TEST_F(Shards, AreTheCampaignInAnyOrder) {
   }
 }
 
+TEST_F(Shards, MayBeAThousand) {
+  const std::string whole = verify("20000", {"--json"}).out;
+  std::vector<std::string> files = parts("20000", 1000);
+  std::shuffle(files.begin(), files.end(), std::mt19937(2));
+  EXPECT_EQ(merge(files, {"--json"}).out, whole);
+}
+
 TEST_F(Shards, AreTheFilesOfAFolder) {
   const std::vector<std::string> files = parts("3000", 3);
   const std::string folder = folder_.path("parts");
