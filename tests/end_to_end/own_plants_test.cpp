@@ -1,6 +1,6 @@
 // The observers of the papers for plants that are in no paper: problems as their pages tell to write
 // them. Of each method one plant is not for it and is refused with the assumption that it breaks.
-#include <gtest/gtest.h>
+#include "end_to_end/own_plants.h"
 
 #include <algorithm>
 
@@ -8,18 +8,6 @@
 
 namespace gainsmith::tests {
 namespace {
-
-struct Own {
-  std::string name;
-  std::string method;
-  std::string text;  ///< what stands below the name and the method
-  std::string
-      refused;  ///< what is said of a plant that the method does not serve; empty for one that it does
-};
-
-void PrintTo(const Own& own, std::ostream* out) { *out << own.name; }
-
-class OwnPlants : public ::testing::TestWithParam<Own> {};
 
 TEST_P(OwnPlants, AreServedOrRefusedWithTheAssumption) {
   const Own& own = GetParam();
@@ -36,8 +24,6 @@ TEST_P(OwnPlants, AreServedOrRefusedWithTheAssumption) {
     EXPECT_TRUE(has(outcome.out + outcome.err, own.refused)) << outcome.out << outcome.err;
   }
 }
-
-std::string name_of(const ::testing::TestParamInfo<Own>& own) { return own.param.name; }
 
 const std::string kStarts = "campaign: {runs: 10, horizon: 12, initial: {x: {box: [-1, 1]}}}\n";
 

@@ -1,0 +1,157 @@
+// Own plants of the designs by inequalities, and of coupled observers that vary: see own_plants_test.cpp.
+#include "end_to_end/own_plants.h"
+
+namespace gainsmith::tests {
+namespace {
+
+const std::string kHeld =
+    "campaign: {runs: 10, horizon: 20, initial: {z: {box: [-1, 1]}, zh: 0, th: C*z}}\n";
+const std::string kReset =
+    "campaign: {runs: 10, horizon: 20, initial: {z: {box: [-1, 1]}, zh: 0}}\n";
+const std::string kBothStates = "campaign: {runs: 10, horizon: 20, initial: {x: {box: [-1, 1]}}}\n";
+
+INSTANTIATE_TEST_SUITE_P(
+    SampledDataHybrid, OwnPlants,
+    ::testing::Values(Own{"double_integrator", "sampled-data-hybrid",
+                          "data: {A: [[0, 1], [0, 0]], C: [1, 0], T1: 0.1, T2: 0.3, QF: I}\n"
+                          "parameters: {a1: 0.1}\n" +
+                              kHeld,
+                          ""},
+                      Own{"oscillator", "sampled-data-hybrid",
+                          "data: {A: [[0, 1], [-4, -0.2]], C: [1, 0], T1: 0.1, T2: 0.25, QF: I}\n"
+                          "parameters: {a1: 1, a2: 1}\n" +
+                              kHeld,
+                          ""},
+                      Own{"unstable", "sampled-data-hybrid",
+                          "data: {A: 0.5, C: 1, T1: 0.1, T2: 0.4}\n"
+                          "parameters: {a1: 1, a2: 1}\n" +
+                              kHeld,
+                          ""},
+                      Own{"two_outputs", "sampled-data-hybrid",
+                          "data: {A: [[-1, 1, 0], [0, -0.5, 1], [0, -1, -0.5]], C: [[1, 0, 0], [0, "
+                          "1, 0]], T1: 0.2, T2: 0.4}\n"
+                          "parameters: {a1: 1, a2: 1}\n" +
+                              kHeld,
+                          ""},
+                      Own{"hidden_mode", "sampled-data-hybrid",
+                          "data: {A: [[0.5, 0], [0, -1]], C: [0, 1], T1: 0.1, T2: 0.4}\n" + kHeld,
+                          "the output does not show a mode"},
+                      Own{"samples_in_the_wrong_order", "sampled-data-hybrid",
+                          "data: {A: 0.5, C: 1, T1: 0.4, T2: 0.1}\n" + kHeld,
+                          "the assumption 'sampling'"}),
+    name_of);
+
+INSTANTIATE_TEST_SUITE_P(
+    ResetObserver, OwnPlants,
+    ::testing::Values(
+        Own{"double_integrator", "reset-observer",
+            "data: {A: [[0, 1], [0, 0]], C: [1, 0], T1: 0.1, T2: 1}\n" + kReset, ""},
+        Own{"oscillator", "reset-observer",
+            "data: {A: [[0, 1], [-4, 0.2]], C: [1, 0], T1: 0.2, T2: 1}\n" + kReset, ""},
+        Own{"unstable", "reset-observer", "data: {A: 0.5, C: 1, T1: 0.1, T2: 3}\n" + kReset, ""},
+        Own{"gain_of_the_interval", "reset-observer",
+            "data: {A: [[0, 1], [-1, 0.1]], C: [0, 1], T1: 0.3, T2: 2}\n"
+            "parameters: {degree: 2}\n" +
+                kReset,
+            ""},
+        Own{"hidden_mode", "reset-observer",
+            "data: {A: [[0.5, 0], [0, -1]], C: [0, 1], T1: 0.1, T2: 0.4}\n" + kReset,
+            "the output does not show a mode"}),
+    name_of);
+
+INSTANTIATE_TEST_SUITE_P(
+    Detectability, OwnPlants,
+    ::testing::Values(
+        Own{"unknown_reset", "detectability",
+            "data:\n"
+            "  F: [[0, 1, 0], [-1, 0, 0], [0, 0, 0]]\n"
+            "  Hc: [0, 1, 0]\n"
+            "  J: [[0, 0, 1], [0, 1, 0], [0, 0, 1]]\n"
+            "  T1: 0.3\n"
+            "  T2: 1\n"
+            "parameters: {lambda: 40}\n" +
+                kBothStates,
+            ""},
+        Own{"two_hidden", "detectability",
+            "data:\n"
+            "  F: [[0.2, 0, 0], [0, 0.1, 1], [0, -1, 0]]\n"
+            "  Hc: [1, 0, 0]\n"
+            "  J: [[0.5, 1, 0], [0, 0.9, 0], [0.1, 0, 0.8]]\n"
+            "  T1: 0.4\n"
+            "  T2: 0.9\n"
+            "parameters: {lambda: 10}\n" +
+                kBothStates,
+            ""},
+        Own{"shown_at_jumps", "detectability",
+            "data:\n"
+            "  F: [[0, 1, 0], [-2, -0.1, 0], [0, 0, 0.1]]\n"
+            "  Hc: [1, 0, 0]\n"
+            "  J: [[1, 0, 0], [0, -0.9, 0.5], [0, 0, 1]]\n"
+            "  Hd: [0, 0, 1]\n"
+            "  T1: 0.5\n"
+            "  T2: 1\n"
+            "parameters: {lambda: 10}\n" +
+                kBothStates,
+            ""},
+        Own{"gain_of_the_flow", "detectability",
+            "data:\n"
+            "  F: [[-0.5, 0, 0], [0, 0, 1], [0, -1, 0]]\n"
+            "  Hc: [1, 0, 0]\n"
+            "  J: [[1, 0, 0], [0, 1, 0], [0, 0, 1]]\n"
+            "  Hd: [0, 1, 0]\n"
+            "  T1: 0.3\n"
+            "  T2: 1\n"
+            "parameters: {degree: 1, lambda: 10}\n" +
+                kBothStates,
+            ""},
+        Own{"nothing_hidden", "detectability",
+            "data: {F: [[0, 1], [-4, -0.1]], Hc: [1, 0], J: eye(2), T1: 0.1, T2: 0.5}\n" +
+                kBothStates,
+            "the assumption 'hidden'"},
+        Own{"never_shown", "detectability",
+            "data:\n"
+            "  F: 'blkdiag(0, [0, -1; 1, 0])'\n"
+            "  Hc: [1, 0, 0]\n"
+            "  J: eye(3)\n"
+            "  T1: 0.5\n"
+            "  T2: 1\n" +
+                kBothStates,
+            "contraction"}),
+    name_of);
+
+INSTANTIATE_TEST_SUITE_P(
+    CoupledObserverThatVaries, OwnPlants,
+    ::testing::Values(
+        Own{"output_that_varies", "coupled-observer",
+            "data:\n"
+            "  low:  [-1, -15]\n"
+            "  high: [10, 15]\n"
+            "  fo(z, t): \"[z(2); -9.81]\"\n"
+            "  Hv(t): \"[1 + 0.5*sin(t), 0]\"\n"
+            "  guard(z): z\n"
+            "  Ano:  0\n"
+            "  Jo(z, t): \"[z(1); -0.5*z(2)]\"\n"
+            "  Jono(z): \"[0; 1]\"\n"
+            "  T1:   0.3\n"
+            "  T2:   3\n"
+            "campaign: {runs: 5, horizon: 12, initial: {zo: [3, 0], xi: {box: [3, 5]}}}\n",
+            ""},
+        Own{"sensor_gain_of_the_flow", "coupled-observer",
+            "data:\n"
+            "  low:  [-1, -15]\n"
+            "  high: [10, 15]\n"
+            "  fo(z, t): \"[z(2); -9.81]\"\n"
+            "  guard(z): z\n"
+            "  Ano:  [[0, 1], [-1, 0]]\n"
+            "  Jo(z, t): \"[z(1); -0.5*z(2) + 4]\"\n"
+            "  Jono(z): zeros(2)\n"
+            "  Hdno(z): \"[1, 0]\"\n"
+            "  T1:   0.5\n"
+            "  T2:   1.5\n"
+            "parameters: {degree: 2, rho: 0.5}\n"
+            "campaign: {runs: 5, horizon: 12, initial: {zo: [3, 0], xi: {box: [-1, 1]}}}\n",
+            ""}),
+    name_of);
+
+}  // namespace
+}  // namespace gainsmith::tests
