@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
 
 #include "base/nearest.h"
 #include "base/number.h"
@@ -94,6 +96,20 @@ void refuse_unknown_names(const Binding& binding) {
     refuse({{function.signature.name, function.body, false, function.place}}, data, parameters,
            "datum", "data", "parameters");
   refuse(binding.problem().parameters, parameters, data, "parameter", "parameters", "data");
+}
+
+/// InputError where the value uses data that come after this one.
+void refuse_later_data(const Binding& binding, const model::Value& value) {
+  const std::set<std::string> names = names_in(value.value);
+  const auto& data = binding.method().data;
+  const auto self = std::find_if(data.begin(), data.end(),
+                                 [&](const auto& datum) { return datum.name == value.name; });
+  if (self == data.end()) return;
+  for (auto later = self + 1; later != data.end(); ++later)
+    if (names.contains(later->name) && !binding.names->known.symbols.contains(later->name))
+      throw InputError(value.place, "the datum " + value.name + " uses '" + later->name +
+                                        "', which the method declares after it: data use data "
+                                        "before them");
 }
 
 /// A datum that is declared, with what the problem gives.
@@ -213,6 +229,7 @@ void add_datum(Binding& binding, const Given& given) {
     return define(binding, std::move(bound), binding.design->data);
   const model::Value value =
       given.value ? *given.value : model::Value{datum.name, *datum.fallback, false, datum.place};
+  refuse_later_data(binding, value);
   const auto expected = resolve(datum.shape, dimensions);
   const bool column = datum.shape.is_column() || (expected && is_proper_column(*expected));
   model::Value turned{value.name, oriented(value, column), false, value.place};
