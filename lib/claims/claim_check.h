@@ -4,7 +4,7 @@
 //
 //   nonincreasing   v(k) <= min over i < k of v(i)   at every sample, over jumps too
 //   cost            c(k) <= v(0)                     at every sample; c(k) is the cost so far,
-//                   int flow_cost dt + sum of jump_cost at the samples before jumps
+//                   int flow_cost dt + sum of jump_cost before jumps, as their maps see it
 //   shrinks         v(end) <= factor v(0)            held at once when v(0) = 0
 //   below, above    v(k) <= b, v(k) >= b             at every sample; b a constant
 //

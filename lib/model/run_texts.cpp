@@ -53,10 +53,10 @@ void link_claim(const Linking& link, Design::Claim& claim) {
     link(*one);
 }
 
-void add_integral(const Design::Claim& claim, Dynamics& dynamics) {
+void add_cost(const Design::Claim& claim, Dynamics& dynamics) {
   expr::Composer compose(claim.place);
   Dynamics::Variable variable;
-  variable.name = integral_name(claim.name);
+  variable.name = cost_name(claim.name);
   variable.start = {compose.take(compose.number("0")), claim.place, "0"};
   variable.place = claim.place;
   dynamics.variables.push_back(std::move(variable));
@@ -64,7 +64,7 @@ void add_integral(const Design::Claim& claim, Dynamics& dynamics) {
 
 }  // namespace
 
-std::string integral_name(const std::string& claim) { return "integral of " + claim; }
+std::string cost_name(const std::string& claim) { return "cost of " + claim; }
 
 RunTexts run_texts(const Design& design, Stated stated) {
   const Place method{design.method_file, 0, 0};
@@ -75,7 +75,7 @@ RunTexts run_texts(const Design& design, Stated stated) {
   link_campaign(link, texts.campaign);
   for (Design::Claim& claim : texts.claims) {
     link_claim(link, claim);
-    if (claim.flow_cost) add_integral(claim, texts.dynamics);
+    if (claim.kind == ClaimKind::cost) add_cost(claim, texts.dynamics);
   }
   return texts;
 }

@@ -27,7 +27,7 @@ struct RunTexts {
 /// InputError for a design without dynamics, and for a derivative that is not known.
 RunTexts run_texts(const Design& design, Stated stated);
 
-/// The variable that is the integral of the flow cost of a claim. It rests along flows.
-std::string integral_name(const std::string& claim);
+/// The variable that is the cost of a claim so far. It rests along flows, and in jumps.
+std::string cost_name(const std::string& claim);
 
 }  // namespace gainsmith::model

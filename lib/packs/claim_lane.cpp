@@ -54,6 +54,8 @@ ClaimLane::Known ClaimLane::known(const Reading& reading, bool jumped) {
 
 void ClaimLane::at(double t, const Reading& reading, std::optional<std::size_t> event) {
   const bool is_jump = event.has_value();
+  if (!is_jump && claim_->kind == ClaimKind::cost)
+    limit_error_ = hybrid::kTermRounding * reading.terms;
   const Known value = known(reading, is_jump);
   if (!counts(t) || (claim_->over && event != claim_->over)) return;
   const bool same = looked_ && is_jump && !claim_->over && value.value == last_.value;
@@ -80,7 +82,6 @@ void ClaimLane::along(double t, const StepSamples& samples, const Reading& end, 
 /// The value at a point where the claim is made.
 void ClaimLane::compare(Known value, double terms, bool same, bool crowded) {
   last_ = value;
-  const auto forgiven = [&](double size) { return claim_->tolerance * size; };
   if (!looked_) {
     looked_ = true;
     first_ = low_ = high_ = value;
@@ -88,8 +89,8 @@ void ClaimLane::compare(Known value, double terms, bool same, bool crowded) {
   }
   if (same) return;
   if (claim_->kind == ClaimKind::nonincreasing) {
-    const double above_high = value.value - high_.value - forgiven(std::abs(high_.value));
-    const double above_low = value.value - low_.value - forgiven(std::abs(low_.value));
+    const double above_high = value.value - high_.value - claim_->tolerance * std::abs(high_.value);
+    const double above_low = value.value - low_.value - claim_->tolerance * std::abs(low_.value);
     const double size = std::abs(value.value) + value.error;
     const double scale = std::abs(first_.value);
     const bool violates = above_high > value.error + high_.error;
@@ -110,11 +111,11 @@ void ClaimLane::compare(Known value, double terms, bool same, bool crowded) {
     return;
   }
   if (claim_->kind == ClaimKind::shrinks) return;
-  const double scale = limit_ == 0 ? 1 : std::abs(limit_);
-  const double excess = value.value - limit_ - forgiven(limit_ == 0 ? terms : std::abs(limit_));
-  score_ = std::max(score_, (value.value - limit_) / scale);
-  if (excess > value.error) violated_ = true;
-  const bool is_close = std::abs(excess) <= value.error && !(excess <= 0 && value.error == 0);
+  const double excess = value.value - limit_ - forgiven(terms);
+  const double error = value.error + limit_error_;
+  score_ = std::max(score_, (value.value - limit_) / scale());
+  if (excess > error) violated_ = true;
+  const bool is_close = std::abs(excess) <= error && !(excess <= 0 && error == 0);
   if (is_close && !violated_) open_ = true;
 }
 
@@ -124,7 +125,8 @@ void ClaimLane::compare_within(const StepSamples& samples, Known end, double ter
   // Where the value branches it goes up and down no faster than at the points.
   const double rate = std::max(
       {std::abs(samples.start.rate), std::abs(samples.middle.rate), std::abs(samples.end.rate)});
-  const double error = end.error + std::max(along.error(), breaks ? samples.length * rate / 2 : 0);
+  const double error = end.error + limit_error_ +
+                       std::max(along.error(), breaks ? samples.length * rate / 2 : 0);
   if (claim_->kind == ClaimKind::shrinks) return;
   if (claim_->kind == ClaimKind::nonincreasing) {
     if (violated_) return;
@@ -135,18 +137,18 @@ void ClaimLane::compare_within(const StepSamples& samples, Known end, double ter
     open_ = true;
     return;
   }
-  const double forgiven = claim_->tolerance * (limit_ == 0 ? terms : std::abs(limit_));
-  const double scale = limit_ == 0 ? 1 : std::abs(limit_);
+  const double most = limit_ + forgiven(terms);
   if (breaks)
-    possible_score_ = std::max(possible_score_, (along.largest() + error - limit_) / scale);
-  const bool may_exceed = along.largest() + error > limit_ + forgiven;
-  if (!may_exceed && (along.largest() - limit_) / scale <= score_) return;
+    possible_score_ = std::max(possible_score_, (along.largest() + error - limit_) / scale());
+  const bool may_exceed = along.largest() + error > most;
+  if (!may_exceed && (along.largest() - limit_) / scale() <= score_) return;
   const double highest = along.highest();
-  score_ = std::max(score_, (highest - limit_) / scale);
-  if (highest - error > limit_ + forgiven) violated_ = true;
+  score_ = std::max(score_, (highest - limit_) / scale());
+  // The careful run compares costs at samples alone.
+  if (highest - error > most && claim_->kind != ClaimKind::cost) violated_ = true;
   // A violation at a point is certain without what lies between.
-  const bool certain = violated_ || end.value - limit_ - forgiven > end.error;
-  if (highest + error > limit_ + forgiven && !certain) open_ = true;
+  const bool certain = violated_ || end.value - most > end.error + limit_error_;
+  if (highest + error > most && !certain) open_ = true;
 }
 
 void ClaimLane::finish() {
@@ -154,6 +156,7 @@ void ClaimLane::finish() {
   // How near a run comes is what the worst one is chosen by.
   if (possible_score_ > score_ + kScore * (1 + std::abs(score_))) open_ = true;
   const double scale = std::abs(first_.value);
+  if (claim_->kind == ClaimKind::cost && limit_ == 0) score_ = violated_ ? kNever : -1;
   if (claim_->kind == ClaimKind::nonincreasing && !violated_)
     score_ = scale == 0 ? -1 : (last_.value - first_.value) / scale;
   if (claim_->kind != ClaimKind::shrinks) return;

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "packs/pack_system.h"
@@ -23,7 +24,7 @@ struct Reading {
 
 class ClaimLane {
  public:
-  /// `limit`: the bound, or the factor.
+  /// `limit`: the bound, the factor, or of a cost the value at the start.
   void begin(const PackClaim& claim, const PackSystem& pack, const PackAccuracy& accuracy,
              double limit);
   /// The start of a run, or the state after a jump of `event`.
@@ -49,11 +50,18 @@ class ClaimLane {
   void compare(Known value, double terms, bool same, bool crowded);
   void compare_within(const StepSamples& samples, Known end, double terms, bool breaks);
   void check_parting(double value, double difference, double terms);
+  /// What a bound is compared by, and what a tolerance forgives of it.
+  double scale() const { return limit_ == 0 ? 1 : std::abs(limit_); }
+  double forgiven(double terms) const {
+    const bool of_terms = limit_ == 0 && claim_->kind != model::ClaimKind::cost;
+    return claim_->tolerance * (of_terms ? terms : std::abs(limit_));
+  }
 
   const PackClaim* claim_ = nullptr;
   double accuracy_ = 0, noise_ = 0;
   double sign_ = 1;  ///< -1: of `above`, which is `below` of what is negated
   double limit_ = 0;
+  double limit_error_ = 0;
   std::array<double, 3> differences_{};
   double least_ = 0, most_ = 0, size_ = 0;  ///< of the values so far
   bool seen_ = false;

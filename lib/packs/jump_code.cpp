@@ -13,7 +13,7 @@ using numbers::ScalarOp;
 
 LaneCode jump_code(const PackSystem& pack, std::size_t event, bool lost) {
   const Dynamics& dynamics = pack.system->dynamics;
-  PackGraph texts(*pack.system);
+  PackGraph texts(*pack.system, pack.costs);
   ScalarGraph& graph = texts.graph();
   const Nodes before = texts.inputs();
   Nodes after = before;
@@ -63,6 +63,9 @@ LaneCode jump_code(const PackSystem& pack, std::size_t event, bool lost) {
       node = graph.add(before[offset(i)], graph.constant(1));
     if (variable.kind == Kind::passes && variable.of == event) node = graph.constant(0);
   }
+  for (const RunningCost& cost : pack.costs)
+    if (cost.jump != nullptr)
+      after[cost.element] = graph.add(before[cost.element], texts.value(*cost.jump, before).value[0]);
   return {graph, {after, parts}, pack.whole};
 }
 

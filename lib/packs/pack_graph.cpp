@@ -11,7 +11,8 @@ using model::Dynamics;
 using numbers::TracedMatrix;
 using VariableKind = Dynamics::VariableKind;
 
-PackGraph::PackGraph(const hybrid::System& system) : system_(&system) {
+PackGraph::PackGraph(const hybrid::System& system, const std::vector<RunningCost>& costs)
+    : system_(&system), costs_(&costs) {
   for (int k = 0; k < static_cast<int>(system.whole); ++k) kept_.push_back(k);
   const auto& variables = system.dynamics.variables;
   std::vector<bool> moves(variables.size(), false);
@@ -36,6 +37,8 @@ PackGraph::PackGraph(const hybrid::System& system) : system_(&system) {
       if (kept(element) == element) rows_.push_back(element);
     }
   }
+  for (const RunningCost& cost : costs)
+    if (cost.flow != nullptr) rows_.push_back(static_cast<int>(cost.element));
 }
 
 Nodes PackGraph::inputs() {
@@ -147,6 +150,8 @@ Nodes PackGraph::rates(const Nodes& x) {
       }
     }
   }
+  for (const RunningCost& cost : *costs_)
+    if (cost.flow != nullptr) rates[cost.element] = value(*cost.flow, x).value[0];
   for (std::size_t k = 0; k < kept_.size(); ++k) rates[k] = rates[index(kept_[k])];
   return rates;
 }

@@ -17,10 +17,17 @@ using Nodes = std::vector<int>;
 
 inline std::size_t index(int at) { return static_cast<std::size_t>(at); }
 
+/// The cost of a claim so far, as one of the values: c' = flow, c+ = c + jump.
+struct RunningCost {
+  std::size_t element = 0;
+  const expr::Program* flow = nullptr;  ///< nullptr: 0
+  const expr::Program* jump = nullptr;  ///< of all events, before their jumps; nullptr: 0
+};
+
 class PackGraph {
  public:
-  /// The system must outlive it.
-  explicit PackGraph(const hybrid::System& system);
+  /// The system and the costs must outlive it.
+  PackGraph(const hybrid::System& system, const std::vector<RunningCost>& costs);
 
   numbers::ScalarGraph& graph() { return graph_; }
   /// The inputs: one node for each of the values, in their order; behind them others may follow.
@@ -34,8 +41,8 @@ class PackGraph {
   /// 1 where a condition is true, otherwise 0.
   int truth(const expr::Condition& condition, const Nodes& x);
 
-  /// The elements that change in a flow: clocks, and states with one; of symmetric states those on
-  /// and below the diagonal.
+  /// The elements that change in a flow: clocks, costs, and states with one; of symmetric states
+  /// those on and below the diagonal.
   const std::vector<int>& rows() const { return rows_; }
   /// Of all values; 0 where nothing moves.
   Nodes rates(const Nodes& x);
@@ -48,6 +55,7 @@ class PackGraph {
   numbers::TracedInput at(const Nodes& x, const Nodes* rates);
 
   const hybrid::System* system_;
+  const std::vector<RunningCost>* costs_;
   numbers::ScalarGraph graph_;
   std::vector<int> kept_;
   std::vector<int> rows_;

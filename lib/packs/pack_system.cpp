@@ -8,7 +8,6 @@
 #include "numbers/scalar_rules.h"
 #include "packs/dormand_prince.h"
 #include "packs/jump_code.h"
-#include "packs/pack_graph.h"
 #include "packs/tolerances.h"
 
 namespace gainsmith::packs {
@@ -31,16 +30,22 @@ bool runs_jumps(const Dynamics& dynamics) {
 
 bool runs_claims(const std::vector<claims::Claim>& claims) {
   return std::none_of(claims.begin(), claims.end(), [](const claims::Claim& one) {
-    return one.stated() && (one.kind == model::ClaimKind::cost || one.flow_cost || one.jump_cost ||
-                            one.value.shape().size() != 1);
+    return one.stated() && one.value.shape().size() != 1;
   });
+}
+
+/// Where the cost of a claim is kept; none of other claims.
+std::optional<std::size_t> cost_element(const claims::Claim& claim, const hybrid::System& system) {
+  const auto slot = system.slot(model::cost_name(claim.name));
+  if (!slot) return std::nullopt;
+  return static_cast<std::size_t>(system.layout.slots[*slot].offset);
 }
 
 // --- A step. ---
 
 class StepCode {
  public:
-  explicit StepCode(const PackSystem& pack) : pack_(pack), texts_(*pack.system) {}
+  explicit StepCode(const PackSystem& pack) : pack_(pack), texts_(*pack.system, pack.costs) {}
 
   LaneCode make(double relative, const Eigen::VectorXd& absolute) {
     ScalarGraph& graph = texts_.graph();
@@ -75,6 +80,9 @@ class StepCode {
 
  private:
   bool is_integrated(int row) const {
+    if (std::any_of(pack_.costs.begin(), pack_.costs.end(),
+                    [row](const RunningCost& one) { return index(row) == one.element; }))
+      return true;
     const auto& variables = pack_.system->dynamics.variables;
     for (std::size_t i = 0; i < variables.size(); ++i) {
       const hybrid::Slot& slot = pack_.system->layout.slots[i];
@@ -131,7 +139,7 @@ class StepCode {
 
 class LookCode {
  public:
-  explicit LookCode(PackSystem& pack) : pack_(pack), texts_(*pack.system) {
+  explicit LookCode(PackSystem& pack) : pack_(pack), texts_(*pack.system, pack.costs) {
     x_ = texts_.inputs();
     rates_ = texts_.rates(x_);
     for (const int row : pack.rows) results_[PackSystem::rates].push_back(rates_[index(row)]);
@@ -151,6 +159,7 @@ class LookCode {
     made.after = claim.after;
     made.over = claim.over;
     made.tolerance = claim.tolerance;
+    if (claim.kind == model::ClaimKind::cost) return add_cost(claim);
     const numbers::TracedMatrix value = texts_.moving(claim.value, x_, rates_);
     push(PackSystem::claim_values, value.value[0]);
     peaks_ = peaks_ || has_peaks(value.value[0]);
@@ -214,6 +223,16 @@ class LookCode {
   LaneCode make() { return {texts_.graph(), results_, pack_.whole}; }
 
  private:
+  void add_cost(const claims::Claim& claim) {
+    const std::size_t element = *cost_element(claim, *pack_.system);
+    push(PackSystem::claim_values, x_[element]);
+    push(PackSystem::claim_rates, rates_[element]);
+    push(PackSystem::claim_terms,
+         texts_.graph().add(texts_.graph().apply(ScalarOp::abs, x_[element]),
+                            texts_.value(hybrid::absolute_terms(claim.value), x_).value[0]));
+    push(PackSystem::limits, texts_.value(claim.value, x_).value[0]);
+  }
+
   /// Visits all that a node is made of, itself first.
   template <class Visit>
   void visit(int node, const Visit& seen_by) {
@@ -323,7 +342,11 @@ std::unique_ptr<const PackSystem> make_pack_system(const hybrid::System& system,
   pack->scenario = &scenario;
   pack->accuracy = relative;
   pack->whole = static_cast<std::size_t>(system.whole);
-  pack->rows = PackGraph(system).rows();
+  for (const claims::Claim& claim : claims)
+    if (const auto element = cost_element(claim, system); element && claim.stated())
+      pack->costs.push_back({*element, claim.flow_cost ? &*claim.flow_cost : nullptr,
+                             claim.jump_cost ? &*claim.jump_cost : nullptr});
+  pack->rows = PackGraph(system, pack->costs).rows();
   try {
     pack->step.emplace(StepCode(*pack).make(relative, absolute));
     LookCode look(*pack);

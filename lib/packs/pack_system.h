@@ -7,8 +7,10 @@
 //           conditions, of crossings and of switches, with their rates
 //   jump    of each event: values -> values after its maps
 //
-// What packs do not run: loops of jumps, measured data, costs along a run, claims and conditions
-// that have no formula for their rates or that may have narrow peaks. Such campaigns are left to
+// The cost of a claim so far is one more value that flows and jumps.
+//
+// What packs do not run: loops of jumps, measured data, claims and conditions that have no formula
+// for their rates or that may have narrow peaks. Such campaigns are left to
 // the careful run.
 #pragma once
 
@@ -21,6 +23,7 @@
 #include "hybrid/scenario.h"
 #include "hybrid/system.h"
 #include "lanes/machine.h"
+#include "packs/pack_graph.h"
 
 namespace gainsmith::packs {
 
@@ -81,12 +84,13 @@ struct PackSystem {
   std::vector<WatchedCondition> flow_sets;
   std::vector<Watch> watches;
   std::vector<PackClaim> claims;
+  std::vector<RunningCost> costs;
   std::optional<lanes::LaneCode> step, look;
 
   /// Results of `step`.
   enum StepResult : std::size_t { end, error };
   /// Results of `look`. terms: the sums of the absolute values of the terms of a value; limits: the
-  /// bound or the factor of each claim; extras: the differences that claims branch on.
+  /// bound or the factor of each claim, of a cost its value at the start; extras: the differences that claims branch on.
   enum LookResult : std::size_t {
     rates,
     claim_values,

@@ -28,20 +28,28 @@ expr::Program value_program(std::size_t k) {
   return bounded::input_program("value_" + std::to_string(k), {});
 }
 
-/// Adds the functions of a claim: its programs with the variable for the integral of its flow cost,
-/// and the terms of what is compared with a bound.
+/// A claim about a cost over the variable that holds it.
+claims::Claim over_variable(claims::Claim claim) {
+  if (claim.kind != model::ClaimKind::cost) return claim;
+  claim.flow_cost = bounded::input_program(model::cost_name(claim.name), {});
+  claim.jump_cost.reset();
+  return claim;
+}
+
+/// Adds the functions of a claim: its programs, with the variable for its cost, and the terms of
+/// what is compared with a bound.
 void add_functions(const claims::Claim& claim, EventSetup& setup) {
-  std::vector<expr::Program> programs = claims::programs_of(claim);
+  const bool has_cost = claim.kind == model::ClaimKind::cost;
+  std::vector<expr::Program> programs = claims::programs_of(over_variable(claim));
   if (claim.bound) programs.push_back(hybrid::absolute_terms(claim.value));
-  if (claim.flow_cost) {
-    const std::string name = model::integral_name(claim.name);
-    setup.costs.push_back({setup.layout.slots[*setup.layout.slot(name)].offset, programs[1]});
-    programs[1] = bounded::input_program(name, {});
+  if (has_cost) {
+    const std::size_t slot = *setup.layout.slot(model::cost_name(claim.name));
+    setup.costs.push_back({setup.layout.slots[slot].offset, claim.flow_cost, claim.jump_cost});
   }
   const auto first = static_cast<int>(setup.functions.size());
   for (std::size_t k = 0; k < programs.size(); ++k) {
-    const bool is_integral = claim.flow_cost && k == 1;
-    const bool still = !is_integral && is_still(programs[k], setup.system);
+    const bool is_cost = has_cost && k == 1;
+    const bool still = !is_cost && is_still(programs[k], setup.system);
     const expr::Program own = value_program(setup.functions.size());
     bounded::Coordinates& coordinates = setup.coordinates;
     coordinates.layout.slots.push_back({own.inputs[0].name, {}, coordinates.layout.size++});
@@ -76,9 +84,10 @@ std::vector<claims::JudgedClaim> judged_claims(const EventSetup& setup) {
   for (const claims::Claim& claim : setup.claims) {
     if (!claim.stated()) continue;
     const auto value = static_cast<int>(k);
-    claims::JudgedClaim& judged = all.emplace_back(claims::judged_claim(claim, next));
+    claims::JudgedClaim& judged =
+        all.emplace_back(claims::judged_claim(over_variable(claim), next));
     if (claim.bound) judged.terms = next();
-    if (claim.flow_cost) judged.accumulated = value + 1;
+    if (claim.kind == model::ClaimKind::cost) judged.accumulated = value + 1;
     judged.sampled_for = value;
   }
   return all;

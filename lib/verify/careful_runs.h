@@ -11,7 +11,7 @@
 #include "bounded/bounded_system.h"
 #include "claims/claim_check.h"
 #include "claims/claims.h"
-#include "claims/cost_integrals.h"
+#include "claims/run_costs.h"
 #include "claims/run_values.h"
 #include "claims/sample_points.h"
 #include "model/run_texts.h"
@@ -28,7 +28,7 @@ struct EventSetup {
   std::vector<claims::Claim> claims;
   std::vector<expr::Program> functions;  ///< of the claims that are stated: the coordinates
   std::vector<int> first_of_claim;       ///< of each function: the value of its claim
-  std::vector<claims::FlowCost> costs;   ///< of the claims that are stated
+  std::vector<claims::RunCost> costs;    ///< of the claims that are stated
   bounded::BallsOf<double> constants;    ///< of the functions, with their errors
   bounded::Coordinates coordinates;
   std::vector<claims::JudgedClaim> judged;  ///< the claims that are stated, in order

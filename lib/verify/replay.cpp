@@ -33,11 +33,11 @@ std::string element(const std::string& name, expr::Shape shape, int at) {
   return label;
 }
 
-/// t and j have columns of their own, what a log says is an output; integrals belong to claims.
+/// t and j have columns of their own, what a log says is an output; costs belong to claims.
 bool is_shown_otherwise(const model::RunTexts& texts, const model::Dynamics::Variable& one) {
   const model::Dynamics& dynamics = texts.dynamics;
   for (const model::Design::Claim& claim : texts.claims)
-    if (claim.flow_cost && one.name == model::integral_name(claim.name)) return true;
+    if (one.name == model::cost_name(claim.name)) return true;
   return one.kind == VariableKind::time || one.kind == VariableKind::jumps ||
          one.kind == VariableKind::measured_rate ||
          (one.kind == VariableKind::measured && dynamics.measured[one.of].output);

@@ -29,7 +29,7 @@ void add_integrals(const std::vector<claims::Claim>& claims, bounded::Coordinate
   for (const claims::Claim& claim : claims) {
     if (!claim.stated()) continue;
     if (claim.flow_cost)
-      bounded::add_integral(coordinates, model::integral_name(claim.name),
+      bounded::add_integral(coordinates, model::cost_name(claim.name),
                             coordinates.functions[next + 1]);
     next += claims::programs_of(claim).size();
   }
@@ -44,7 +44,7 @@ void add_judged_claims(const std::vector<claims::Claim>& claims, SampledSetup& s
   for (const claims::Claim& claim : claims) {
     if (!claim.stated()) continue;
     claims::JudgedClaim& judged = setup.judged.emplace_back(claims::judged_claim(claim, next));
-    const auto integral = coordinates.layout.slot(model::integral_name(claim.name));
+    const auto integral = coordinates.layout.slot(model::cost_name(claim.name));
     if (integral) judged.accumulated = coordinates.layout.slots[*integral].offset;
     if (!setup.steps || !judged.flow_cost || !judged.flow_cost->is_form()) continue;
     const Eigen::Index n = coordinates.layout.size;

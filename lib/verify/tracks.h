@@ -64,7 +64,7 @@ class EventTracks {
 
   const EventSetup* setup_;
   simulate::Simulator simulator_;
-  claims::CostIntegrals costs_;
+  claims::RunCosts costs_;
   std::vector<claims::RunValue> functions_;
   std::vector<claims::TextBall> balls_;  ///< of the functions
   EventDoubts doubts_;

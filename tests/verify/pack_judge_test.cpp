@@ -139,6 +139,28 @@ method:
     width: {below: x(1)^2, bound: 4.06}
     rate: {below: max(abs(x)), bound: 3}
 campaign: {runs: 96, horizon: 9, initial: {x: {box: [-2.5, 2.5]}}}
+)yaml"},
+    {"costs of flows and jumps", R"yaml(problem: p
+method:
+  method: m
+  events: {sample: {every: [0.1, 0.3]}}
+  noise: {w: {normal: 0.05, new at: sample}}
+  plant:
+    state: {x: {shape: 2, start: "[1; 0]"}}
+    output: {y: {value: x(1) + w, at: sample}}
+    flow: {x: "[x(2); -sin(x(1)) - x(2)]"}
+  observer:
+    state: {xh: {shape: 2, start: 0}}
+    flow: {xh: "[xh(2); -sin(xh(1)) - xh(2)]"}
+    at: {sample: {xh: "xh + [0.5; 0.2]*(y - xh(1))"}}
+  claims:
+    energy: {cost: {flow: x'*x}, below: 2.2*x'*x + 0.3}
+    both: {cost: {flow: norm(x - xh), jump: (y - xh(1))^2}, below: 2}
+    jumps: {cost: {jump: w^2 + abs(x(1))}, below: 5}
+    signed: {cost: {flow: x(2)}, below: 0.05}
+    eased: {cost: {flow: x'*x}, below: 0.5*x'*x, tolerance: 0.5}
+    none: {cost: {}, below: x'*x}
+campaign: {runs: 96, horizon: 6, initial: {x: {box: [-1, 1]}}}
 )yaml"}};
 
 class PackRuns : public testing::TestWithParam<Case> {};

@@ -1,4 +1,4 @@
-#include "claims/cost_integrals.h"
+#include "claims/run_costs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -47,17 +47,21 @@ DenseStep part_of(const DenseStep& step, const SmoothPart& part, Index columns) 
 
 }  // namespace
 
-CostIntegrals::CostIntegrals(const std::vector<FlowCost>& costs, const hybrid::StateLayout& layout,
+RunCosts::RunCosts(const std::vector<RunCost>& costs, const hybrid::StateLayout& layout,
                              const numbers::Values& constants) {
-  for (const FlowCost& cost : costs)
-    integrals_.push_back({cost.element, RunValue(cost.program, layout, constants)});
+  const auto value_of = [&](const std::optional<expr::Program>& program) {
+    return program ? std::optional<RunValue>(std::in_place, *program, layout, constants)
+                   : std::nullopt;
+  };
+  for (const RunCost& cost : costs)
+    integrals_.push_back({cost.element, value_of(cost.flow), value_of(cost.jump)});
 }
 
-void CostIntegrals::add_to(std::vector<DenseStep>& steps, Integral& integral, bool moved) {
+void RunCosts::add_to(std::vector<DenseStep>& steps, Integral& integral, bool moved) {
   constexpr double agreement = 1e-12;
   std::vector<DenseStep> all;
   for (DenseStep& step : steps) {
-    std::vector<SmoothPart> parts = smooth_parts(integral.rate, step, nullptr, agreement, true);
+    std::vector<SmoothPart> parts = smooth_parts(*integral.rate, step, nullptr, agreement, true);
     // Breaks lie between two numbers that are next to each other.
     for (std::size_t k = 0; k + 1 < parts.size(); ++k) parts[k].to = parts[k + 1].from;
     parts.back().to = step.to;
@@ -79,15 +83,22 @@ void CostIntegrals::add_to(std::vector<DenseStep>& steps, Integral& integral, bo
   steps = std::move(all);
 }
 
-void CostIntegrals::add_to(hybrid::FlowPiece& flow, bool moved) {
+void RunCosts::add_to(hybrid::FlowPiece& flow, bool moved) {
   for (Integral& integral : integrals_) {
     flow.start(integral.element) = integral.total;
-    add_to(flow.steps, integral, moved);
+    if (integral.rate) {
+      add_to(flow.steps, integral, moved);
+    } else {
+      for (DenseStep& step : flow.steps) {
+        step.coefficients.row(integral.element).setZero();
+        step.coefficients(integral.element, 0) = integral.total;
+      }
+    }
     flow.end(integral.element) = integral.total;
   }
 }
 
-void CostIntegrals::add_to(hybrid::Trajectory& run, bool moved) {
+void RunCosts::add_to(hybrid::Trajectory& run, bool moved) {
   for (Integral& integral : integrals_) integral.total = 0;
   if (integrals_.empty()) return;
   for (auto& part : run.parts) {
@@ -96,8 +107,11 @@ void CostIntegrals::add_to(hybrid::Trajectory& run, bool moved) {
       continue;
     }
     auto& jump = std::get<hybrid::JumpPoint>(part);
-    for (const Integral& integral : integrals_)
-      jump.before(integral.element) = jump.after(integral.element) = integral.total;
+    for (Integral& integral : integrals_) {
+      jump.before(integral.element) = integral.total;
+      if (integral.jump) integral.total += integral.jump->number(jump.before);
+      jump.after(integral.element) = integral.total;
+    }
   }
 }
 

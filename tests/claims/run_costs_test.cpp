@@ -1,4 +1,4 @@
-#include "claims/cost_integrals.h"
+#include "claims/run_costs.h"
 
 #include <gtest/gtest.h>
 
@@ -45,35 +45,46 @@ hybrid::StateLayout layout() {
 }
 
 /// c at the end of the first flow, after the jump, at t = 2.5 and at the end.
-Eigen::Vector4d costs(const expr::Program& program, bool moved = false) {
-  const std::vector<FlowCost> all = {{1, program}};
+Eigen::Vector4d costs(const RunCost& cost, bool moved = false) {
+  const std::vector<RunCost> all = {cost};
   const hybrid::StateLayout where = layout();
   const numbers::Values constants;
   hybrid::Trajectory run = two_flows();
-  CostIntegrals(all, where, constants).add_to(run, moved);
+  RunCosts(all, where, constants).add_to(run, moved);
   const auto& first = std::get<hybrid::FlowPiece>(run.parts[0]);
   const auto& jump = std::get<hybrid::JumpPoint>(run.parts[1]);
   const auto& last = std::get<hybrid::FlowPiece>(run.parts[2]);
   EXPECT_EQ(first.start(1), 0);
-  EXPECT_EQ(jump.before(1), jump.after(1));
+  EXPECT_EQ(jump.before(1), first.end(1));
   EXPECT_EQ(last.start(1), jump.after(1));
   return {first.end(1), jump.after(1), last.steps.back()(2.5)(1), last.end(1)};
 }
 
-TEST(CostIntegrals, AreThoseOfThePolynomialsThatRunsAre) {
-  const Eigen::Vector4d found = costs(program_of(expr::Op::multiply));
+TEST(RunCosts, AreThoseOfThePolynomialsThatRunsAre) {
+  const Eigen::Vector4d found = costs({1, program_of(expr::Op::multiply), {}});
   const Eigen::Vector4d wanted(8.0 / 3, 8.0 / 3, 8.0 / 3 + 12.5, 8.0 / 3 + 25);
   EXPECT_LE((found - wanted).cwiseAbs().maxCoeff(), 1e-12);
 }
 
-TEST(CostIntegrals, KinksAreFound) {
-  const Eigen::Vector4d found = costs(program_of(expr::Op::abs));
+TEST(RunCosts, KinksAreFound) {
+  const Eigen::Vector4d found = costs({1, program_of(expr::Op::abs), {}});
   const Eigen::Vector4d wanted(1, 1, 3, 5);
   EXPECT_LE((found - wanted).cwiseAbs().maxCoeff(), 1e-10);
 }
 
-TEST(CostIntegrals, ThatOfATwinIsMovedByTheErrorOfTheQuadrature) {
+TEST(RunCosts, OfAJumpAreOfTheValuesBeforeIt) {
+  const double before = std::get<hybrid::JumpPoint>(two_flows().parts[1]).before(0);
   const expr::Program square = program_of(expr::Op::multiply);
+  const double cost = before * before;
+  EXPECT_NE(cost, 0);
+  EXPECT_EQ(costs({1, {}, square}), Eigen::Vector4d(0, cost, cost, cost));
+  const Eigen::Vector4d both = costs({1, square, square});
+  const Eigen::Vector4d flow = costs({1, square, {}});
+  EXPECT_LE((both - flow - Eigen::Vector4d(0, cost, cost, cost)).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(RunCosts, ThatOfATwinIsMovedByTheErrorOfTheQuadrature) {
+  const RunCost square{1, program_of(expr::Op::multiply), {}};
   const double moved = costs(square, true)(3) - costs(square)(3);
   EXPECT_GT(moved, 0);
   EXPECT_LT(moved, 1e-9);
