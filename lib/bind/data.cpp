@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <string>
 
 #include "base/nearest.h"
@@ -12,6 +11,7 @@
 #include "bind/formulas.h"
 #include "bind/function_data.h"
 #include "expr/functions.h"
+#include "expr/rename.h"
 
 namespace gainsmith::bind {
 
@@ -100,16 +100,18 @@ void refuse_unknown_names(const Binding& binding) {
 
 /// InputError where the value uses data that come after this one.
 void refuse_later_data(const Binding& binding, const model::Value& value) {
-  const std::set<std::string> names = names_in(value.value);
   const auto& data = binding.method().data;
   const auto self = std::find_if(data.begin(), data.end(),
                                  [&](const auto& datum) { return datum.name == value.name; });
   if (self == data.end()) return;
-  for (auto later = self + 1; later != data.end(); ++later)
-    if (names.contains(later->name) && !binding.names->known.symbols.contains(later->name))
-      throw InputError(value.place, "the datum " + value.name + " uses '" + later->name +
-                                        "', which the method declares after it: data use data "
-                                        "before them");
+  expr::visit_names(value.value, [&](const expr::Node& node) {
+    const bool later = std::any_of(self + 1, data.end(),
+                                   [&](const auto& datum) { return datum.name == node.text; });
+    if (later && !binding.names->known.symbols.contains(node.text))
+      throw InputError(value.value.place(node), "unknown name '" + node.text +
+                                                    "' here: the method declares it after " +
+                                                    value.name + ", and data use data before them");
+  });
 }
 
 /// A datum that is declared, with what the problem gives.

@@ -104,19 +104,19 @@ TEST(Better, TheDefaultGainBoundIsWidenedInItsOwnUnits) {
   EXPECT_LE(any, wider * (1 + 1e-6));
 }
 
-/// The element k of A is a number that the method `observer` does not know.
+/// An element of A is a number that the method `observer` does not know.
 TEST(Better, ANumberOfTheProblemIsVaried) {
   const Folder folder;
-  const std::string file =
-      folder.file("p.yaml",
-                  "problem: p\nmethod: observer\ndata: {A: [[0, 1], [-k, -1]], C: [[1, 0]], k: 2}\n"
-                  "parameters: {alpha: 3}\nsynthesis: {gain_bound: 20}\n");
+  const std::string file = folder.file(
+      "p.yaml",
+      "problem: p\nmethod: observer\ndata: {A: [[0, 1], [-stiff, -1]], C: [[1, 0]], stiff: 2}\n"
+      "parameters: {alpha: 3}\nsynthesis: {gain_bound: 20}\n");
   auto scalars =
       by_name(gainsmith({"explain", file, "--json"}).json()["limits"]["scalars"], "scalar");
-  ASSERT_EQ(scalars.count("k"), 1U);
-  const Outcome scan = gainsmith({"scan", file, "--over", "k=2:4:2"});
+  ASSERT_EQ(scalars.count("stiff"), 1U);
+  const Outcome scan = gainsmith({"scan", file, "--over", "stiff=2:4:2"});
   EXPECT_EQ(scan.exit, 0) << scan.err;
-  EXPECT_TRUE(has(scan.out, "  4      yes")) << scan.out;
+  EXPECT_TRUE(has(scan.out, "    4      yes")) << scan.out;
 }
 
 /// C shows the second state alone; the first decays like exp(-t).

@@ -122,7 +122,8 @@ TEST(ProblemsTest, AFolderIsRunWithALineAProblem) {
   EXPECT_EQ(outcome.exit, 0) << outcome.out << outcome.err;
   const std::size_t count = problems_in("classics").size();
   EXPECT_EQ(static_cast<std::size_t>(std::count(outcome.out.begin(), outcome.out.end(), '\n')),
-            count);
+            count + 1)
+      << "and their number";
   const std::string junit = text_of(folder.path("junit.xml"));
   EXPECT_NE(junit.find("tests=\"" + std::to_string(count) + "\" failures=\"0\" errors=\"0\""),
             std::string::npos)
