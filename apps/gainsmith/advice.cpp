@@ -52,6 +52,7 @@ std::vector<std::string> next_commands(const model::Instance& instance, const mo
     commands.push_back("gainsmith bisect " + problem + " --smallest gain_bound");
   // What the output does not show no interval shows.
   if (!design::hidden_mode_text(instance).empty()) return commands;
+  if (gains.verdict == model::Verdict::no) commands.push_back("gainsmith explain " + problem);
   std::set<std::string> ends;
   for (const model::Design::Inequality& inequality : instance.design->inequalities)
     for (const auto& variable : inequality.domain) {

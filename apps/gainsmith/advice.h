@@ -9,7 +9,7 @@
 
 namespace gainsmith::app {
 
-/// Command lines that can be pasted: an explanation where the verdict is undecided, and the longest
+/// Command lines that can be pasted: an explanation, unless a hidden mode explains a no, and the longest
 /// interval with gains for each interval that ends at a scalar of the problem, by a search of the
 /// scalars that were searched too. None for a yes.
 /// `file`: the problem as it was named on the command line; its --set options are carried over.

@@ -44,9 +44,8 @@ std::string matrices_line(const model::Design& design) {
   if (std::ranges::all_of(design.data, is_varied)) return "";
   return fmt::format(
       "{:<12}{}\n", "matrices",
-      "only scalar data and parameters are varied: write an element of a matrix as "
-      "a scalar\n            datum to see what it costs, such as A: \"[0, a; 1, 0]\" "
-      "with a: 2");
+      "only scalars are varied: to see what an element of a matrix costs, give it a name\n"
+      "            under 'data', such as a: 2 with A: \"[0, a; 1, 0]\"");
 }
 
 /// What is said of gains that could be better.

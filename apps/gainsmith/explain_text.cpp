@@ -8,6 +8,7 @@
 #include "base/number.h"
 #include "gainsmith/output.h"
 #include "gainsmith/summary.h"
+#include "model/names.h"
 
 namespace gainsmith::app {
 
@@ -48,8 +49,10 @@ std::string conflict_statement(const design::Conflict& conflict);
 /// What stops a scalar that has room.
 std::string stop_text(const design::Reach& reach) {
   if (!reach.beyond && reach.feasible == reach.end)
-    return "            that is the end of its range: nothing nearer stops it\n";
+    return "            the end of its range: nothing before it stops " + reach.name + "\n";
   if (!reach.conflict) return reach.beyond ? "" : "            what lies beyond is undecided\n";
+  if (reach.conflict->gain_bound && reach.name == model::kGainBound)
+    return fmt::format("            with {} no gains were found\n", brief(reach.conflict_at, 5));
   return fmt::format("            at {}: {}\n", brief(reach.conflict_at, 5),
                      conflict_statement(*reach.conflict));
 }
@@ -104,8 +107,8 @@ std::string relaxations_text(const std::vector<design::Relaxation>& relaxations)
   std::size_t width = 10;
   for (const auto& relaxation : relaxations) width = std::max(width, relaxation.name.size());
   std::string text =
-      fmt::format("{:<{}}  {:>14}  {:>14}  {:>10}  {:>14}  {:>14}\n", "relax by", width, "it alone",
-                  "all together", "of scale", "adds alone", "adds together");
+      fmt::format("{:<{}}  {:>14}  {:>14}  {:>10}  {:>14}  {:>14}\n", "relax by", width, "alone",
+                  "all together", "times size", "= t alone", "= t together");
   const auto number = [](const std::optional<double>& value, bool at_most, const char* none) {
     if (!value) return std::string(none);
     return (at_most && *value > 0 ? "at most " : "") + brief(*value, 4);
@@ -120,9 +123,9 @@ std::string relaxations_text(const std::vector<design::Relaxation>& relaxations)
         number(in_units(relaxation.alone, relaxation), relaxation.alone_at_most, "-"),
         number(in_units(relaxation.together, relaxation), relaxation.together_at_most, "-"));
   return text +
-         "            'adds' is that number times the scale, in the units of the inequality: so "
-         "much\n"
-         "            times I on the larger side is enough\n";
+         "            alone: if no other requirement gives; all together: if all of them do.\n"
+         "            t = that number times the size of the rows: t*I on the larger side is "
+         "enough\n";
 }
 
 constexpr const char* kZeroOrNone = "0 or -inf";
@@ -166,10 +169,9 @@ std::string slack_for_one_percent(const design::Limit& limit, double objective) 
 /// What the cells of the table mean, those that occur.
 std::string legend_of(const std::vector<design::Limit>& active, double objective) {
   std::string text =
-      "price       t*I on the larger side of a requirement lowers the optimum by price*t at most\n"
-      "            'for 1 %' is the least t that can make it 1 % better, 'size' that of the "
-      "largest "
-      "row\n";
+      "price       t*I on the larger side of a requirement lowers the optimum by at most price*t.\n"
+      "            'for 1 %' is the least t that can make it 1 % better; compare it with 'size',\n"
+      "            the size of the largest row of the requirement\n";
   const auto add = [&](const char* cell, const char* meaning) {
     if (std::any_of(active.begin(), active.end(), [&](const design::Limit& limit) {
           return minimum_text(limit.without, objective) == cell;

@@ -83,7 +83,7 @@ std::string no_gains_cause(const model::Instance& instance, const model::Gains& 
   constexpr double kSeconds = 1;  // of work
   const std::string& message = gains.solver.message;
   if (gains.verdict == model::Verdict::undecided || !gains.certificate)
-    return verdict_line(gains) + (message.empty() ? "" : ": " + message);
+    return message.empty() ? verdict_line(gains) : to_string(gains.verdict) + ": " + message;
   const std::string hidden = design::hidden_mode_text(instance);
   if (!hidden.empty()) return "infeasible: " + hidden;
   const auto conflict = design::guess_conflict(instance, gains, {}, kSeconds);
@@ -221,7 +221,7 @@ class Job {
     if (design::lacks_gains(*instance_.design, gains) && gains.solver.message.empty())
       text += "why         " + result.causes.front() + "\n";
     if (campaign) text += campaign_summary(*campaign, (folder_ / "gains.json").string());
-    if (instance_.design->expect)
+    if (instance_.design->expect || !result.differences.empty())
       text +=
           result.differences.empty() ? "expected    all as expected\n" : "expected    DIFFERENT:\n";
     for (const std::string& difference : result.differences) text += "  " + difference + "\n";

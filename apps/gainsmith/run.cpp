@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/file.h"
@@ -67,6 +69,18 @@ class Lines {
     clear_progress();
     for (; next_ < results_.size() && results_[next_] != nullptr; ++next_) print(*results_[next_]);
     std::fflush(stdout);
+  }
+
+  /// "3 problems: 2 ok, 1 NO".
+  std::string total() const {
+    std::map<ExitCode, int> counts;
+    for (const JobResult* result : results_)
+      if (result != nullptr) ++counts[result->exit];
+    std::string text = fmt::format("{} problems:", results_.size());
+    std::string mark = " ";
+    for (const auto& [exit, count] : counts)
+      text += std::exchange(mark, ", ") + fmt::format("{} {}", count, mark_of(exit));
+    return text + "\n";
   }
 
  private:
@@ -151,6 +165,7 @@ ExitCode run(const RunOptions& options) {
   ExitCode worst = ExitCode::yes;
   for (const JobResult& result : results) worst = std::max(worst, result.exit);
   if (options.json) fmt::print("{}", json_text(results, worst));
+  if (!options.json && results.size() > 1) fmt::print("{}", lines.total());
   if (options.report) write_report(options, results);
   if (!options.junit.empty()) write_atomically(options.junit, junit_text(results));
   const auto open = std::count_if(results.begin(), results.end(),

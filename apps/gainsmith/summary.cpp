@@ -86,10 +86,18 @@ std::string margins_text(const model::Gains& gains) {
 
 std::string bounds_text(const model::Gains& gains) {
   std::string text;
-  for (const model::GainBound& bound : gains.bounds)
-    if (bound.active)
-      text += fmt::format("gain bound  active on {}: the bound of its norm is {}, {} is allowed\n",
-                          bound.what, brief(bound.reached), brief(bound.bound));
+  for (const model::GainBound& bound : gains.bounds) {
+    if (!bound.active) continue;
+    const std::string reached = brief(bound.reached);
+    const std::string allowed = brief(bound.bound);
+    text += "gain bound  active on " + bound.what + ": ";
+    if (bound.is_balanced)
+      text += reached + " of the default " + allowed +
+              ", in balanced units, not those of the file;\n"
+              "            synthesis.gain_bound states a bound in the units of the file\n";
+    else
+      text += "its norm is at most " + reached + ", and " + allowed + " is allowed\n";
+  }
   return text;
 }
 

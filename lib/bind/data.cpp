@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "base/nearest.h"
 #include "base/number.h"
@@ -10,6 +11,7 @@
 #include "bind/formulas.h"
 #include "bind/function_data.h"
 #include "expr/functions.h"
+#include "expr/rename.h"
 
 namespace gainsmith::bind {
 
@@ -94,6 +96,22 @@ void refuse_unknown_names(const Binding& binding) {
     refuse({{function.signature.name, function.body, false, function.place}}, data, parameters,
            "datum", "data", "parameters");
   refuse(binding.problem().parameters, parameters, data, "parameter", "parameters", "data");
+}
+
+/// InputError where the value uses data that come after this one.
+void refuse_later_data(const Binding& binding, const model::Value& value) {
+  const auto& data = binding.method().data;
+  const auto self = std::find_if(data.begin(), data.end(),
+                                 [&](const auto& datum) { return datum.name == value.name; });
+  if (self == data.end()) return;
+  expr::visit_names(value.value, [&](const expr::Node& node) {
+    const bool later = std::any_of(self + 1, data.end(),
+                                   [&](const auto& datum) { return datum.name == node.text; });
+    if (later && !binding.names->known.symbols.contains(node.text))
+      throw InputError(value.value.place(node), "unknown name '" + node.text +
+                                                    "' here: the method declares it after " +
+                                                    value.name + ", and data use data before them");
+  });
 }
 
 /// A datum that is declared, with what the problem gives.
@@ -213,6 +231,7 @@ void add_datum(Binding& binding, const Given& given) {
     return define(binding, std::move(bound), binding.design->data);
   const model::Value value =
       given.value ? *given.value : model::Value{datum.name, *datum.fallback, false, datum.place};
+  refuse_later_data(binding, value);
   const auto expected = resolve(datum.shape, dimensions);
   const bool column = datum.shape.is_column() || (expected && is_proper_column(*expected));
   model::Value turned{value.name, oriented(value, column), false, value.place};

@@ -135,7 +135,8 @@ model::Dynamics::Noise DynamicsBinding::varied_noise(const model::UncertainText&
 
 /// Why a name is none that may be uncertain.
 std::string DynamicsBinding::no_datum(const std::string& name) const {
-  if (scope_->definitions.contains(name)) return "a definition: make it, or what it uses, a datum";
+  if (scope_->definitions.contains(name))
+    return "a definition: write it, or what it uses, under 'data'";
   std::vector<std::string> data;
   for (const auto& [symbol, about] : scope_->symbols)
     if (about.known) data.push_back(symbol);

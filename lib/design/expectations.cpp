@@ -37,6 +37,12 @@ class Comparison {
     if (expected && *expected != found) add(place, what, *expected, found);
   }
 
+  /// What a problem has to be when it does not say otherwise.
+  void usual(const std::string& what, const std::string& wanted, const std::string& found,
+             const Place& place) {
+    add(place, what, wanted + " (no 'expect' says otherwise)", found);
+  }
+
   void value(const model::Design::ExpectedValue& expected) {
     const auto value = results_.value(expected.what);
     if (!value) return add(expected.place, expected.name, "a value", "none");
@@ -45,10 +51,14 @@ class Comparison {
     double allowed = expected.absolute.value_or(0);
     if (expected.relative)
       allowed = std::max(allowed, *expected.relative * wanted.cwiseAbs().maxCoeff());
-    const double difference = (found - wanted).cwiseAbs().maxCoeff();
-    if (!(difference <= allowed))
-      add(expected.place, expected.name, text_of(wanted) + " within " + brief(allowed),
-          text_of(found));
+    Eigen::Index row = 0, column = 0;
+    const double difference = (found - wanted).cwiseAbs().maxCoeff(&row, &column);
+    if (difference <= allowed) return;
+    const std::string most = found.size() == 1 ? ""
+                                               : ", most different at (" + std::to_string(row + 1) +
+                                                     ", " + std::to_string(column + 1) + ")";
+    add(expected.place, expected.name, text_of(wanted) + " within " + brief(allowed),
+        text_of(found) + most);
   }
 
   void bounds(const std::vector<std::string>& expected, const Place& place) {
@@ -84,10 +94,16 @@ bool lacks_gains(const model::Design& design, const model::Gains& gains) {
 std::vector<std::string> differences(const model::Instance& instance, const model::Gains& gains,
                                      std::optional<model::CampaignVerdict> campaign) {
   const auto& expect = instance.design->expect;
-  if (!expect) return {};
   Comparison comparison(instance, gains);
-  comparison.words("verdict", expect->verdict, to_string(gains.verdict), expect->place);
+  const Place whole{instance.design->file};
+  const bool is_no = gains.verdict == model::Verdict::no;
+  if (is_no && !(expect && expect->verdict)) comparison.usual("verdict", "yes", "no", whole);
+  if (expect) comparison.words("verdict", expect->verdict, to_string(gains.verdict), expect->place);
   if (lacks_gains(*instance.design, gains)) return comparison.take();
+  const bool is_violated = campaign == model::CampaignVerdict::violated;
+  if (is_violated && !(expect && expect->campaign))
+    comparison.usual("campaign", "held", "violated", whole);
+  if (!expect) return comparison.take();
   comparison.words("status", expect->status, gains.solver.status, expect->place);
   comparison.words("campaign", expect->campaign, campaign ? to_string(*campaign) : "no campaign",
                    expect->place);

@@ -15,7 +15,8 @@ namespace gainsmith::design {
 bool lacks_gains(const model::Design& design, const model::Gains& gains);
 
 /// The differences between what `expect:` says and what was found, one sentence each, with the
-/// place in the problem file; empty when all is as expected, or nothing is. Where it lacks gains the
+/// place in the problem file; empty when all is as expected. Where it does not say, no certificate
+/// may exclude gains and the campaign must not be violated. Where it lacks gains the
 /// verdict alone. `campaign` is none when no campaign was run; an expectation on it is then a
 /// difference.
 std::vector<std::string> differences(const model::Instance& instance, const model::Gains& gains,

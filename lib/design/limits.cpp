@@ -63,9 +63,17 @@ bool bounds_cost(const Design& design, const model::Gains& gains, double largest
       });
 }
 
-model::Instance with_gain_bound(const model::Instance& instance, std::optional<double> bound) {
+/// The default stays one: a bound that is stated is meant in other units.
+model::Instance with_wider_bound(const model::Instance& instance, double times) {
   return with_design(instance, [&](Design& design) {
-    if (bound) return design.synthesis.set_gain_bound(*bound);
+    model::SynthesisOptions& asked = design.synthesis;
+    if (asked.gain_bound_stated) return asked.set_gain_bound(times * *asked.gain_bound);
+    asked.gain_bound = times * *asked.gain_bound;
+  });
+}
+
+model::Instance without_gain_bound(const model::Instance& instance) {
+  return with_design(instance, [](Design& design) {
     design.synthesis.gain_bounds.clear();
     design.synthesis.gain_bound.reset();
   });
@@ -75,9 +83,8 @@ model::Instance with_gain_bound(const model::Instance& instance, std::optional<d
 void find_bounds(const model::Instance& instance, const model::Gains& gains,
                  const sdp::Options& solver, Limits& limits) {
   constexpr double kWider = 10;
-  const Changed wider =
-      changed(with_gain_bound(instance, kWider * *instance.design->synthesis.gain_bound), solver);
-  const Changed any = changed(with_gain_bound(instance, {}), solver);
+  const Changed wider = changed(with_wider_bound(instance, kWider), solver);
+  const Changed any = changed(without_gain_bound(instance), solver);
   const auto is_better = [&](const Changed& found) {
     return found.unbounded || (found.minimum && *found.minimum < *gains.objective_lower_bound);
   };

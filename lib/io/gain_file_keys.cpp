@@ -49,7 +49,8 @@ constexpr std::array kKeysOfMargin = {
 
 constexpr std::array kKeysOfBound = {
     Key{"gain", "text", "", kRequired}, Key{"bound", "number", "", kRequired},
-    Key{"reached", "number | nothing", "", kRequired}, Key{"active", "truth", "", kRequired}};
+    Key{"reached", "number | nothing", "", kRequired}, Key{"active", "truth", "", kRequired},
+    Key{"balanced_units", "truth", "of a bound that the problem does not state"}};
 
 constexpr std::array kKeysOfCertificate = {
     Key{"exact", "truth", "no solution, shown", kRequired}, Key{"about", "text"},

@@ -69,7 +69,8 @@ Json bound_json(const model::GainBound& bound) {
   return {{"gain", bound.what},
           {"bound", bound.bound},
           {"reached", finite_or_null(bound.reached)},
-          {"active", bound.active}};
+          {"active", bound.active},
+          {"balanced_units", bound.is_balanced}};
 }
 
 Json gain_function_json(const model::Gains& gains, const model::GainFunction& gain) {
@@ -388,7 +389,8 @@ model::Gains parse_gains(const std::string& text, const std::string& file) {
     gains.margins.push_back(margin_of(item));
   for (const JsonReader& item : reader.at("bounds").items())
     gains.bounds.push_back({item.at("gain").text(), item.at("bound").number(),
-                            item.at("reached").number_or_infinity(), item.at("active").truth()});
+                            item.at("reached").number_or_infinity(), item.at("active").truth(),
+                            item.has("balanced_units") && item.at("balanced_units").truth()});
   if (reader.has("certificate"))
     gains.certificate = certificate_of(reader.at("certificate"), gains);
   gains.solver = solver_of(reader.at("solver"));

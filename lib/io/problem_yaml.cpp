@@ -12,6 +12,7 @@
 #include "io/figure_yaml.h"
 #include "io/method_node.h"
 #include "io/method_yaml.h"
+#include "io/scalar_data.h"
 #include "io/search_yaml.h"
 #include "io/setting.h"
 #include "io/sources.h"
@@ -320,6 +321,9 @@ model::Problem parse_problem(const std::string& text, const std::string& file,
   problem.method = method_of(yaml, method, problem.name, library);
   problem.method_name = problem.method->name;
   read_data(yaml, map.find("data"), problem);
+  for (const YamlItem& item : items_of(yaml, map.find("let"), "let"))
+    problem.let.push_back(definition(yaml, item));
+  declare_scalars(problem);
   for (const YamlItem& item : items_of(yaml, map.find("parameters"), "parameters"))
     add(value_of(yaml, item), item, problem.parameters);
   problem.synthesis = synthesis(yaml, map.find("synthesis"));
@@ -337,8 +341,6 @@ model::Problem parse_problem(const std::string& text, const std::string& file,
   problem.campaign = campaign(yaml, campaign_item, *problem.method);
   if (const auto expect = map.find("expect")) problem.expect = expectation_from(yaml, *expect);
   if (const auto compare = map.find("compare")) problem.compare = figures(yaml, *compare);
-  for (const YamlItem& item : items_of(yaml, map.find("let"), "let"))
-    problem.let.push_back(definition(yaml, item));
   for (const YamlItem& item : items_of(yaml, map.find("report"), "report"))
     problem.report.push_back({item.key, yaml.expression(item.value, item.key), item.place});
   for (const YamlItem& item : items_of(yaml, map.find("uncertain"), "uncertain"))

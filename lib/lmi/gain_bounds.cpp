@@ -342,7 +342,7 @@ std::vector<model::GainBound> reached_bounds(const GainBounds& bounds,
     const numbers::Matrix s = value_of(bound.s, x);
     const numbers::Matrix e = value_of(bound.e, x);
     model::GainBound record{bound.what, bounds.beta * bound.share,
-                            std::numeric_limits<double>::infinity(), false};
+                            std::numeric_limits<double>::infinity(), false, !bounds.units.empty()};
     // A coefficient of a function need not be definite: then the measure says nothing.
     if (const numbers::Cholesky factor(s); factor) {
       const double largest =

@@ -42,6 +42,7 @@ struct GainBound {
   double bound = 0;    ///< allowed
   double reached = 0;  ///< in the same measure
   bool active = false;
+  bool is_balanced = false;  ///< the default, in balanced units; otherwise in those of the file
 };
 
 /// The certificate of a no, as it was checked on the decimals of the file (verdict/refutation.h),

@@ -191,10 +191,11 @@ std::string margins_section(const Results& results) {
                           lines);
   std::string bounds;
   for (const model::GainBound& bound : gains.bounds)
-    bounds += element("tr", cells({bound.what, brief(bound.reached), brief(bound.bound),
-                                   bound.active ? "active" : ""}));
+    bounds += element(
+        "tr", cells({bound.what, brief(bound.reached), brief(bound.bound),
+                     bound.active ? "active" : "", bound.is_balanced ? "balanced units" : ""}));
   if (!bounds.empty())
-    text += scrolled_table(heads({"bound on", "reached", "allowed", ""}), bounds);
+    text += scrolled_table(heads({"bound on", "reached", "allowed", "", ""}), bounds);
   if (gains.verdict == model::Verdict::yes && gains.objective)
     text += paragraph("Which requirements limit the optimum, and what each of them costs:") +
             preformatted("gainsmith explain " + model::problem_words(gains.statement.problem_file,

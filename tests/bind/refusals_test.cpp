@@ -151,7 +151,8 @@ TEST(Refusal, AnAssumptionWithoutNamesSaysWhatIsExpected) {
 
 TEST(Refusal, MistakesInDataAreShownInTheProblem) {
   expect_refused({"T1: 0.5", "T1: 1/0", at(6, 7), "division by zero"});
-  expect_refused({"T1: 0.5", "T1: T2", at(6, 7), "unknown name 'T2'"});
+  expect_refused(
+      {"T1: 0.5", "T1: T2", at(6, 7), "unknown name 'T2' here: the method declares it after T1"});
   expect_refused({"T1: 0.5", "T1: 1e999", at(6, 7), "beyond the range"});
 }
 

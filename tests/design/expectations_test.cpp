@@ -65,8 +65,18 @@ TEST(ExpectationsTest, WithoutGainsTheVerdictAloneDiffers) {
   ASSERT_EQ(found("  verdict: yes\n" + rest).size(), 1U);
   EXPECT_NE(found("  verdict: yes\n" + rest)[0].find("verdict: expected yes, found no"),
             std::string::npos);
-  EXPECT_TRUE(found(rest).empty());
+  ASSERT_EQ(found(rest).size(), 1U);
+  EXPECT_EQ(found(rest)[0],
+            "test.yaml: verdict: expected yes (no 'expect' says otherwise), found no");
   EXPECT_EQ(found("  verdict: no\n" + rest).size(), 2U);
+}
+
+TEST(ExpectationsTest, AViolatedCampaignIsADifferenceUnlessItIsExpected) {
+  const auto found = differences_of("  verdict: yes\n", model::CampaignVerdict::violated);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NE(found[0].find("campaign: expected held (no 'expect' says otherwise), found violated"),
+            std::string::npos);
+  EXPECT_TRUE(differences_of("  campaign: violated\n", model::CampaignVerdict::violated).empty());
 }
 
 TEST(ExpectationsTest, AMatrixIsComparedElementByElement) {

@@ -76,9 +76,47 @@ TEST(Better, AGainBoundThatCostsSaysWhatMoreGives) {
   EXPECT_GT(wider.get<double>(), 1.30610178);
   const std::string shown = gainsmith({"explain", problem("designs/hinf-state-feedback.yaml")}).out;
   EXPECT_TRUE(has(shown, "without this requirement nothing bounds the objective")) << shown;
-  EXPECT_TRUE(has(shown, "matrices    only scalar data")) << shown;
+  EXPECT_TRUE(has(shown, "matrices    only scalars are varied")) << shown;
   EXPECT_TRUE(has(shown, "gain bound  it costs: the optimum with ten times the bound is 1.3"))
       << shown;
+}
+
+/// The default bound is in balanced units: ten times it lies beyond it, whatever the units of the
+/// file, and the summary does not take it for the norm of the gain.
+TEST(Better, TheDefaultGainBoundIsWidenedInItsOwnUnits) {
+  const Folder folder;
+  const std::string file = folder.file(
+      "p.yaml",
+      "problem: p\nmethod:\n  data: {A: n x n, B: n x k, C: p x n, D: p x k}\n"
+      "  unknowns: {P: symmetric n, Y: n x p, g: scalar}\n  require:\n    positive: P > 0\n"
+      "    norm: \"[He(P*A - Y*C), P*B - Y*D, eye(n); *, -g*I, 0; *, *, -g*I] < 0\"\n"
+      "  minimize: g\n  gains: {L: inv(P)*Y}\ndata:\n"
+      "  A: [[0, 0, 1, 0], [0, 0, 0, 1], [0, -1.962, -0.1, 0], [0, 23.544, 0.2, 0]]\n"
+      "  B: [[0, 0, 0, 0], [0, 0, 0, 0], [1, 0, 0, 0], [-2, 10, 0, 0]]\n"
+      "  C: [[1, 0, 0, 0], [0, 1, 0, 0]]\n  D: [[0, 0, 0.01, 0], [0, 0, 0, 0.01]]\n");
+  const Outcome synth = gainsmith({"synth", file});
+  EXPECT_TRUE(has(synth.out, "of the default 10000, in balanced units")) << synth.out;
+  const Json limits = gainsmith({"explain", file, "--json"}).json();
+  const double bound = limits["objective"].get<double>();
+  const double wider = limits["limits"]["ten_times_the_gain_bound"]["minimum"].get<double>();
+  const double any = limits["limits"]["without_gain_bound"]["minimum"].get<double>();
+  EXPECT_LT(wider, bound);
+  EXPECT_LE(any, wider * (1 + 1e-6));
+}
+
+/// An element of A is a number that the method `observer` does not know.
+TEST(Better, ANumberOfTheProblemIsVaried) {
+  const Folder folder;
+  const std::string file = folder.file(
+      "p.yaml",
+      "problem: p\nmethod: observer\ndata: {A: [[0, 1], [-stiff, -1]], C: [[1, 0]], stiff: 2}\n"
+      "parameters: {alpha: 3}\nsynthesis: {gain_bound: 20}\n");
+  auto scalars =
+      by_name(gainsmith({"explain", file, "--json"}).json()["limits"]["scalars"], "scalar");
+  ASSERT_EQ(scalars.count("stiff"), 1U);
+  const Outcome scan = gainsmith({"scan", file, "--over", "stiff=2:4:2"});
+  EXPECT_EQ(scan.exit, 0) << scan.err;
+  EXPECT_TRUE(has(scan.out, "    4      yes")) << scan.out;
 }
 
 /// C shows the second state alone; the first decays like exp(-t).
@@ -95,7 +133,8 @@ TEST(Better, AModeThatNoGainMovesEndsTheDecayRate) {
                   "direction [1; 0]\n"))
       << outcome.out;
   EXPECT_TRUE(has(outcome.out, "scale and decay cannot hold together")) << outcome.out;
-  EXPECT_TRUE(has(outcome.out, "that is the end of its range")) << outcome.out;
+  EXPECT_TRUE(has(outcome.out, "the end of its range: nothing before it stops alpha"))
+      << outcome.out;
   EXPECT_FALSE(has(outcome.out, "gain bound")) << outcome.out;
   const Json reach = gainsmith({"explain", file, "--json"}).json()["negotiable"][0];
   EXPECT_NEAR(reach["feasible"].get<double>(), 1, 1e-3);

@@ -59,6 +59,28 @@ TEST(Problem, HasDefaultsForWhatIsLeftOut) {
   EXPECT_TRUE(problem.data.empty());
 }
 
+TEST(Problem, DeclaresItsOwnNumbersThatDataRead) {
+  const model::Problem problem =
+      read_problem(replaced(kProblem, "A: [[0.2, -1.01], [1, 0]]",
+                            "A: [[a, -1.01], [1, 0]]\n  a: b/5\n  b: 1\n  c: 3\n  M: [[1, 2]]"));
+  const auto& data = problem.method->data;
+  ASSERT_GT(data.size(), 3U);
+  EXPECT_EQ(data[0].name, "a");
+  EXPECT_EQ(data[1].name, "b");
+  EXPECT_EQ(data[2].name, "A") << "nothing reads c and M";
+  EXPECT_EQ(data[0].shape.text, "scalar");
+}
+
+TEST(Problem, ANumberOfItsOwnHasAFreeName) {
+  const auto error = input_error([] {
+    read_problem(
+        replaced(kProblem, "A: [[0.2, -1.01], [1, 0]]", "A: [[n, -1.01], [1, 0]]\n  n: 1"));
+  });
+  EXPECT_EQ(error.place(), (Place{"p.yaml", 5, 3}));
+  EXPECT_NE(error.message().find("'n', and uses this name for something else"), std::string::npos)
+      << error.message();
+}
+
 TEST(Problem, TheGainBoundMayBeOff) {
   EXPECT_EQ(
       read_problem(replaced(kProblem, "gain_bound: 100", "gain_bound: none")).synthesis.gain_bound,
