@@ -393,6 +393,11 @@ Finding ClaimCheck<Scalar>::cost(const Track& track) {
     const Finding found = finding_at(track, k, c[k], bound, scale, compare(c[k], most));
     if (!worst || rank(found) > rank(*worst)) worst = found;
   }
+  const bool held = !worst->violated() && !worst->undecided();
+  const std::size_t last = c.size() - 1;
+  // Its start, 0, says nothing of a run.
+  if (held && worst->value <= 0)
+    worst = finding_at(track, last, c[last], bound, scale, Judgement::held);
   return *worst;
 }
 

@@ -65,9 +65,10 @@ struct Finding {
   Judgement judgement = Judgement::held;
   /// (value - bound) / |scale|, the scale being v(0) or, for `shrinks`, factor v(0), for `below`
   /// the bound, or 1 when that is 0; (bound - value) / |scale| for `above`. While
-  /// `nonincreasing` holds, value and bound are v(end) and v(0): what is left at the end. Infinite
-  /// when a value is no number or the scale of a violation is 0; -1 when the scale is 0 and the
-  /// claim holds; minus infinite when no sample counts.
+  /// `nonincreasing` holds, value and bound are v(end) and v(0): what is left at the end. Of a cost
+  /// that is never positive the value is c(end), the whole cost. Infinite when a value is no number
+  /// or the scale of a violation is 0; -1 when the scale is 0 and the claim holds; minus infinite
+  /// when no sample counts.
   double score = -1;
   double value = 0;     ///< at the worst sample
   double bound = 0;     ///< what it must not exceed there

@@ -129,6 +129,17 @@ TEST(Cost, AFlowCostThatIsNoQuadraticFormIsBounded) {
   }
 }
 
+TEST(Cost, WhatIsNeverPositiveCountsAsAWhole) {
+  TextProblem problem = linear_plant("[-1, 0; 0, -1]");
+  problem.first("1.1").jump({}).horizon("1").cost("J", "4", "-x(1)^2", "0");
+  const Checked result = check(problem);
+  const double expected = -(1 - std::exp(-2.0)) / 2;
+  EXPECT_EQ(result.findings[0].judgement, claims::Judgement::held);
+  EXPECT_EQ(result.findings[0].t, 1);
+  EXPECT_NEAR(result.findings[0].value, expected, 1e-12);
+  EXPECT_NEAR(result.findings[0].score, expected / 4 - 1, 1e-12);
+}
+
 TEST(Cost, BoundMustHoldAtEveryInstant) {
   // The cost rises to 5 at the first jump and a negative jump cost takes it back afterwards.
   TextProblem problem = linear_plant("[0, 0; 0, 0]");

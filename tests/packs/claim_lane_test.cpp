@@ -72,6 +72,13 @@ TEST(ClaimLane, AValueThatShrinks) {
   EXPECT_TRUE(Follower(ClaimKind::shrinks, std::exp(-5)).along(kDecay, kDecayRate, 5, 0.25).open());
 }
 
+TEST(ClaimLane, ACostThatIsNeverPositiveCountsAsAWhole) {
+  const auto falls = [](double t) { return std::exp(-t) - 1; };
+  const ClaimLane lane = Follower(ClaimKind::cost, 2).along(falls, kDecayRate, 5, 0.25);
+  EXPECT_FALSE(lane.open());
+  EXPECT_NEAR(lane.score(), (std::exp(-5) - 1 - 2) / 2, 1e-9);
+}
+
 TEST(ClaimLane, RunsThatHavePartedSayNothing) {
   Follower follower(ClaimKind::below, 100);
   follower.difference = 0.1;
