@@ -112,7 +112,8 @@ std::string notes_text(const model::Design& design, const std::vector<std::uint6
   std::vector<std::string> notes = notes_on_observers(hybrid::idle_observers(*design.dynamics));
   std::map<std::vector<std::uint64_t>, std::vector<std::string>> alike;
   for (std::size_t e = 0; e < events; ++e)
-    if (!silent[e].empty()) alike[silent[e]].push_back(design.dynamics->events[e].name);
+    if (!silent[e].empty() && !design.dynamics->events[e].is_built_in())
+      alike[silent[e]].push_back(design.dynamics->events[e].name);
   for (const auto& [some, names] : alike)
     notes.push_back(note_on_events(names) + " in " + which_runs(some, runs));
   std::string text;

@@ -92,6 +92,9 @@ struct Dynamics {
     double lost = 0;                         ///< the probability that no observer sees it
     std::optional<int> lost_in_a_row;        ///< at most
     Place place;
+
+    /// Whether it is of a method of the program, whose places begin so, and not of the user's text.
+    bool is_built_in() const { return place.file.starts_with("method "); }
   };
 
   /// The new value of a variable.

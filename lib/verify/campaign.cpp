@@ -144,7 +144,8 @@ CampaignFacts facts_of(const Setup& setup, const CampaignOptions& options) {
   facts.horizon = setup.horizon();
   facts.integrated = setup.integrated();
   facts.idle_observers = hybrid::idle_observers(setup.events->system.dynamics);
-  for (const auto& event : setup.events->system.dynamics.events) facts.events.push_back(event.name);
+  for (const auto& event : setup.events->system.dynamics.events)
+    facts.events.push_back(event.is_built_in() ? "" : event.name);
   for (const claims::Claim& claim : setup.claims())
     facts.claims.push_back({claim.name, claim.kind, claim.missing});
   return facts;

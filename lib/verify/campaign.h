@@ -86,7 +86,7 @@ struct Report {
   /// With that confidence the probability that a run of this campaign violates is at most this;
   /// undecided runs count as violating. 1 where nothing is drawn.
   double violation_probability = 1;
-  std::vector<std::string> silent_events;   ///< that happened in no run
+  std::vector<std::string> silent_events;   ///< of the user's text, that happened in no run
   std::vector<std::string> idle_observers;  ///< that never change
   std::vector<CheckReport> checks;          ///< in the method's order; none when no run was made
 

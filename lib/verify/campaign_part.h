@@ -36,7 +36,7 @@ struct CampaignFacts {
   bool many_at_once = false;    ///< runs are made in packs
   bool until_violated = false;  ///< ends with the first violated run; of no part of --shard
   std::optional<std::uint64_t> different;
-  std::vector<std::string> events;
+  std::vector<std::string> events;  ///< a name; of a method of the program empty
   std::vector<std::string> idle_observers;
   std::vector<ClaimFacts> claims;
 

@@ -128,7 +128,8 @@ void take_counts(const CampaignPart& part, const Tally& tally, Report& report) {
     report.unfinished_message = tally.first_unfinished->message;
   }
   for (std::size_t e = 0; e < tally.happened.size(); ++e)
-    if (tally.happened[e] == 0) report.silent_events.push_back(part.facts.events[e]);
+    if (tally.happened[e] == 0 && !part.facts.events[e].empty())
+      report.silent_events.push_back(part.facts.events[e]);
 }
 
 /// Where the first violation ends the campaign, the runs before it decide: how many they are says as
