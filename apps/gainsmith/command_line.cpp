@@ -144,11 +144,26 @@ void refuse_unknown_word(const Program& program, const std::string& word) {
   std::vector<std::string> names;
   for (const Command& command : program.commands) names.push_back(command.name);
   if (std::find(names.begin(), names.end(), word) != names.end()) return;
-  throw InputError({}, "unknown subcommand '" + word + "'" + suggestion(word, names));
+  throw InputError({}, "unknown command '" + word + "'" + suggestion(word, names));
+}
+
+/// The nearest option of the command; the other commands that have it; or those that there are.
+std::string advice_on_option(const Program& program, const std::string& word,
+                             const std::vector<std::string>& known) {
+  if (nearest(word, known)) return suggestion(word, known);
+  std::string others;
+  for (const Command& command : program.commands)
+    for (const Option& option : command.options)
+      if (("," + option.name + ",").find("," + word + ",") != std::string::npos)
+        others += (others.empty() ? "" : ", ") + command.name;
+  if (!others.empty()) return "; it is an option of " + others;
+  const bool sets = std::find(known.begin(), known.end(), "--set") != known.end();
+  return suggestion(word, known) +
+         (sets ? "; '--set NAME=VALUE' changes a value of the problem" : "");
 }
 
 /// The first argument that nothing takes: an option rather than a value, which may belong to it.
-std::string unknown_argument(const CLI::App& command) {
+std::string unknown_argument(const Program& program, const CLI::App& command) {
   const std::vector<std::string> left = command.remaining(true);
   const auto option = std::find_if(left.begin(), left.end(), [](const std::string& word) {
     return word.size() > 1 && word.starts_with('-');
@@ -159,7 +174,7 @@ std::string unknown_argument(const CLI::App& command) {
   for (const CLI::Option* each : command.get_options())
     for (const std::string& name : each->get_lnames()) known.push_back("--" + name);
   const std::string word = option->substr(0, option->find('='));
-  return "unknown option '" + word + "'" + suggestion(word, known);
+  return "unknown option '" + word + "'" + advice_on_option(program, word, known);
 }
 
 /// What the reader says, but of values that are missing: it names their type there.
@@ -180,14 +195,15 @@ std::string in_words(const CLI::App& command, const CLI::ParseError& error) {
 }
 
 /// What is wrong with the command line, and where help is.
-std::string complaint(const CLI::App& program, const CLI::ParseError& error) {
+std::string complaint(const Program& whole, const CLI::App& program,
+                      const CLI::ParseError& error) {
   const auto used = program.get_subcommands();
   const CLI::App& command = used.empty() ? program : *used.front();
   const bool unknown = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr ||
                        (used.empty() && !program.remaining().empty());
   const std::string name = program.get_name() + (used.empty() ? "" : " " + command.get_name());
   return (used.empty() ? "" : command.get_name() + ": ") +
-         (unknown ? unknown_argument(command) : in_words(command, error)) + " (see '" + name +
+         (unknown ? unknown_argument(whole, command) : in_words(command, error)) + " (see '" + name +
          " --help')";
 }
 
@@ -226,7 +242,7 @@ ExitCode run(const Program& program, int argc, char** argv) {
     parser.parse(std::move(words));
   } catch (const CLI::ParseError& stop) {
     // Help and version are such stops too, with the code 0.
-    if (stop.get_exit_code() != 0) throw InputError({}, complaint(parser, stop));
+    if (stop.get_exit_code() != 0) throw InputError({}, complaint(program, parser, stop));
     std::ostringstream text;
     parser.exit(stop, text, text);
     std::fputs(text.str().c_str(), stdout);

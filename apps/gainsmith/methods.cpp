@@ -5,10 +5,10 @@
 #include <memory>
 #include <string>
 
-#include "base/nearest.h"
 #include "gainsmith/commands.h"
 #include "io/json_text.h"
 #include "io/method_yaml.h"
+#include "io/problem_yaml.h"
 #include "io/starting_problem.h"
 
 namespace gainsmith::app {
@@ -70,7 +70,7 @@ ExitCode show(const MethodsOptions& options) {
 /// InputError for a name that no method has.
 std::string text_of(const std::string& name) {
   if (auto text = methods::find(name)) return *text;
-  throw InputError({}, "unknown method '" + name + "'" + suggestion(name, methods::names()));
+  throw InputError({}, io::unknown_method(name, methods::names()));
 }
 
 ExitCode show_one(const MethodsOptions& options) {

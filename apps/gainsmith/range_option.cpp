@@ -42,7 +42,10 @@ bool scale_of(const std::string& text, const std::string& option) {
 RangeOption parse_range(const std::string& text, const std::string& option) {
   const std::size_t equals = text.find('=');
   const auto parts = split(equals == std::string::npos ? "" : text.substr(equals + 1), ':');
-  if (equals == 0 || parts[0].empty() || parts.size() > 4 || text.find("..") != std::string::npos)
+  // A comma within parentheses is one of a formula.
+  const bool list = text.find(',') != std::string::npos && text.find('(') == std::string::npos;
+  if (equals == 0 || parts[0].empty() || parts.size() > 4 || list ||
+      text.find("..") != std::string::npos)
     throw InputError(
         {option},
         "expected NAME=LOW:HIGH, NAME=LOW:HIGH:COUNT[:log] or NAME=VALUE, not '" + text + "'");

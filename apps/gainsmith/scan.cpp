@@ -176,7 +176,8 @@ Command scan_command() {
       {Option("problem", options->problem, "problem file (YAML); - for standard input").required(),
        set_option(options->set),
        Option("--over", options->over,
-              "NAME=LOW:HIGH[:COUNT[:log|lin]], 11 points without COUNT, or NAME=VALUE; may be "
+              "NAME=LOW:HIGH[:COUNT[:log|lin]] or NAME=VALUE; 11 points without COUNT; without log or "
+              "lin a range of positive numbers that spans two decades is logarithmic; may be "
               "repeated for a grid")
            .required(),
        Option("--show", options->show,

@@ -31,7 +31,10 @@ std::string like_named(const std::filesystem::path& path) {
        entry.increment(error))
     beside.push_back(entry->path().filename().string());
   std::sort(beside.begin(), beside.end());
-  const auto near = nearest(path.filename().string(), beside);
+  const std::string name = path.filename().string();
+  auto near = nearest(name, beside);
+  for (const char* ending : {".yaml", ".json"})
+    if (std::binary_search(beside.begin(), beside.end(), name + ending)) near = name + ending;
   return near ? "; did you mean '" + (path.parent_path() / *near).string() + "'?" : "";
 }
 

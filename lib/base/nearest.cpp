@@ -80,10 +80,12 @@ std::vector<std::string> relatives(std::string_view word,
                                    const std::vector<std::string>& candidates) {
   const auto words = words_of(word);
   std::vector<std::string> result;
-  std::size_t most = 1;
+  std::ptrdiff_t most = 1;
   for (const std::string& candidate : candidates) {
-    std::size_t shared = 0;
-    for (const std::string& part : words_of(candidate)) shared += words.count(part);
+    std::ptrdiff_t shared = 0;
+    for (const std::string& part : words_of(candidate))
+      shared += std::count_if(words.begin(), words.end(),
+                              [&](const std::string& one) { return one.starts_with(part); });
     if (shared < most) continue;
     if (shared > most) result.clear();
     most = shared;
@@ -92,11 +94,13 @@ std::vector<std::string> relatives(std::string_view word,
   return result;
 }
 
-std::string suggestion(std::string_view word, const std::vector<std::string>& candidates) {
+std::string suggestion(std::string_view word, const std::vector<std::string>& candidates,
+                       const std::string& otherwise) {
   if (candidates.empty()) return "";
   if (const auto near = nearest(word, candidates)) return "; did you mean '" + *near + "'?";
   constexpr std::size_t kMost = 12;
   const auto related = relatives(word, candidates);
+  if (related.empty() && !otherwise.empty()) return otherwise;
   const auto& listed = related.empty() ? candidates : related;
   std::string text = related.empty() ? "; known: " : "; did you mean one of these: ";
   for (std::size_t i = 0; i < std::min(kMost, listed.size()); ++i)

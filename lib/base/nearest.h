@@ -22,13 +22,15 @@ std::optional<std::string> nearest(std::string_view word,
                                    const std::vector<std::string>& candidates);
 
 /// The candidates that share the most words with `word`, one at least: 'sampled-data' and
-/// 'sampled-data-hybrid'. A word has four letters or more; hyphens and underscores part words.
+/// 'sampled-data-hybrid'. A word has four letters or more; hyphens and underscores part words. A word
+/// is shared that begins with one of a candidate: 'hinfsyn' with 'hinf'.
 std::vector<std::string> relatives(std::string_view word,
                                    const std::vector<std::string>& candidates);
 
 /// "; did you mean 'x'?"; when nothing is near, "; did you mean one of these: a, b?" with the
 /// relatives, or "; known: a, b, c" (at most twelve, then "...").
-/// Empty when there are no candidates.
-std::string suggestion(std::string_view word, const std::vector<std::string>& candidates);
+/// Empty when there are no candidates. `otherwise`: what is said instead of the list.
+std::string suggestion(std::string_view word, const std::vector<std::string>& candidates,
+                       const std::string& otherwise = {});
 
 }  // namespace gainsmith

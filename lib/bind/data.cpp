@@ -84,7 +84,7 @@ void refuse_unknown_names(const Binding& binding) {
       throw InputError(value.place,
                        "the method " + binding.method().name + " has no " + what + " '" +
                            value.name + "'" +
-                           (misplaced       ? "; it is one of its " + std::string(other)
+                           (misplaced       ? "; write it under '" + std::string(other) + "'"
                             : known.empty() ? "; declare it under '" + std::string(key) +
                                                   "' of the method with its shape, such as " +
                                                   value.name + ": scalar or n x p"
@@ -92,9 +92,16 @@ void refuse_unknown_names(const Binding& binding) {
     }
   };
   refuse(binding.problem().data, data, parameters, "datum", "data", "parameters");
-  for (const model::Let& function : binding.problem().functions)
-    refuse({{function.signature.name, function.body, false, function.place}}, data, parameters,
-           "datum", "data", "parameters");
+  for (const model::Let& function : binding.problem().functions) {
+    const std::string& name = function.signature.name;
+    if (!data.empty() && !nearest(name, data) &&
+        std::find(data.begin(), data.end(), name) == data.end())
+      throw InputError(function.place,
+                       "the method " + binding.method().name + " has no datum '" + name +
+                           "'; a part of a formula is named under 'let' of the problem");
+    refuse({{name, function.body, false, function.place}}, data, parameters, "datum", "data",
+           "parameters");
+  }
   refuse(binding.problem().parameters, parameters, data, "parameter", "parameters", "data");
 }
 

@@ -164,6 +164,9 @@ Limits find_limits(const model::Instance& instance, const model::Gains& gains,
       for (const Design::Inequality& inequality : design.inequalities)
         if (inequality.name != limit.name) others.insert(inequality.name);
       limit.without = changed(with_inequalities(instance, others), solver);
+      // It is no worse than with all of them, however roughly the solver finds it.
+      if (limit.without->minimum)
+        limit.without->minimum = std::min(*limit.without->minimum, *gains.objective);
     }
     if (bounds_cost(design, gains, largest_trace)) find_bounds(instance, gains, solver, limits);
     for (const std::string& name : scalars_in_use(design))

@@ -56,6 +56,9 @@ std::string missing_between(std::span<const Token> tokens, std::size_t at) {
     return "; inside of { } and [ ] of YAML a text with a comma must be quoted";
   const Token& left = tokens[at - 1];
   const Token& right = tokens[at];
+  if (right.kind == TokenKind::semicolon && !is_open(tokens, at))
+    return at + 2 == tokens.size() ? "; a formula ends without ';'"
+                                   : "; a formula is one expression: 'let' names its parts";
   const bool value = right.kind == TokenKind::number || right.kind == TokenKind::name ||
                      right.kind == TokenKind::open_bracket;
   const bool complete = left.kind == TokenKind::number || left.kind == TokenKind::name ||

@@ -32,7 +32,7 @@ std::shared_ptr<const model::Method> method_of(const YamlFile& file, const YamlI
   const auto text = library.text(name);
   if (!text)
     throw InputError(file.place(item.value),
-                     "unknown method '" + name + "'" + suggestion(name, library.names));
+                     unknown_method(name, library.names));
   return std::make_shared<model::Method>(parse_method(*text, "method " + name));
 }
 
@@ -229,6 +229,9 @@ model::Campaign campaign(const YamlFile& file, const std::optional<YamlItem>& it
 /// "cf: {box: [0.08, 0.12]}", "cf: {box: [0.08, 0.12], sampling: vertices}", "A: {vertices: [A1,
 /// A2]}", or of a family "A: {vertices: As}".
 model::UncertainText uncertain(const YamlFile& file, const YamlItem& item) {
+  if (!item.value.IsMap())
+    throw InputError(file.place(item.value),
+                     item.key + ": expected {box: [low, high]} or {vertices: [values]}");
   YamlMap map(file, item.value, item.key, keys::uncertain);
   const auto box = map.find("box");
   const auto vertices = map.find("vertices");
@@ -298,6 +301,11 @@ std::map<std::string, std::string> advice_on_keys(const model::Method& method) {
 }
 
 }  // namespace
+
+std::string unknown_method(const std::string& name, const std::vector<std::string>& names) {
+  return "unknown method '" + name + "'" +
+         suggestion(name, names, "; 'gainsmith methods' lists them by task");
+}
 
 model::Problem parse_problem(const std::string& text, const std::string& file,
                              const MethodLibrary& library,

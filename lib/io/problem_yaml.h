@@ -17,6 +17,9 @@ struct MethodLibrary {
   std::vector<std::string> names;
 };
 
+/// What is said of a name that no method has.
+std::string unknown_method(const std::string& name, const std::vector<std::string>& names);
+
 class Sources;
 
 /// Parses a problem, the method that it names or holds, the problems that it is `like`, and the files

@@ -115,7 +115,7 @@ class Variant {
         file_.sources(like).method({other_, "like", file_.place(like)}, library.text(name));
     if (!text)
       throw InputError(file_.place(like),
-                       "unknown method '" + name + "'" + suggestion(name, library.names));
+                       unknown_method(name, library.names));
     root_.reset(root);
     // What is only of the other one: its name, and its place in the list of methods.
     const YAML::Node other =

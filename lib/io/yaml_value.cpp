@@ -43,6 +43,17 @@ std::string counted(std::size_t elements) {
   return std::to_string(elements) + (elements == 1 ? " element" : " elements");
 }
 
+/// Of a row [1 2], which YAML reads as one text.
+std::string advice_on_row(const YAML::Node& row) {
+  for (const YAML::Node& element : row) {
+    const std::string text = element.IsScalar() ? element.Scalar() : "";
+    const std::size_t gap = text.find(' ');
+    const bool numbers = text.find_first_not_of("0123456789.eE+- ") == std::string::npos;
+    if (numbers && gap != std::string::npos) return "; a comma is missing in '" + text + "'";
+  }
+  return {};
+}
+
 /// `between`: the numbers of a list.
 model::Value matrix(const YamlFile& file, const YamlItem& item, const char* between) {
   const YAML::Node& node = item.value;
@@ -68,7 +79,8 @@ model::Value matrix(const YamlFile& file, const YamlItem& item, const char* betw
     if (width == 0) throw InputError(file.place(row), item.key + ": this row is empty");
     if (row.size() != width)
       throw InputError(file.place(row), item.key + ": this row has " + counted(row.size()) +
-                                            ", the first row has " + counted(width));
+                                            ", the first row has " + counted(width) +
+                                            advice_on_row(row));
     for (std::size_t j = 0; j < row.size(); ++j) {
       if (j > 0) composer.punctuation(",", file.place(row[j]));
       add_scalar(file, row[j], item.key, composer);

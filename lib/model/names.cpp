@@ -221,8 +221,10 @@ void check_scalar_name(const std::string& method, const std::vector<std::string>
   if (const std::size_t bracket = name.find_first_of("(["); bracket != std::string::npos)
     throw InputError(place, "'" + name + "' is an element of '" + name.substr(0, bracket) +
                                 "'; expected the name of a scalar datum or parameter");
+  std::vector<std::string> known = scalars;
+  known.emplace_back(kGainBound);
   throw InputError(place, "the method " + method + " has no scalar datum or parameter '" + name +
-                              "'" + suggestion(name, scalars));
+                              "'" + suggestion(name, known));
 }
 
 void check_names(const Method& method) {

@@ -66,6 +66,9 @@ TEST(Suggestion, NamesThatShareAWordComeBeforeAListOfAll) {
   EXPECT_EQ(suggestion("sampled-data", known), "; did you mean one of these: sampled-data-hybrid?");
   EXPECT_EQ(suggestion("sampled", known),
             "; did you mean one of these: sampled-data-hybrid, sampled-state-feedback?");
+  EXPECT_EQ(suggestion("sampledsyn", known, "; see the list"),
+            "; did you mean one of these: sampled-data-hybrid, sampled-state-feedback?");
+  EXPECT_EQ(suggestion("unknown", known, "; see the list"), "; see the list");
   EXPECT_EQ(suggestion("kalman", {"kal-man", "other"}), "; did you mean 'kal-man'?");
   EXPECT_EQ(suggestion("a-b-c", {"a-x-y", "b-z-q"}), "; known: a-x-y, b-z-q");
 }

@@ -124,6 +124,39 @@ TEST(FirstSteps, WhatNeverHappensIsNamed) {
   EXPECT_FALSE(has(check.out, "'far'")) << check.out;
 }
 
+/// An event that a method of the program has for safety is no mistake of the user.
+TEST(FirstSteps, EventsOfAMethodOfTheProgramAreNotNoted) {
+  const Folder folder;
+  const std::string file = folder.file("p.yaml", R"(problem: p
+method: nonlinear-observer
+data: {low: [-2.5, -3], high: [2.5, 3], f(x): "[x(2); (1 - x(1)^2)*x(2) - x(1)]", h(x): x(1)}
+campaign: {runs: 5, horizon: 5, initial: {x: {box: [-0.1, 0.1]}}}
+)");
+  const std::string gains = folder.path("g.json");
+  ASSERT_EQ(gainsmith({"synth", file, "-o", gains}).exit, 0);
+  const Outcome verify = gainsmith({"verify", gains});
+  EXPECT_EQ(verify.exit, 0) << verify.err;
+  EXPECT_FALSE(has(verify.out, "never happens")) << verify.out;
+  EXPECT_FALSE(has(gainsmith({"simulate", gains, "-o", folder.path("r.csv")}).out, "never happens"));
+}
+
+/// int (x^2 - 2) dt falls from the start on: its start, 0, would tell nothing of a run.
+TEST(FirstSteps, ACostThatIsNeverPositiveIsReportedAsAWhole) {
+  const Folder folder;
+  const std::string file = folder.file("p.yaml", R"(problem: p
+method:
+  plant:  {state: {x: scalar}, flow: {x: -x}}
+  claims: {energy: {cost: {flow: x^2 - 2}, below: x^2}}
+campaign: {runs: 20, horizon: 3, initial: {x: {box: [0.5, 1]}}}
+)");
+  const Outcome verify = gainsmith({"verify", file, "--json"});
+  ASSERT_EQ(verify.exit, 0) << verify.err;
+  const auto worst = verify.json()["checks"][0]["worst"];
+  EXPECT_EQ(worst["t"], 3) << verify.out;
+  EXPECT_LT(worst["value"], -5) << verify.out;
+  EXPECT_GT(worst["value"], -6) << verify.out;
+}
+
 TEST(FirstSteps, ANoteOnSeveralRunsIsPrintedOnceWithTheRuns) {
   const Folder folder;
   const std::string file = folder.file(

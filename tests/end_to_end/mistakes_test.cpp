@@ -153,15 +153,29 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{&kRun, "runs: 5", "runs: 5, initial: {z: 0}", 14, 46,
                 "there is no state 'z'; known: x"},
         Mistake{&kRun, "sin(x(1))", "sin(x(1), 2)", 4, 34, "'sin' is written sin(x)"},
+        Mistake{&kDesign, "decay: He(P*A - Y*C) < -2*a*P", "decay: He(P*A - Y*C) < -2*a*P;", 9, 41,
+                "a formula ends without ';'"},
+        Mistake{&kDesign, "[[0, 1], [-2, -1]]", "[[0, 1], [-2 -1]]", 13, 15,
+                "this row has 1 element, the first row has 2 elements; a comma is missing in '-2 -1'"},
+        Mistake{&kDesign, "  C: [[1, 0]]", "  C: [[1, 0]]\n  mu(s): s^2", 15, 3,
+                "no datum 'mu'; a part of a formula is named under 'let' of the problem"},
+        Mistake{&kDesign, "  C: [[1, 0]]", "  C: [[1, 0]]\n  a: 1", 15, 3,
+                "no datum 'a'; write it under 'parameters'"},
+        Mistake{&kDesign, "synthesis:", "negotiable: {gamma: [0, 1]}\nsynthesis:", 15, 14,
+                "no scalar datum or parameter 'gamma'; known: T, a, gain_bound"},
+        Mistake{&kDesign, "synthesis:", "uncertain: {T: [0.9, 1.1]}\nsynthesis:", 15, 16,
+                "T: expected {box: [low, high]} or {vertices: [values]}"},
         Mistake{&kRun, "campaign:", "expect: {verdict: maybe}\ncampaign:", 14, 19,
                 "known: yes, no, undecided"}));
 
 TEST(WrongFiles, ALikeNameIsNamed) {
   const Folder folder;
   const std::string file = folder.file("motor.yaml", kRun);
-  const Outcome outcome = gainsmith({"check", folder.path("motor.yml")});
-  EXPECT_EQ(outcome.exit, 2);
-  EXPECT_NE(outcome.err.find("did you mean '" + file + "'?"), std::string::npos) << outcome.err;
+  for (const char* like : {"motor.yml", "motor"}) {
+    const Outcome outcome = gainsmith({"check", folder.path(like)});
+    EXPECT_EQ(outcome.exit, 2);
+    EXPECT_NE(outcome.err.find("did you mean '" + file + "'?"), std::string::npos) << outcome.err;
+  }
 }
 
 TEST(WrongFiles, AreNamedForWhatTheyAre) {
@@ -208,6 +222,13 @@ TEST(WrongCommandLines, AreNamedWithWhatWasExpected) {
            {{"synth", file, folder.path("more.yaml")}, "unexpected argument"},
            {{"verify", folder.path("none.yaml")}, "cannot open this file"},
            {{"verify", folder.path("")}, "this is a folder; expected a file"},
+           {{"verify", file, "--plot", "a.svg"},
+            "unknown option '--plot'; it is an option of bisect, scan, simulate"},
+           {{"simulate", file, "--horizon", "5"}, "'--set NAME=VALUE' changes a value"},
+           {{"init", "hinfsyn"}, "did you mean one of these: discrete-hinf-norm"},
+           {{"methods", "h-infinity"}, "'gainsmith methods' lists them by task"},
+           {{"plot", file}, "unknown command 'plot'; known: synth"},
+           {{"scan", file, "--over", "a=1,2,5"}, "expected NAME=LOW:HIGH, NAME=LOW:HIGH:COUNT"},
            {{"run", file, "-o", file}, "cannot make this folder"}}) {
     const Outcome outcome = gainsmith(wrong.arguments);
     EXPECT_EQ(outcome.exit, 2) << outcome.err;
