@@ -1,5 +1,4 @@
 #include "bounded/clocked_run.h"
-#include "hybrid/trajectory.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +7,8 @@
 
 #include "base/error.h"
 #include "bounded/ball.h"
+#include "hybrid/trajectory.h"
+#include "ode/integrator.h"
 
 namespace gainsmith::bounded {
 

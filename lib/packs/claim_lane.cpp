@@ -19,13 +19,14 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 }  // namespace
 
 void ClaimLane::begin(const PackClaim& claim, const PackSystem& pack, const PackAccuracy& accuracy,
-                      double limit) {
+                      double limit, double terms) {
   *this = ClaimLane();
   claim_ = &claim;
   accuracy_ = accuracy.relative * pack.accuracy;
   noise_ = pack.accuracy;
   sign_ = claim.kind == ClaimKind::above ? -1 : 1;
   limit_ = sign_ * limit;
+  limit_error_ = hybrid::kTermRounding * terms;
   if (!std::isfinite(limit)) open_ = true;
 }
 
@@ -54,8 +55,6 @@ ClaimLane::Known ClaimLane::known(const Reading& reading, bool jumped) {
 
 void ClaimLane::at(double t, const Reading& reading, std::optional<std::size_t> event) {
   const bool is_jump = event.has_value();
-  if (!is_jump && claim_->kind == ClaimKind::cost)
-    limit_error_ = hybrid::kTermRounding * reading.terms;
   const Known value = known(reading, is_jump);
   if (!counts(t) || (claim_->over && event != claim_->over)) return;
   const bool same = looked_ && is_jump && !claim_->over && value.value == last_.value;
