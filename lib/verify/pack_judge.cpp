@@ -48,8 +48,7 @@ Packs make_packs(const Setup& setup, std::uint64_t runs) {
     auto model = packs::make_linear_model(*sampled.system, setup.events->scenario,
                                           sampled.coordinates, sampled.judged);
     if (model) made.linear = packs::make_linear_system(std::move(*model));
-    // Packs of any other dynamics estimate errors, which affine flows bound.
-    if (made.linear || !setup.integrated() || runs < kFewestInPacks) return made;
+    return made;
   }
   const simulate::Accuracy accuracy = events.accuracy(kAccuracyOfMany);
   const Eigen::VectorXd absolute =
