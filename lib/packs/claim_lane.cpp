@@ -57,15 +57,17 @@ void ClaimLane::at(double t, const Reading& reading, std::optional<std::size_t> 
   const bool is_jump = event.has_value();
   const Known value = known(reading, is_jump);
   if (!counts(t) || (claim_->over && event != claim_->over)) return;
-  const bool same = looked_ && is_jump && !claim_->over && value.value == last_.value;
-  compare(value, reading.terms, same, false);
+  const double change = looked_ && is_jump && !claim_->over ? value.value - last_.value : kNever;
+  const bool is_rounding = std::abs(change) <= 8 * kUnit * std::abs(value.value);
+  compare(value, reading.terms, change == 0, is_rounding);
 }
 
 void ClaimLane::along(double t, const StepSamples& samples, const Reading& end, bool breaks,
                       bool halved) {
   const Known value = known(end, false);
   if (claim_->over || !counts(t)) return;
-  const bool same = end.fine == end.coarse && looked_ && value.value == last_.value &&
+  const bool stays = samples.start.rate == 0 && samples.middle.rate == 0 && samples.end.rate == 0;
+  const bool same = (stays || end.fine == end.coarse) && looked_ && value.value == last_.value &&
                     samples.middle.value == samples.start.value;
   if (!looked_ || same) return compare(value, end.terms, same, halved);
   const auto signed_of = [&](Sample one) { return Sample{sign_ * one.value, sign_ * one.rate}; };
@@ -130,8 +132,9 @@ void ClaimLane::compare_within(const StepSamples& samples, Known end, double ter
   if (claim_->kind == ClaimKind::nonincreasing) {
     if (violated_) return;
     const double allowed = claims::kGrown * end.error;
-    const bool rises = along.rise() > allowed && !along.falls(2 * along.error());
-    if (!breaks && !rises && (along.error() <= allowed || along.falls(2 * along.error()))) return;
+    // The rate is off by four times what the value is over a step.
+    const bool falls = along.falls(4 * along.error());
+    if (!breaks && (falls || (along.rise() <= allowed && along.error() <= allowed))) return;
     if (std::abs(along.largest()) + error <= noise_ * std::abs(first_.value)) return;
     open_ = true;
     return;
