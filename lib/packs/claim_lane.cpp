@@ -16,6 +16,10 @@ using model::ClaimKind;
 constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
+double rounding(double value, double terms) {
+  return 8 * kUnit * std::abs(value) + hybrid::kTermRounding * terms;
+}
+
 }  // namespace
 
 void ClaimLane::begin(const PackClaim& claim, const PackSystem& pack, const PackAccuracy& accuracy,
@@ -47,8 +51,7 @@ ClaimLane::Known ClaimLane::known(const Reading& reading, bool jumped) {
   differences_ = {differences_[1], differences_[2], difference};
   check_parting(reading.fine, difference, reading.terms);
   const double largest = *std::max_element(differences_.begin(), differences_.end());
-  const double error = kErrorOfPair * largest + 8 * kUnit * std::abs(reading.fine) +
-                       hybrid::kTermRounding * reading.terms;
+  const double error = kErrorOfPair * largest + rounding(reading.fine, reading.terms);
   if (!(error < kNever)) open_ = true;
   return {sign_ * reading.fine, error};
 }
@@ -58,7 +61,7 @@ void ClaimLane::at(double t, const Reading& reading, std::optional<std::size_t> 
   const Known value = known(reading, is_jump);
   if (!counts(t) || (claim_->over && event != claim_->over)) return;
   const double change = looked_ && is_jump && !claim_->over ? value.value - last_.value : kNever;
-  const bool is_rounding = std::abs(change) <= 8 * kUnit * std::abs(value.value);
+  const bool is_rounding = std::abs(change) <= rounding(value.value, reading.terms);
   compare(value, reading.terms, change == 0, is_rounding);
 }
 
