@@ -129,8 +129,8 @@ void ClaimLane::compare_within(const StepSamples& samples, Known end, double ter
   // Where the value branches it goes up and down no faster than at the points.
   const double rate = std::max(
       {std::abs(samples.start.rate), std::abs(samples.middle.rate), std::abs(samples.end.rate)});
-  const double error = end.error + limit_error_ +
-                       std::max(along.error(), breaks ? samples.length * rate / 2 : 0);
+  const double error =
+      end.error + limit_error_ + std::max(along.error(), breaks ? samples.length * rate / 2 : 0);
   if (claim_->kind == ClaimKind::shrinks) return;
   if (claim_->kind == ClaimKind::nonincreasing) {
     if (violated_) return;

@@ -43,8 +43,10 @@ LaneSet::LaneSet(const PackSystem& pack)
   }
   find_clock_elements();
   is_crossing_.assign(pack.watches.size(), false);
-  for (const PackEvent& event : pack.events)
-    if (event.crossing) is_crossing_[event.crossing->watch] = true;
+  for (std::size_t e = 0; e < pack.events.size(); ++e) {
+    if (pack.events[e].crossing) is_crossing_[pack.events[e].crossing->watch] = true;
+    ends_in_zeno_ = ends_in_zeno_ || !pack.system->has_clock(e);
+  }
 }
 
 std::vector<PackVerdict> LaneSet::run(std::uint64_t seed, std::uint64_t first, std::uint64_t last) {
