@@ -134,7 +134,9 @@ void ClaimLane::compare_within(const StepSamples& samples, Known end, double ter
   if (claim_->kind == ClaimKind::shrinks) return;
   if (claim_->kind == ClaimKind::nonincreasing) {
     if (violated_) return;
-    const double allowed = claims::kGrown * end.error;
+    const double left = low_.value + claim_->tolerance * std::abs(low_.value) - samples.start.value;
+    const double allowed =
+        std::fmax(std::fmax(claims::kGrown * end.error, left), rounding(along.largest(), terms));
     // The rate is off by four times what the value is over a step.
     const bool falls = along.falls(4 * along.error());
     if (!breaks && (falls || (along.rise() <= allowed && along.error() <= allowed))) return;

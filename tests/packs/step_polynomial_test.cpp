@@ -91,6 +91,11 @@ TEST(StepPolynomial, FindsItsRoot) {
   const auto rate = [](double t) { return -1 + 3 * t * t; };
   const StepPolynomial along = through(value, rate, 0, 0.5);
   EXPECT_NEAR(value(0.5 * along.root(1)), 0, 1e-15);
+  // From 0 up and back.
+  const auto flies = [](double t) { return 3 * t - 5 * t * t; };
+  const auto flies_at = [](double t) { return 3 - 10 * t; };
+  EXPECT_NEAR(through(flies, flies_at, 0, 8).root(1), 0.6 / 8, 1e-15);
+  EXPECT_NEAR(through(flies, flies_at, 0.2, 8).root(1), 0.4 / 8, 1e-15);
 }
 
 }  // namespace
