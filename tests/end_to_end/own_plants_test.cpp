@@ -288,6 +288,22 @@ INSTANTIATE_TEST_SUITE_P(
             "parameters: {gamma_c: 50}\n"
             "campaign: {runs: 1, horizon: 3}\n",
             ""},
+        Own{"weak_pull",
+            "{like: constrained-redesign, claims: {kept_by_pull: none, projected: {below: "
+            "\"max(abs(flow_and_jumps.xh))\", bound: 2 + 1e-9, over: flow_and_jumps.outside}}}",
+            "data:\n"
+            "  x0:    [1, 0]\n"
+            "  xh0:   [-1.5, 1.5]\n"
+            "  a:     \"[eye(2); -eye(2)]\"\n"
+            "  b:     2*ones(4, 1)\n"
+            "  outer: 4*ones(4, 1)\n"
+            "  f(x, t): \"[x(2); -x(1)]\"\n"
+            "  h(x, t): x(1)\n"
+            "  F(xh, S, y, t): \"[xh(2); -xh(1)] + [20; 99]*(y - xh(1))\"\n"
+            "  invP(S): \"inv(lyap([-20, 1; -100, 0]', [1, 0; 0, 0.01]))\"\n"
+            "parameters: {gamma_c: 0.005}\n"
+            "campaign: {runs: 1, horizon: 3}\n",
+            ""},
         Own{"half_plane", "constrained-redesign",
             "let: {A: \"[-0.3, 0.2; 0, -0.2]\", L: \"[4; 3]\"}\n"
             "data:\n"
