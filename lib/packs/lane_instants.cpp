@@ -15,8 +15,6 @@ bool LaneSet::settle(std::size_t l) {
   if (!changed) return false;
   if (*changed) return true;  // to be looked at again
   for (std::size_t c = 0; c < lane.claims.size(); ++c) {
-    if (lane.fresh)
-      lane.claims[c].begin(pack_.claims[c], pack_, *accuracy_, start_.at(PackSystem::limits, c, l));
     if (lane.fresh || lane.jumped)
       lane.claims[c].at(lane.t, reading(c, l, start_, coarse_start_), lane.jumped);
     if (lane.claims[c].open()) return open(Why::claim);

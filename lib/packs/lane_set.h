@@ -59,6 +59,8 @@ class LaneSet {
            hybrid::kTermRounding * fine.at(PackSystem::watch_terms, w, l);
   }
   void look_all(std::uint32_t mask);
+  /// With what the claims of lanes that begin are compared; the lanes in which it has no value.
+  std::uint32_t begin_claims(std::uint32_t mask);
   Reading reading(std::size_t claim, std::size_t l, const LaneLook& fine,
                   const LaneLook& coarse) const {
     return {fine.at(PackSystem::claim_values, claim, l),
@@ -152,7 +154,7 @@ class LaneSet {
 
   const PackSystem& pack_;
   double horizon_;
-  lanes::LaneMachine step_, look_;
+  lanes::LaneMachine step_, look_, begin_;
   std::vector<lanes::LaneMachine> jumps_;
   std::vector<std::optional<lanes::LaneMachine>> lost_;
   LaneValues coarse_, fine_;  ///< now

@@ -38,6 +38,18 @@ double rise_of(const Coefficients& b, int depth) {
   return rise_of(left, depth - 1) + rise_of(right, depth - 1);
 }
 
+/// Whether the derivative is below -margin on parts that are so short.
+bool falls_within(const Coefficients& b, double margin, int depth) {
+  const auto rises = [&](std::size_t k) { return b[k] - b[k - 1] > -margin / 5; };
+  bool everywhere = true;
+  for (std::size_t k = 1; k < b.size(); ++k) everywhere = everywhere && !rises(k);
+  if (everywhere) return true;
+  if (depth == 0 || rises(1) || rises(b.size() - 1)) return false;
+  Coefficients left, right;
+  split(b, left, right);
+  return falls_within(left, margin / 2, depth - 1) && falls_within(right, margin / 2, depth - 1);
+}
+
 }  // namespace
 
 StepPolynomial::StepPolynomial(const StepSamples& samples) {
@@ -70,11 +82,7 @@ double StepPolynomial::highest() const { return highest_of(b_, 10); }
 
 double StepPolynomial::rise() const { return rise_of(b_, 6); }
 
-bool StepPolynomial::falls(double margin) const {
-  for (std::size_t k = 1; k < b_.size(); ++k)
-    if (b_[k] - b_[k - 1] > -margin / 5) return false;
-  return true;
-}
+bool StepPolynomial::falls(double margin) const { return falls_within(b_, margin, 6); }
 
 double StepPolynomial::root(int side) const {
   double low = 0;

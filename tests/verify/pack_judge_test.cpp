@@ -161,6 +161,22 @@ method:
     eased: {cost: {flow: x'*x}, below: 0.5*x'*x, tolerance: 0.5}
     none: {cost: {}, below: x'*x}
 campaign: {runs: 96, horizon: 6, initial: {x: {box: [-1, 1]}}}
+)yaml"},
+    {"norms of 0, exponentials of matrices, limits at the start", R"yaml(problem: p
+method:
+  method: m
+  events: {sample: {every: [0.1, 0.3]}}
+  let: {A: "[0, 1; -2, -0.3]", rate: lambda_min(A'*A)/20}
+  plant:
+    state: {x: {shape: 2, start: "[1; 0]"}, c: {shape: 2, start: 0}, d: {shape: 1, start: 0}}
+    flow: {x: "A*x - 0.1*x(1)^3*[0; 1]", c: A*c}
+    at: {sample: {d: 1}}
+  claims:
+    exact: {below: "norm(c) + 1", bound: 2}
+    ahead: {below: "norm(expm(A*sample.left)*x)", bound: 1.2}
+    decays: {below: norm(x)*exp(rate*t), bound: 4}
+    spent: {cost: {flow: x'*x/20}, below: x'*x/(1 - d)}
+campaign: {runs: 96, horizon: 6, initial: {x: {box: [-1, 1]}}}
 )yaml"}};
 
 class PackRuns : public testing::TestWithParam<Case> {};
