@@ -39,7 +39,7 @@ bool DueEvents::is_due(std::size_t event, const VectorXd& values, double t) {
     return clocks_.is_due(event, t >= horizon_ ? t + hybrid::kAddedUp * horizon_ : t);
   if (watch_->crossing[event]) {
     // What leaves 0 has left it once it is no rounding.
-    if (mark.sign != 0 || !watch_->crossing[event]->is_noise(values))
+    if (mark.sign != 0 || !watch_->is_noise(event, values))
       note_sign(event, sign_of(event, values));
     return mark.crossed;
   }
@@ -72,6 +72,7 @@ void DueEvents::spend(std::size_t event, double t, VectorField& field) {
 
 void DueEvents::jumped(std::size_t event, const VectorXd& before, const VectorXd& values) {
   marks_[event].spent = false;
+  watch_->forget_step();
   for (std::size_t e = 0; e < marks_.size(); ++e) {
     if (!watch_->crossing[e]) continue;
     const int sign = sign_of(e, values);
