@@ -1,5 +1,7 @@
 #include "gainsmith/notes.h"
 
+#include <fmt/format.h>
+
 namespace gainsmith::app {
 
 std::string counted(const std::string& what, const std::vector<std::string>& names) {

@@ -16,6 +16,7 @@
 #include "gainsmith/commands.h"
 #include "gainsmith/job.h"
 #include "gainsmith/junit.h"
+#include "gainsmith/load.h"
 #include "gainsmith/output.h"
 #include "gainsmith/problem_files.h"
 #include "gainsmith/problem_list.h"

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "bounded/tolerances.h"
+
 namespace gainsmith::bounded {
 
 namespace {

@@ -63,6 +63,11 @@ struct System {
   std::optional<std::size_t> slot(const std::string& name) const { return layout.slot(name); }
   /// Whether a name is that of what changes within a flow.
   bool is_moving(const std::string& name) const;
+  /// Whether an event happens at given times, drawn or not.
+  bool has_clock(std::size_t event) const {
+    const auto kind = dynamics.events[event].kind;
+    return kind == model::Dynamics::EventKind::every || kind == model::Dynamics::EventKind::at;
+  }
   /// "x(2)", "P(1, 2)" or "s".
   std::string element_name(Eigen::Index element) const;
   /// The value of a formula of constants. InputError, at its place, when it uses anything else.

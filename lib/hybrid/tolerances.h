@@ -30,6 +30,15 @@ constexpr std::size_t kAtOnce = 8;  ///< switches of a flow
 constexpr std::size_t kInARow = 100;  ///< flows, switches, jumps, notes
 ///< | so many alike in a row are no accident: a run chatters or slides; as many are named
 ///< | EventSwitch.ACrossingInTheRoundingIsNoSliding
+constexpr std::size_t kRatios = 12;  ///< ratios of lengths
+///< | so many that agree are a steady factor, however slowly the lengths shrink
+///< | EventRun.ZenoStopsAtItsAccumulation
+constexpr double kLeftOver = 1e-7;  ///< of the time so far
+///< | jumps accumulate where no more is left and states are steady; fewer ratios than 12 make it
+///< | EventEnding.AFewFlightsThatShrinkFastAccumulate
+constexpr double kNothingLeft = 1e-8;  ///< of the time so far
+///< | jumps accumulate where no more is left, whatever states do
+///< | EventEnding.ACounterThatEndsShrinkingIsNoZeno
 constexpr std::size_t kFewestRatios = 4;  ///< ratios of lengths
 ///< | jumps accumulate where at least so many ratios of lengths agree
 ///< | JudgedEnds.ZenoMeansASteadyFactor

@@ -230,8 +230,11 @@ class Variant {
     below.push_back(theirs.name);
     if (mine.value.IsMap() && theirs.value.IsMap() && is_joined(below))
       return joined(mine.value, theirs.value, below, keeps_none);
-    // A section without entries changes none.
+    // A section without entries changes none, and a claim without entries is the other one's.
     if (mine.value.IsNull() && theirs.value.IsMap() && is_joined(below)) return theirs.value;
+    if (path == KeyPath{"method", "claims"} && theirs.value.IsMap() && mine.value.IsMap() &&
+        mine.value.size() == 0)
+      return theirs.value;
     if (below == KeyPath{"method"}) refuse_change(mine, theirs);
     return mine.value;
   }

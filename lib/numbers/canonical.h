@@ -12,6 +12,7 @@
 // as little as P does, until a ratio passes e. B(p_j, j) > 0, and B(p_j, l) = 0 for l > j.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <optional>
 #include <utility>

@@ -1,5 +1,6 @@
 #include "numbers/scalar_rules.h"
 
+#include <numeric>
 #include <utility>
 
 namespace gainsmith::numbers {
@@ -117,6 +118,12 @@ std::optional<Nodes> NodeRules::matrix_power(Shape shape, Nodes square, int expo
     square = std::move(*next);
   }
   return result;
+}
+
+Nodes NodeRules::block_of(const ScalarGraph::Block& block) {
+  Nodes nodes(static_cast<std::size_t>(block.instruction.shape.size()));
+  std::iota(nodes.begin(), nodes.end(), graph_.block(block));
+  return nodes;
 }
 
 int NodeRules::power(int square, int exponent) {

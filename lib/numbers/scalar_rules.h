@@ -35,6 +35,8 @@ class NodeRules {
   std::optional<Nodes> product(expr::Shape left, const Nodes& a, expr::Shape right, const Nodes& b);
   std::optional<Nodes> matrix_power(expr::Shape shape, Nodes square, int exponent);
   int power(int square, int exponent);
+  /// The nodes of a block's result.
+  Nodes block_of(const ScalarGraph::Block& block);
 
  protected:
   ScalarGraph& graph_;
@@ -44,9 +46,15 @@ class NodeRules {
               const std::vector<const Nodes*>& nodes, Nodes& out);
 };
 
+/// What a derivative is for.
+enum class Derivative {
+  jacobian,  ///< a value of a program: a root has none at 0
+  rate       ///< the rate of a value: that of a root at 0 is 0, as of an error that stays 0
+};
+
 /// The derivative of an instruction in direction d, where its value `out` has a formula. NoFormula
 /// where the derivative has none.
 Nodes slope(ScalarGraph& graph, const expr::Instruction& one, const TracedOperands& in,
-            std::size_t d, const TracedMatrix& out);
+            std::size_t d, const TracedMatrix& out, Derivative kind);
 
 }  // namespace gainsmith::numbers

@@ -12,7 +12,7 @@ using expr::Op;
 
 class Slopes : public NodeRules {
  public:
-  using NodeRules::NodeRules;
+  Slopes(ScalarGraph& graph, Derivative kind) : NodeRules(graph), kind_(kind) {}
 
   Nodes operator()(const Instruction& one, const TracedOperands& in, std::size_t d,
                    const TracedMatrix& out) {
@@ -79,7 +79,7 @@ class Slopes : public NodeRules {
         return along([&](std::size_t k) { return graph_.divide(number(1), value(0, k)); });
       case Op::sqrt:
         return along([&](std::size_t k) {
-          return graph_.divide(number(1), graph_.multiply(number(2), out.value[k]));
+          return graph_.divide(number(1), graph_.multiply(number(2), divisor(out.value[k])));
         });
       case Op::sin:
         return along([&](std::size_t k) { return graph_.apply(ScalarOp::cos, value(0, k)); });
@@ -136,11 +136,13 @@ class Slopes : public NodeRules {
         if (!all) throw NoFormula();
         return each([&](std::size_t k) { return graph_.negate((*all)[k]); });
       }
+      case Op::matrix_exponential:
+        return exponential_slope(one, *in[0], *slopes[0], out);
       case Op::norm: {
         int sum = zero();
         for (std::size_t k = 0; k < in[0]->value.size(); ++k)
           sum = graph_.add(sum, graph_.multiply(value(0, k), moved(0, k)));
-        return {graph_.is_zero(sum) ? sum : graph_.divide(sum, out.value[0])};
+        return {graph_.is_zero(sum) ? sum : graph_.divide(sum, divisor(out.value[0]))};
       }
       default:
         break;
@@ -150,6 +152,11 @@ class Slopes : public NodeRules {
   }
 
  private:
+  /// A root by which the derivative of its square is divided.
+  int divisor(int root) {
+    return kind_ == Derivative::rate ? graph_.where(true, root, root, number(1)) : root;
+  }
+
   Nodes product_slope(const TracedMatrix& a, const Nodes& da, const TracedMatrix& b,
                       const Nodes& db) {
     auto left = product(a.shape, da, b.shape, b.value);
@@ -176,6 +183,28 @@ class Slopes : public NodeRules {
     return result.slopes[0];
   }
 
+  /// The upper right of exp([X, dX; 0, X]).
+  Nodes exponential_slope(const Instruction& one, const TracedMatrix& in, const Nodes& moved,
+                          const TracedMatrix& out) {
+    const int n = one.shape.rows;
+    if (n == 1) return {graph_.multiply(out.value[0], moved[0])};
+    const expr::Shape both{2 * n, 2 * n};
+    Nodes operand = zeros(both);
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) {
+        const std::size_t from = at(in.shape, i, j);
+        operand[at(both, i, j)] = operand[at(both, n + i, n + j)] = in.value[from];
+        operand[at(both, i, n + j)] = moved[from];
+      }
+    Instruction larger = one;
+    larger.shape = both;
+    const Nodes whole = block_of({larger, {operand}, {both}});
+    Nodes result;
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) result.push_back(whole[at(both, i, n + j)]);
+    return result;
+  }
+
   /// b a^(b - 1) da + a^b log(a) db.
   int real_power_slope(const TracedOperands& in, const std::vector<const Nodes*>& slopes,
                        std::size_t k, int out) {
@@ -190,13 +219,15 @@ class Slopes : public NodeRules {
                        graph_.multiply(graph_.multiply(out, graph_.apply(ScalarOp::log, a)), db));
     return sum;
   }
+
+  Derivative kind_;
 };
 
 }  // namespace
 
 Nodes slope(ScalarGraph& graph, const Instruction& one, const TracedOperands& in, std::size_t d,
-            const TracedMatrix& out) {
-  return Slopes(graph)(one, in, d, out);
+            const TracedMatrix& out, Derivative kind) {
+  return Slopes(graph, kind)(one, in, d, out);
 }
 
 }  // namespace gainsmith::numbers

@@ -45,7 +45,7 @@ class Tracer : public NodeRules {
     for (const TracedMatrix* operand : operands)
       directions = std::max(directions, operand->slopes.size());
     for (std::size_t d = 0; d < directions; ++d)
-      out.slopes.push_back(slope(graph_, one, operands, d, out));
+      out.slopes.push_back(slope(graph_, one, operands, d, out, kind_));
     return out;
   }
 
@@ -57,13 +57,6 @@ class Tracer : public NodeRules {
       made.shapes.push_back(operand->shape);
     }
     return {one.shape, block_of(std::move(made))};
-  }
-
-  Nodes block_of(ScalarGraph::Block block) {
-    const int first = graph_.block(block);
-    Nodes nodes;
-    for (int k = 0; k < block.instruction.shape.size(); ++k) nodes.push_back(first + k);
-    return nodes;
   }
 
   /// False: there is no formula.
@@ -116,11 +109,15 @@ class Tracer : public NodeRules {
       case Op::norm:
         return norm(*in[0], out);
       case Op::inverse:
-        if (one.shape.size() > 1) {
-          out.value = block_of({one, {in[0]->value}, {in[0]->shape}});
-          return true;
-        }
-        return each([&](std::size_t k) { return graph_.divide(number(1), of(0, k)); });
+        if (one.shape.size() == 1)
+          return each([&](std::size_t k) { return graph_.divide(number(1), of(0, k)); });
+        out.value = block_of({one, {in[0]->value}, {in[0]->shape}});
+        return true;
+      case Op::matrix_exponential:
+        if (one.shape.size() == 1)
+          return each([&](std::size_t k) { return graph_.apply(ScalarOp::exp, of(0, k)); });
+        out.value = block_of({one, {in[0]->value}, {in[0]->shape}});
+        return true;
       case Op::jacobian:
         return jacobian(one, in, out);
       default:
@@ -201,6 +198,8 @@ class Tracer : public NodeRules {
     };
     if (inputs.size() != in.size()) return false;
     const ScalarGraph::Mark before = graph_.mark();
+    const Derivative kind = std::exchange(kind_, Derivative::jacobian);
+    bool has_formula = true;
     try {
       const TracedMatrix result = program(*one.body, input);
       for (std::size_t d = 0; d < in[0]->value.size(); ++d) {
@@ -210,10 +209,13 @@ class Tracer : public NodeRules {
     } catch (const NoFormula&) {
       graph_.return_to(before);
       out.value.clear();
-      return false;
+      has_formula = false;
     }
-    return true;
+    kind_ = kind;
+    return has_formula;
   }
+
+  Derivative kind_ = Derivative::rate;
 };
 
 }  // namespace

@@ -16,16 +16,21 @@ using model::ClaimKind;
 constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
+double rounding(double value, double terms) {
+  return 8 * kUnit * std::abs(value) + hybrid::kTermRounding * terms;
+}
+
 }  // namespace
 
 void ClaimLane::begin(const PackClaim& claim, const PackSystem& pack, const PackAccuracy& accuracy,
-                      double limit) {
+                      double limit, double terms) {
   *this = ClaimLane();
   claim_ = &claim;
   accuracy_ = accuracy.relative * pack.accuracy;
   noise_ = pack.accuracy;
   sign_ = claim.kind == ClaimKind::above ? -1 : 1;
   limit_ = sign_ * limit;
+  limit_error_ = hybrid::kTermRounding * terms;
   if (!std::isfinite(limit)) open_ = true;
 }
 
@@ -46,27 +51,26 @@ ClaimLane::Known ClaimLane::known(const Reading& reading, bool jumped) {
   differences_ = {differences_[1], differences_[2], difference};
   check_parting(reading.fine, difference, reading.terms);
   const double largest = *std::max_element(differences_.begin(), differences_.end());
-  const double error = kErrorOfPair * largest + 8 * kUnit * std::abs(reading.fine) +
-                       hybrid::kTermRounding * reading.terms;
+  const double error = kErrorOfPair * largest + rounding(reading.fine, reading.terms);
   if (!(error < kNever)) open_ = true;
   return {sign_ * reading.fine, error};
 }
 
 void ClaimLane::at(double t, const Reading& reading, std::optional<std::size_t> event) {
   const bool is_jump = event.has_value();
-  if (!is_jump && claim_->kind == ClaimKind::cost)
-    limit_error_ = hybrid::kTermRounding * reading.terms;
   const Known value = known(reading, is_jump);
   if (!counts(t) || (claim_->over && event != claim_->over)) return;
-  const bool same = looked_ && is_jump && !claim_->over && value.value == last_.value;
-  compare(value, reading.terms, same, false);
+  const double change = looked_ && is_jump && !claim_->over ? value.value - last_.value : kNever;
+  const bool is_rounding = std::abs(change) <= rounding(value.value, reading.terms);
+  compare(value, reading.terms, change == 0, is_rounding);
 }
 
 void ClaimLane::along(double t, const StepSamples& samples, const Reading& end, bool breaks,
                       bool halved) {
   const Known value = known(end, false);
   if (claim_->over || !counts(t)) return;
-  const bool same = end.fine == end.coarse && looked_ && value.value == last_.value &&
+  const bool stays = samples.start.rate == 0 && samples.middle.rate == 0 && samples.end.rate == 0;
+  const bool same = (stays || end.fine == end.coarse) && looked_ && value.value == last_.value &&
                     samples.middle.value == samples.start.value;
   if (!looked_ || same) return compare(value, end.terms, same, halved);
   const auto signed_of = [&](Sample one) { return Sample{sign_ * one.value, sign_ * one.rate}; };
@@ -125,14 +129,17 @@ void ClaimLane::compare_within(const StepSamples& samples, Known end, double ter
   // Where the value branches it goes up and down no faster than at the points.
   const double rate = std::max(
       {std::abs(samples.start.rate), std::abs(samples.middle.rate), std::abs(samples.end.rate)});
-  const double error = end.error + limit_error_ +
-                       std::max(along.error(), breaks ? samples.length * rate / 2 : 0);
+  const double error =
+      end.error + limit_error_ + std::max(along.error(), breaks ? samples.length * rate / 2 : 0);
   if (claim_->kind == ClaimKind::shrinks) return;
   if (claim_->kind == ClaimKind::nonincreasing) {
     if (violated_) return;
-    const double allowed = claims::kGrown * end.error;
-    const bool rises = along.rise() > allowed && !along.falls(2 * along.error());
-    if (!breaks && !rises && (along.error() <= allowed || along.falls(2 * along.error()))) return;
+    const double left = low_.value + claim_->tolerance * std::abs(low_.value) - samples.start.value;
+    const double allowed =
+        std::fmax(std::fmax(claims::kGrown * end.error, left), rounding(along.largest(), terms));
+    // The rate is off by four times what the value is over a step.
+    const bool falls = along.falls(4 * along.error());
+    if (!breaks && (falls || (along.rise() <= allowed && along.error() <= allowed))) return;
     if (std::abs(along.largest()) + error <= noise_ * std::abs(first_.value)) return;
     open_ = true;
     return;

@@ -24,9 +24,9 @@ struct Reading {
 
 class ClaimLane {
  public:
-  /// `limit`: the bound, the factor, or of a cost the value at the start.
+  /// `limit`: the bound, the factor, or of a cost the value at the start with its `terms`.
   void begin(const PackClaim& claim, const PackSystem& pack, const PackAccuracy& accuracy,
-             double limit);
+             double limit, double terms = 0);
   /// The start of a run, or the state after a jump of `event`.
   void at(double t, const Reading& reading, std::optional<std::size_t> event);
   /// A step up to t. `end`: there. `breaks`: whether the value may branch on it. `halved`: it ends

@@ -65,7 +65,8 @@ LaneCode jump_code(const PackSystem& pack, std::size_t event, bool lost) {
   }
   for (const RunningCost& cost : pack.costs)
     if (cost.jump != nullptr)
-      after[cost.element] = graph.add(before[cost.element], texts.value(*cost.jump, before).value[0]);
+      after[cost.element] =
+          graph.add(before[cost.element], texts.value(*cost.jump, before).value[0]);
   return {graph, {after, parts}, pack.whole};
 }
 

@@ -15,8 +15,6 @@ bool LaneSet::settle(std::size_t l) {
   if (!changed) return false;
   if (*changed) return true;  // to be looked at again
   for (std::size_t c = 0; c < lane.claims.size(); ++c) {
-    if (lane.fresh)
-      lane.claims[c].begin(pack_.claims[c], pack_, *accuracy_, start_.at(PackSystem::limits, c, l));
     if (lane.fresh || lane.jumped)
       lane.claims[c].at(lane.t, reading(c, l, start_, coarse_start_), lane.jumped);
     if (lane.claims[c].open()) return open(Why::claim);
@@ -40,12 +38,33 @@ bool LaneSet::find_sides(std::size_t l) {
       continue;
     }
     const double error = std::max(error_of(w, l, start_, coarse_start_), lane.zero[w]);
-    if (std::abs(value) > error) {
+    const bool is_new = lane.fresh || (lane.jumped && lane.before[w] != 0);
+    if (is_crossing_[w] && is_new && is_exact_zero(w, l)) {
+      if (!leave_zero(w, l)) return false;
+    } else if (std::abs(value) > error) {
       lane.sides[w] = sign_of(value);
     } else if (lane.fresh || !is_crossing_[w] || std::abs(value - lane.before[w]) > error) {
       // What has crossed 0 goes on; otherwise the next step tells where it goes.
       lane.sides[w] = 0;
     }
+  }
+  return true;
+}
+
+std::int8_t LaneSet::leaving_side(std::size_t w, std::size_t l) const {
+  const std::int8_t side = sign_of(start_.at(PackSystem::watch_rates, w, l));
+  return side == sign_of(coarse_start_.at(PackSystem::watch_rates, w, l)) ? side : 0;
+}
+
+bool LaneSet::leave_zero(std::size_t w, std::size_t l) {
+  PackLane& lane = *lanes_[l];
+  lane.sides[w] = leaving_side(w, l);
+  if (lane.sides[w] == 0) return open(Why::sign);
+  for (std::size_t e = 0; e < pack_.events.size(); ++e) {
+    const auto& crossing = pack_.events[e].crossing;
+    if (!crossing || crossing->watch != w) continue;
+    lane.signs[e] = side_of(*crossing, lane);
+    if (is_wanted(e, lane.signs[e])) return open(Why::sign);
   }
   return true;
 }
@@ -75,10 +94,7 @@ bool LaneSet::go_on(std::size_t l) {
   PackLane& lane = *lanes_[l];
   lane.undetermined = false;
   if (!find_due(l)) return false;
-  if (lane.due) {
-    lane.phase = Phase::jump;
-    return ++lane.chain <= kMostChain || open(Why::jumps);
-  }
+  if (lane.due) return begin_jump(l);
   if (lane.t >= horizon_) {
     finish(l);
     return true;
@@ -94,9 +110,7 @@ bool LaneSet::go_on(std::size_t l) {
 /// Whether what of a condition is neither above nor below 0 is 0 in both runs.
 bool LaneSet::has_exact_zeros(const WatchedCondition& condition, std::size_t l) const {
   const auto is_exact = [&](const Watched& one) {
-    return lanes_[l]->sides[one.watch] != 0 ||
-           (start_.at(PackSystem::watch_values, one.watch, l) == 0 &&
-            coarse_start_.at(PackSystem::watch_values, one.watch, l) == 0);
+    return lanes_[l]->sides[one.watch] != 0 || is_exact_zero(one.watch, l);
   };
   return std::all_of(condition.elements.begin(), condition.elements.end(), is_exact) &&
          std::all_of(condition.parts.begin(), condition.parts.end(),
@@ -113,10 +127,8 @@ bool LaneSet::find_due(std::size_t l) {
     if (event.crossing) {
       const std::int8_t side = side_of(*event.crossing, lane);
       if (side == 0) return open(Why::sign);
-      const Dynamics::EventKind kind = pack_.system->dynamics.events[e].kind;
       if (lane.signs[e] != 0 && side != lane.signs[e])
-        lane.crossed[e] = kind == Dynamics::EventKind::crosses ||
-                          (kind == Dynamics::EventKind::rises) == (side > 0);
+        lane.crossed[e] = static_cast<char>(is_wanted(e, side));
       lane.signs[e] = side;
       due = lane.crossed[e] != 0;
     } else if (event.when) {
@@ -160,6 +172,11 @@ bool LaneSet::begin_flow(std::size_t l) {
   }
   for (std::size_t w = 0; w < pack_.watches.size(); ++w)
     if (!pack_.watches[w].branches.empty()) lane.relevant[w] = 1;
+  // What is exactly 0 goes to the side to which it moves.
+  for (std::size_t w = 0; w < pack_.watches.size(); ++w)
+    if (lane.relevant[w] != 0 && lane.sides[w] == 0 && pack_.watches[w].moves &&
+        is_exact_zero(w, l))
+      lane.sides[w] = leaving_side(w, l);
   if (lane.moved) {
     move(l, coarse_, coarse_start_, -lane.coarse_shift);
     lane.moved = false;
@@ -169,6 +186,7 @@ bool LaneSet::begin_flow(std::size_t l) {
     if (claim.after > lane.t) lane.stop = std::min(lane.stop, claim.after);
   lane.flow_start = lane.t;
   lane.chain = lane.looks = lane.steps = 0;
+  lane.largest.setZero();
   lane.phase = Phase::step;
   forget_root(lane);
   return lane.stop > lane.t || open(Why::jumps);
@@ -198,9 +216,6 @@ bool LaneSet::arrive_at_root(std::size_t l, std::size_t target) {
   if (!find_due(l)) return false;
   const Watch& watch = pack_.watches[target];
   if (!lane.due && watch.branches.empty()) return true;
-  const bool is_short = lane.t - lane.flow_start < claims::kInstantOfRun * horizon_;
-  lane.short_flows = is_short ? lane.short_flows + 1 : 0;
-  if (lane.short_flows > kMostShortFlows) return open(Why::jumps);
   // The finer run is at its root; the other one is moved to where the difference is the same.
   lane.coarse_shift = (start_.at(PackSystem::watch_values, target, l) -
                        coarse_start_.at(PackSystem::watch_values, target, l)) /
@@ -210,11 +225,23 @@ bool LaneSet::arrive_at_root(std::size_t l, std::size_t target) {
   lane.moved = true;
   keep_before(l);
   lane.phase = Phase::look;
-  if (lane.due) {
-    lane.phase = Phase::jump;
-    return ++lane.chain <= kMostChain || open(Why::jumps);
+  return !lane.due || begin_jump(l);
+}
+
+bool LaneSet::begin_jump(std::size_t l) {
+  PackLane& lane = *lanes_[l];
+  if (ends_in_zeno_ && lane.chain == 0 && lane.t > lane.flow_start) {
+    for (Eigen::Index k = 0; k < pack_.system->size; ++k)
+      scratch_(k) = fine_.at(static_cast<std::size_t>(k), l);
+    lane.zeno.push(lane.t, lane.t - lane.flow_start, *lane.due, scratch_, lane.largest);
+    if (lane.zeno.accumulation()) {
+      finish(l);
+      return true;
+    }
+    if (lane.zeno.chatters()) return open(Why::jumps);
   }
-  return true;
+  lane.phase = Phase::jump;
+  return ++lane.chain <= kMostChain || open(Why::jumps);
 }
 
 bool LaneSet::arrive_at_stop(std::size_t l) {

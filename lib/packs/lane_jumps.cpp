@@ -82,8 +82,7 @@ void LaneSet::spend(std::size_t event, std::size_t l) {
   PackLane& lane = *lanes_[l];
   lane.crossed[event] = 0;
   lane.spent[event] = 0;
-  const Dynamics::EventKind kind = pack_.system->dynamics.events[event].kind;
-  if (kind != Dynamics::EventKind::every && kind != Dynamics::EventKind::at) return;
+  if (!pack_.system->has_clock(event)) return;
   lane.clocks.advance(event, lane.t);
   fill_clocks(l);
 }

@@ -23,6 +23,7 @@ LaneSet::LaneSet(const PackSystem& pack)
       horizon_(pack.scenario->horizon),
       step_(*pack.step),
       look_(*pack.look),
+      begin_(*pack.start),
       coarse_(pack.whole),
       fine_(pack.whole),
       coarse_end_(pack.whole),
@@ -42,8 +43,10 @@ LaneSet::LaneSet(const PackSystem& pack)
   }
   find_clock_elements();
   is_crossing_.assign(pack.watches.size(), false);
-  for (const PackEvent& event : pack.events)
-    if (event.crossing) is_crossing_[event.crossing->watch] = true;
+  for (std::size_t e = 0; e < pack.events.size(); ++e) {
+    if (pack.events[e].crossing) is_crossing_[pack.events[e].crossing->watch] = true;
+    ends_in_zeno_ = ends_in_zeno_ || !pack.system->has_clock(e);
+  }
 }
 
 std::vector<PackVerdict> LaneSet::run(std::uint64_t seed, std::uint64_t first, std::uint64_t last) {
@@ -89,7 +92,6 @@ std::size_t LaneSet::rows_of(std::size_t result) const {
     case PackSystem::claim_values:
     case PackSystem::claim_rates:
     case PackSystem::claim_terms:
-    case PackSystem::limits:
       return pack_.claims.size();
     case PackSystem::extras: {
       std::size_t count = 0;
@@ -166,10 +168,25 @@ void LaneSet::look(const LaneValues& values, LaneLook& seen, std::uint32_t activ
       std::copy_n(look_.result(r, k), kLanes, seen.of[r].row(k));
 }
 
+std::uint32_t LaneSet::begin_claims(std::uint32_t mask) {
+  std::uint32_t fresh = 0;
+  each(mask, [&](std::size_t l) { fresh |= lanes_[l]->fresh ? 1U << l : 0; });
+  if (fresh == 0) return 0;
+  std::copy_n(fine_.row(0), fine_.rows() * kLanes, begin_.input(0));
+  begin_.run(fresh);
+  each(fresh, [&](std::size_t l) {
+    for (std::size_t c = 0; c < pack_.claims.size(); ++c)
+      lanes_[l]->claims[c].begin(pack_.claims[c], pack_, *accuracy_,
+                                 begin_.result(PackSystem::limits, c)[l],
+                                 begin_.result(PackSystem::limit_terms, c)[l]);
+  });
+  return begin_.faults() & fresh;
+}
+
 void LaneSet::look_all(std::uint32_t mask) {
   look(fine_, middle_, mask);
   look(coarse_, end_, mask);
-  const std::uint32_t faults = middle_.faults | end_.faults;
+  const std::uint32_t faults = middle_.faults | end_.faults | begin_claims(mask);
   each(mask, [&](std::size_t l) {
     start_.copy_lane(middle_, l);
     coarse_start_.copy_lane(end_, l);

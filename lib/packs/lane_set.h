@@ -59,6 +59,8 @@ class LaneSet {
            hybrid::kTermRounding * fine.at(PackSystem::watch_terms, w, l);
   }
   void look_all(std::uint32_t mask);
+  /// With what the claims of lanes that begin are compared; the lanes in which it has no value.
+  std::uint32_t begin_claims(std::uint32_t mask);
   Reading reading(std::size_t claim, std::size_t l, const LaneLook& fine,
                   const LaneLook& coarse) const {
     return {fine.at(PackSystem::claim_values, claim, l),
@@ -74,6 +76,21 @@ class LaneSet {
     return static_cast<std::int8_t>(watched.factor * lane.sides[watched.watch]);
   }
   bool find_sides(std::size_t l);
+  bool is_exact_zero(std::size_t w, std::size_t l) const {
+    return start_.at(PackSystem::watch_values, w, l) == 0 &&
+           coarse_start_.at(PackSystem::watch_values, w, l) == 0;
+  }
+  /// To which it moves; 0: that is not certain.
+  std::int8_t leaving_side(std::size_t w, std::size_t l) const;
+  /// Whether the crossing of an event is to this side.
+  bool is_wanted(std::size_t event, int side) const {
+    using Kind = model::Dynamics::EventKind;
+    const Kind kind = pack_.system->dynamics.events[event].kind;
+    return kind == Kind::crosses || (kind == Kind::rises) == (side > 0);
+  }
+  /// A crossing that starts or jumps lead to exactly 0 is on the side to which it moves; where that
+  /// is a crossing, the careful run tells when it happens.
+  bool leave_zero(std::size_t w, std::size_t l);
   /// Whether a branch of the flow has changed; none where one is not certain. What is 0 takes the
   /// branch to which it moves.
   std::optional<bool> set_branches(std::size_t l);
@@ -81,6 +98,8 @@ class LaneSet {
   bool go_on(std::size_t l);
   /// The first event that is due.
   bool find_due(std::size_t l);
+  /// The event that is due jumps; at the accumulation of jumps the run ends.
+  bool begin_jump(std::size_t l);
   bool has_exact_zeros(const WatchedCondition& condition, std::size_t l) const;
   bool begin_flow(std::size_t l);
   static void forget_root(PackLane& lane) {
@@ -152,7 +171,7 @@ class LaneSet {
 
   const PackSystem& pack_;
   double horizon_;
-  lanes::LaneMachine step_, look_;
+  lanes::LaneMachine step_, look_, begin_;
   std::vector<lanes::LaneMachine> jumps_;
   std::vector<std::optional<lanes::LaneMachine>> lost_;
   LaneValues coarse_, fine_;  ///< now
@@ -161,6 +180,7 @@ class LaneSet {
   LaneValues lengths_, errors_;
   LaneLook start_, coarse_start_;  ///< at the values now
   LaneLook middle_, end_, coarse_look_, quarter_, three_quarters_;
+  bool ends_in_zeno_ = false;      ///< whether events without a clock may accumulate
   std::vector<bool> is_crossing_;  ///< by watch: of rises, falls, crosses
   std::vector<std::size_t> times_;
   std::vector<std::vector<std::size_t>> since_, left_;  ///< by event: elements

@@ -148,7 +148,7 @@ bool LaneSet::find_root(std::size_t l, int& target, double& share) {
     const int side = known != 0 ? known : sign_of(b[5]);
     bool clear = true;
     for (std::size_t k = 1; k < b.size(); ++k)
-      clear = clear && side * b[k] > (known != 0 || k == 5 ? error : 0);
+      clear = clear && side * b[k] > ((known != 0 && b[0] != 0) || k == 5 ? error : 0);
     if (clear || static_cast<int>(w) == lane.target) continue;
     if (known != 0 && ends_at_root(lane, w, b, error)) {
       lane.zero[w] = error;
@@ -204,6 +204,11 @@ bool LaneSet::accept(std::size_t l) {
   for (const int row : pack_.rows)
     if (!(std::abs(fine_end_.at(static_cast<std::size_t>(row), l)) <= hybrid::kLargestState))
       return open(Why::range);
+  if (ends_in_zeno_)
+    for (const LaneValues* values : {&fine_, &fine_middle_, &fine_end_})
+      for (Eigen::Index k = 0; k < lane.largest.size(); ++k)
+        lane.largest(k) =
+            std::max(lane.largest(k), std::abs(values->at(static_cast<std::size_t>(k), l)));
   find_new_sides(l);
   coarse_.copy_lane(coarse_end_, l);
   fine_.copy_lane(fine_end_, l);

@@ -9,6 +9,7 @@
 // in units in which A is small (numerics/balance.h).
 #pragma once
 
+#include <Eigen/Core>
 #include <vector>
 
 #include "base/eigen_scalars.h"

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "hybrid/zeno.h"
 #include "packs/claim_lane.h"
 #include "packs/pack_watch.h"
 
@@ -29,7 +30,9 @@ struct PackLane {
         crossed(pack.events.size(), 0),
         spent(pack.events.size(), 0),
         happened(pack.events.size(), 0),
-        claims(pack.claims.size()) {}
+        claims(pack.claims.size()),
+        zeno(*pack.system, pack.scenario->horizon),
+        largest(Eigen::VectorXd::Zero(pack.system->size)) {}
 
   std::uint64_t run_number = 0;
   Phase phase = Phase::look;
@@ -43,10 +46,9 @@ struct PackLane {
   int halvings = 0;
   int target = -1;  ///< the watch whose root a step goes to
   int retakes = 0;
-  int steps = 0;        ///< in this flow
-  int looks = 0;        ///< at this instant
-  int chain = 0;        ///< jumps at this instant
-  int short_flows = 0;  ///< in a row
+  int steps = 0;  ///< in this flow
+  int looks = 0;  ///< at this instant
+  int chain = 0;  ///< jumps at this instant
   hybrid::EventClocks clocks;
   hybrid::NoiseDraws noise;
   Sides sides;
@@ -62,6 +64,8 @@ struct PackLane {
   double coarse_shift = 0;
   std::vector<ClaimLane> claims;
   std::vector<ClaimLane> claims_before;  ///< this step, to come back to
+  hybrid::ZenoDetector zeno;
+  Eigen::VectorXd largest;  ///< of all values, in this flow
 };
 
 }  // namespace gainsmith::packs

@@ -165,9 +165,6 @@ class LookCode {
     peaks_ = peaks_ || has_peaks(value.value[0]);
     push(PackSystem::claim_rates, value.slopes[0][0]);
     push(PackSystem::claim_terms, texts_.value(hybrid::absolute_terms(claim.value), x_).value[0]);
-    const auto& limit = claim.bound ? claim.bound : claim.factor;
-    push(PackSystem::limits,
-         limit ? texts_.value(*limit, x_).value[0] : texts_.graph().constant(0));
     const auto moves = [&](const std::string& name) { return pack_.system->is_moving(name); };
     for (const expr::Branch& branch : expr::branches_of(claim.value, moves))
       for (const int node : texts_.value(branch.difference, x_).value) {
@@ -227,10 +224,7 @@ class LookCode {
     const std::size_t element = *cost_element(claim, *pack_.system);
     push(PackSystem::claim_values, x_[element]);
     push(PackSystem::claim_rates, rates_[element]);
-    push(PackSystem::claim_terms,
-         texts_.graph().add(texts_.graph().apply(ScalarOp::abs, x_[element]),
-                            texts_.value(hybrid::absolute_terms(claim.value), x_).value[0]));
-    push(PackSystem::limits, texts_.value(claim.value, x_).value[0]);
+    push(PackSystem::claim_terms, texts_.graph().apply(ScalarOp::abs, x_[element]));
   }
 
   /// Visits all that a node is made of, itself first.
@@ -244,9 +238,13 @@ class LookCode {
       if (at < 0 || !seen.insert(at).second) continue;
       const ScalarGraph::Node one = texts_.graph().nodes()[index(at)];
       seen_by(one);
-      if (one.op == ScalarOp::input || one.op == ScalarOp::constant || one.op == ScalarOp::element)
+      if (one.op == ScalarOp::input || one.op == ScalarOp::constant) continue;
+      if (one.op != ScalarOp::element) {
+        waiting.insert(waiting.end(), {one.a, one.b, one.c});
         continue;
-      waiting.insert(waiting.end(), {one.a, one.b, one.c});
+      }
+      for (const auto& operand : texts_.graph().blocks()[index(one.a)].operands)
+        waiting.insert(waiting.end(), operand.begin(), operand.end());
     }
   }
 
@@ -263,8 +261,7 @@ class LookCode {
   bool depends_on_states(int node) {
     bool depends = false;
     visit(node, [&](const ScalarGraph::Node& one) {
-      depends = depends || (one.op == ScalarOp::input && is_state_[index(one.a)]) ||
-                one.op == ScalarOp::element;
+      depends = depends || (one.op == ScalarOp::input && is_state_[index(one.a)]);
     });
     return depends;
   }
@@ -307,6 +304,26 @@ class LookCode {
   bool peaks_ = false;
   std::vector<std::vector<int>> results_{PackSystem::extras + 1};
 };
+
+/// With what claims are compared, at the start of a run.
+lanes::LaneCode start_code(const PackSystem& pack, const std::vector<claims::Claim>& claims) {
+  PackGraph texts(*pack.system, pack.costs);
+  const Nodes x = texts.inputs();
+  const int zero = texts.graph().constant(0);
+  std::vector<Nodes> results(PackSystem::limit_terms + 1);
+  for (const claims::Claim& claim : claims) {
+    if (!claim.stated()) continue;
+    const bool is_cost = claim.kind == model::ClaimKind::cost;
+    const expr::Program* limit = is_cost        ? &claim.value
+                                 : claim.bound  ? &*claim.bound
+                                 : claim.factor ? &*claim.factor
+                                                : nullptr;
+    results[PackSystem::limits].push_back(limit ? texts.value(*limit, x).value[0] : zero);
+    results[PackSystem::limit_terms].push_back(
+        is_cost ? texts.value(hybrid::absolute_terms(*limit), x).value[0] : zero);
+  }
+  return {texts.graph(), results, pack.whole};
+}
 
 bool add_event(const Dynamics::Event& event, LookCode& look, PackSystem& pack) {
   PackEvent& made = pack.events.emplace_back();
@@ -360,6 +377,7 @@ std::unique_ptr<const PackSystem> make_pack_system(const hybrid::System& system,
     add_switches(look, *pack);
     if (look.has_peaks()) return nullptr;
     pack->look.emplace(look.make());
+    pack->start.emplace(start_code(*pack, claims));
   } catch (const numbers::NoFormula&) {
     return nullptr;
   }

@@ -85,18 +85,20 @@ struct PackSystem {
   std::vector<Watch> watches;
   std::vector<PackClaim> claims;
   std::vector<RunningCost> costs;
-  std::optional<lanes::LaneCode> step, look;
+  std::optional<lanes::LaneCode> step, look, start;
 
   /// Results of `step`.
   enum StepResult : std::size_t { end, error };
-  /// Results of `look`. terms: the sums of the absolute values of the terms of a value; limits: the
-  /// bound or the factor of each claim, of a cost its value at the start; extras: the differences that claims branch on.
+  /// Results of `start`, of each claim: the bound or the factor, of a cost its value at the start;
+  /// of a cost also the sum of the absolute values of its terms.
+  enum StartResult : std::size_t { limits, limit_terms };
+  /// Results of `look`. terms: the sums of the absolute values of the terms of a value; extras: the
+  /// differences that claims branch on.
   enum LookResult : std::size_t {
     rates,
     claim_values,
     claim_rates,
     claim_terms,
-    limits,
     watch_values,
     watch_rates,
     watch_terms,

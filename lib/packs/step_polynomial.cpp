@@ -2,12 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace gainsmith::packs {
 
 namespace {
 
 using Coefficients = std::array<double, 6>;
+
+/// Of a root: how near to it the search ends.
+constexpr double kRootWithin = 4e-16;
+
+/// The first `level` coefficients of one degree less, at a share (de Casteljau).
+void step_down(Coefficients& b, std::size_t level, double share) {
+  for (std::size_t k = 0; k < level; ++k) b[k] += share * (b[k + 1] - b[k]);
+}
 
 /// On its two halves.
 void split(const Coefficients& b, Coefficients& left, Coefficients& right) {
@@ -38,6 +47,18 @@ double rise_of(const Coefficients& b, int depth) {
   return rise_of(left, depth - 1) + rise_of(right, depth - 1);
 }
 
+/// Whether the derivative is below -margin on parts that are so short.
+bool falls_within(const Coefficients& b, double margin, int depth) {
+  const auto rises = [&](std::size_t k) { return b[k] - b[k - 1] > -margin / 5; };
+  bool everywhere = true;
+  for (std::size_t k = 1; k < b.size(); ++k) everywhere = everywhere && !rises(k);
+  if (everywhere) return true;
+  if (depth == 0 || rises(1) || rises(b.size() - 1)) return false;
+  Coefficients left, right;
+  split(b, left, right);
+  return falls_within(left, margin / 2, depth - 1) && falls_within(right, margin / 2, depth - 1);
+}
+
 }  // namespace
 
 StepPolynomial::StepPolynomial(const StepSamples& samples) {
@@ -58,9 +79,8 @@ StepPolynomial::StepPolynomial(const StepSamples& samples) {
 }
 
 double StepPolynomial::operator()(double share) const {
-  std::array<double, 6> b = b_;
-  for (std::size_t level = 5; level > 0; --level)
-    for (std::size_t k = 0; k < level; ++k) b[k] += share * (b[k + 1] - b[k]);
+  Coefficients b = b_;
+  for (std::size_t level = b.size() - 1; level > 0; --level) step_down(b, level, share);
   return b[0];
 }
 
@@ -70,20 +90,21 @@ double StepPolynomial::highest() const { return highest_of(b_, 10); }
 
 double StepPolynomial::rise() const { return rise_of(b_, 6); }
 
-bool StepPolynomial::falls(double margin) const {
-  for (std::size_t k = 1; k < b_.size(); ++k)
-    if (b_[k] - b_[k - 1] > -margin / 5) return false;
-  return true;
-}
+bool StepPolynomial::falls(double margin) const { return falls_within(b_, margin, 6); }
 
 double StepPolynomial::root(int side) const {
-  double low = 0;
-  double high = 1;
-  for (int k = 0; k < 60; ++k) {
-    const double middle = (low + high) / 2;
-    ((*this)(middle)*side > 0 ? low : high) = middle;
+  double low = 0, high = 1, at = 0.5;
+  for (int k = 0; k < 100; ++k) {
+    Coefficients b = b_;
+    for (std::size_t level = b.size() - 1; level > 1; --level) step_down(b, level, at);
+    const double slope = 5 * (b[1] - b[0]);
+    step_down(b, 1, at);
+    (side * b[0] > 0 ? low : high) = at;
+    const double next = at - b[0] / slope;
+    const double before = std::exchange(at, next > low && next < high ? next : (low + high) / 2);
+    if (std::abs(at - before) <= kRootWithin * at) break;
   }
-  return high;
+  return at;
 }
 
 }  // namespace gainsmith::packs

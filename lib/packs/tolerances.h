@@ -57,8 +57,6 @@ constexpr double kMostGrowth = 4;  ///< factor | errors of linear runs are bound
         ///< LinearPacks.FollowWhatFallsWhereFlowsMayGrow
 constexpr std::int64_t kMostFlowsOfBlock = 16;  ///< flows | and is no longer than so many |
         ///< Systems/LinearPacks.NoErrorIsBeyondItsBound
-constexpr int kMostShortFlows = 3;  ///< flows in a row | more of them within an instant are left to
-        ///< the careful run | UnusualRuns.AreLeftOpen
 // clang-format on
 
 }  // namespace gainsmith::packs

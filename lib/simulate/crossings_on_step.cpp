@@ -118,7 +118,7 @@ std::optional<double> CrossingsOnStep::hidden_turn(Index element) {
 }
 
 std::optional<double> CrossingsOnStep::leaves_zero(Index element) {
-  const auto is_noise = [&](double t) { return function_.is_noise(used_.at(t), element); };
+  const auto is_noise = [&](double t) { return std::abs(value(element, t)) <= noise_(element); };
   double low = inside_.from();
   if (!is_noise(low)) return std::nullopt;
   for (double high : times_) {

@@ -28,18 +28,13 @@ std::optional<std::size_t> DueEvents::first(const VectorXd& values, double t) {
   return std::nullopt;
 }
 
-bool DueEvents::has_clock(std::size_t event) const {
-  const DueKind kind = system_->dynamics.events[event].kind;
-  return kind == DueKind::every || kind == DueKind::at;
-}
-
 bool DueEvents::is_due(std::size_t event, const VectorXd& values, double t) {
   Mark& mark = marks_[event];
-  if (has_clock(event))
+  if (system_->has_clock(event))
     return clocks_.is_due(event, t >= horizon_ ? t + hybrid::kAddedUp * horizon_ : t);
   if (watch_->crossing[event]) {
     // What leaves 0 has left it once it is no rounding.
-    if (mark.sign != 0 || !watch_->crossing[event]->is_noise(values))
+    if (mark.sign != 0 || !watch_->is_noise(event, values))
       note_sign(event, sign_of(event, values));
     return mark.crossed;
   }
@@ -65,13 +60,14 @@ void DueEvents::note_sign(std::size_t event, int sign) {
 void DueEvents::spend(std::size_t event, double t, VectorField& field) {
   marks_[event].spent = system_->dynamics.events[event].kind == DueKind::when;
   marks_[event].crossed = false;
-  if (!has_clock(event)) return;
+  if (!system_->has_clock(event)) return;
   clocks_.advance(event, t);
   field.set_due(event, clocks_.due(event));
 }
 
 void DueEvents::jumped(std::size_t event, const VectorXd& before, const VectorXd& values) {
   marks_[event].spent = false;
+  watch_->forget_step();
   for (std::size_t e = 0; e < marks_.size(); ++e) {
     if (!watch_->crossing[e]) continue;
     const int sign = sign_of(e, values);

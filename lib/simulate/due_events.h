@@ -33,7 +33,6 @@ class DueEvents {
   /// After its jump: what its own map does to e is no crossing.
   void jumped(std::size_t event, const Eigen::VectorXd& before, const Eigen::VectorXd& values);
 
-  bool has_clock(std::size_t event) const;
   hybrid::EventClocks& clocks() { return clocks_; }
   /// To look ahead and to come back.
   std::vector<Mark> marks() const { return marks_; }

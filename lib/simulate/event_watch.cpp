@@ -51,6 +51,7 @@ EventWatch::EventWatch(const hybrid::System& system) : system_(&system) {
     crossing.emplace_back();
     if (event.crossing) crossing.back().emplace(event.crossing->program, system);
   }
+  rounding_.assign(crossing.size(), 0);
   for (const model::Dynamics::Component& one : system.dynamics.components)
     for (const auto& flow_set : one.flow_sets)
       flow_sets.push_back(
@@ -87,6 +88,11 @@ bool EventWatch::decides(const Role& role, const VectorXd& values) {
          role.condition->if_changed(values, role.comparison) != (*role.condition)(values);
 }
 
+bool EventWatch::is_noise(std::size_t event, const VectorXd& values) {
+  return crossing[event]->is_noise(values) ||
+         std::abs((*crossing[event])(values)(0)) <= rounding_[event];
+}
+
 hybrid::EventFunction& EventWatch::function_of(const hybrid::NearTurn& turn) {
   if (turn.of == hybrid::NearTurn::Of::crossing) return *crossing[turn.index];
   hybrid::EventCondition& condition =
@@ -108,6 +114,7 @@ std::vector<double> EventWatch::crossings(
       return;
     if (times.empty()) times = ode::first_points(inside.from(), inside.to());
     CrossingsOnStep on_step(function, inside, times);
+    if (role.of == hybrid::NearTurn::Of::crossing) rounding_[role.index] = on_step.noise()(0);
     for (Index element = 0; element < function.size(); ++element) {
       if (!apart.empty() && apart[static_cast<std::size_t>(element)] != 0) continue;
       if (hidden != nullptr)

@@ -38,6 +38,12 @@ class EventWatch {
       const std::function<void(const hybrid::NearTurn&, bool reached)>& turn,
       std::optional<double>* hidden = nullptr);
 
+  /// Whether e of an event is 0 but for rounding: that of its terms, and of the values on the step
+  /// that `crossings` has searched last.
+  bool is_noise(std::size_t event, const Eigen::VectorXd& values);
+  /// A jump leads to values that have no rounding of a step.
+  void forget_step() { rounding_.assign(rounding_.size(), 0); }
+
   /// The function that a turning point is of.
   hybrid::EventFunction& function_of(const hybrid::NearTurn& turn);
 
@@ -64,6 +70,7 @@ class EventWatch {
   static bool decides(const Role& role, const Eigen::VectorXd& values);
 
   const hybrid::System* system_;
+  std::vector<double> rounding_;  ///< by event: of e on a step
 };
 
 }  // namespace gainsmith::simulate

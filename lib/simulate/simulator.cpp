@@ -11,6 +11,7 @@
 #include "base/number.h"
 #include "base/stop.h"
 #include "hybrid/measured_rows.h"
+#include "hybrid/zeno.h"
 #include "ode/integrator.h"
 #include "ode/tolerances.h"
 #include "simulate/branches.h"
@@ -21,7 +22,6 @@
 #include "simulate/run_record.h"
 #include "simulate/sliding.h"
 #include "simulate/tolerances.h"
-#include "simulate/zeno.h"
 
 namespace gainsmith::simulate {
 
@@ -38,18 +38,6 @@ struct Simulator::Texts {
 };
 
 namespace {
-
-/// Elements of states and modes among all values.
-std::vector<Index> rows_of_states(const hybrid::System& system) {
-  std::vector<Index> rows;
-  for (std::size_t k = 0; k < system.dynamics.variables.size(); ++k) {
-    const model::Dynamics::Variable& variable = system.dynamics.variables[k];
-    if (variable.kind != VariableKind::state && variable.kind != VariableKind::mode) continue;
-    for (Index e = 0; e < variable.shape.size(); ++e)
-      rows.push_back(system.layout.slots[k].offset + e);
-  }
-  return rows;
-}
 
 class EventRun {
  public:
@@ -68,8 +56,7 @@ class EventRun {
         rows_(system),
         branches_(system, watch, accuracy),
         flow_(make_flow(field, accuracy, kLongestStep * scenario.horizon, places())),
-        zeno_(scenario.horizon),
-        state_rows_(rows_of_states(system)),
+        zeno_(system, scenario.horizon),
         flow_sets_(watch),
         sliding_(system, watch, accuracy, scenario.horizon),
         record_(system, scenario.horizon, limits) {
@@ -186,11 +173,10 @@ class EventRun {
   void watch_zeno(std::size_t event) {
     const hybrid::FlowPiece& flow = record_.flow();
     if (flow.steps.empty()) return;
-    VectorXd largest = VectorXd::Zero(static_cast<Index>(state_rows_.size()));
+    VectorXd largest = VectorXd::Zero(system_.size);
     for (const hybrid::DenseStep& step : flow.steps)
-      largest = largest.cwiseMax(step.coefficients.cwiseAbs().rowwise().sum()(state_rows_));
-    zeno_.push(t_, flow.to() - flow.from(), event, due_.has_clock(event), values_(state_rows_),
-               largest);
+      largest = largest.cwiseMax(step.coefficients.cwiseAbs().rowwise().sum().head(system_.size));
+    zeno_.push(t_, flow.to() - flow.from(), event, values_, largest);
     const double part = zeno_.shrinkage() * zeno_.shrinkage();
     flow_->sharpen(part);
     branches_.sharpen(part);
@@ -359,8 +345,7 @@ class EventRun {
   hybrid::MeasuredRows rows_;
   Branches branches_;
   std::unique_ptr<Flow> flow_;
-  ZenoDetector zeno_;
-  std::vector<Index> state_rows_;
+  hybrid::ZenoDetector zeno_;
   FlowSets flow_sets_;
   SlidingDetector sliding_;
   VectorXd values_;  ///< variables and branches

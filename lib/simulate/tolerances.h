@@ -2,8 +2,6 @@
 // each: unit | meaning | the test that fails where the value is wrong (docs/tolerances.md).
 #pragma once
 
-#include <cstddef>
-
 namespace gainsmith::simulate {
 
 constexpr double kLongestStep = 1.0 / 16;  ///< of the horizon
@@ -18,14 +16,5 @@ constexpr double kShorterStep = 1.5;  ///< times the length up to an event
 constexpr double kNearOfTerms = 1e-3;  ///< of the sizes of the terms of a guard
 ///< | turning points as near to 0 as that are compared with their errors
 ///< | EventRun.ATwinKeepsTurningPointsNextToZero
-constexpr std::size_t kRatios = 12;  ///< ratios of lengths
-///< | so many that agree are a steady factor, however slowly the lengths shrink
-///< | EventRun.ZenoStopsAtItsAccumulation
-constexpr double kLeftOver = 1e-7;  ///< of the time so far
-///< | jumps accumulate where no more is left and states are steady; fewer ratios than 12 make it
-///< | EventEnding.AFewFlightsThatShrinkFastAccumulate
-constexpr double kNothingLeft = 1e-8;  ///< of the time so far
-///< | jumps accumulate where no more is left, whatever states do
-///< | EventEnding.ACounterThatEndsShrinkingIsNoZeno
 
 }  // namespace gainsmith::simulate

@@ -38,8 +38,6 @@ double noise_of(EventFunction& guard, const VectorXd& values, Index e) {
   }
 }
 
-bool has_clock(EventKind kind) { return kind == EventKind::every || kind == EventKind::at; }
-
 double length(const hybrid::FlowPiece& flow) { return flow.to() - flow.from(); }
 
 }  // namespace
@@ -165,7 +163,7 @@ bool EventDoubts::may_happen(std::size_t event, const Instant& at,
 /// Whether it happens at these values, where what lies within its error counts as reached.
 bool EventDoubts::fires(std::size_t event, const std::vector<Guard>& guards, const Instant& at,
                         const VectorXd& values) {
-  if (has_clock(system_->dynamics.events[event].kind)) return true;
+  if (system_->has_clock(event)) return true;
   const auto is_near = [&](const Guard& guard, double value) {
     const double rate = std::abs(guard.value - guard.before) / at.since;
     return std::abs(value) <= guard.error + rate * at.time_error;
@@ -211,7 +209,7 @@ std::string EventDoubts::message(const Instant& at, std::size_t other, double di
 std::optional<std::string> EventDoubts::clocks_after(const claims::TwinParts& twins,
                                                      std::size_t jump, const Instant& at) {
   const auto& own = std::get<claims::TwinJump>(twins.parts[jump]);
-  if (has_clock(system_->dynamics.events[at.event].kind)) return std::nullopt;
+  if (system_->has_clock(at.event)) return std::nullopt;
   for (std::size_t k = jump + 1; k < twins.parts.size(); ++k) {
     if (const auto* flow = std::get_if<claims::TwinFlow>(&twins.parts[k])) {
       if (length(*flow->flow) > claims::kInstantOfRun * at.t) break;
@@ -219,7 +217,7 @@ std::optional<std::string> EventDoubts::clocks_after(const claims::TwinParts& tw
     }
     const auto& next = std::get<claims::TwinJump>(twins.parts[k]);
     const std::size_t other = next.jump->event;
-    if (!has_clock(system_->dynamics.events[other].kind)) continue;
+    if (!system_->has_clock(other)) continue;
     const double gap = next.jump->t - at.t;
     const double error =
         bounded::kErrorOfDifference * std::abs(gap - (next.twin_t - own.twin_t)) + at.time_error;
@@ -234,10 +232,10 @@ std::optional<std::string> EventDoubts::of_jump(const claims::TwinParts& twins, 
   auto at = instant(twins, jump, happened);
   if (!at || events.size() < 2) return std::nullopt;
   happened[at->event] = true;
-  if (!has_clock(events[at->event].kind)) at->own = guards(at->event, *at);
+  if (!system_->has_clock(at->event)) at->own = guards(at->event, *at);
   set_time_error(*at);
   for (std::size_t other = 0; other < events.size(); ++other) {
-    if (happened[other] || has_clock(events[other].kind)) continue;
+    if (happened[other] || system_->has_clock(other)) continue;
     const std::vector<Guard> theirs = guards(other, *at);
     if (!may_happen(other, *at, theirs) || commute(other, theirs, *at)) continue;
     const auto nearest = std::min_element(

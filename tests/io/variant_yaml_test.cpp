@@ -154,6 +154,9 @@ TEST_F(Variants, WhatTheMethodOfTheOtherOneTakesFromTheProgramIsRemoved) {
   // What the two have goes away in both, and what the other problem alone has goes away too.
   EXPECT_TRUE(variant("plant: {output: {y: none}}").method->plant.outputs.empty());
   EXPECT_TRUE(variant("noise: {v: none}").method->noise.empty());
+  // A claim without entries is that of the program again.
+  EXPECT_EQ(variant("claims: {lyapunov: {}}").method->claims.size(),
+            noisy.method->claims.size() + 1);
   const InputError error = input_error([&] { variant("claims: {eror: none}"); });
   EXPECT_EQ(error.place(), (Place{path("p.yaml"), 3, 25}));
   EXPECT_NE(error.message().find("did you mean 'error'?"), std::string::npos) << error.message();

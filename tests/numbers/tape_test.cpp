@@ -80,6 +80,23 @@ TEST(Tape, ADerivativeIsAFormula) {
   EXPECT_LE(texts.operations(), 2U);  // cos and 2 x(3)
 }
 
+TEST(Tape, TheDerivativeOfAnExponentialIsOneOfALargerMatrix) {
+  const TapeOf texts({"jacobian(expm([0, x(1); -x(2), x(3)])*[1; 2], x)", "jacobian(expm(x(1)), x)"});
+  StackedFunctions functions = texts.functions();
+  for (const Vector& x : {point(0.3, 2, -1), point(0, 0, 0)}) {
+    ASSERT_TRUE(functions.run(x));
+    for (std::size_t k = 0; k < functions.count(); ++k)
+      EXPECT_LT((functions.value(k) - functions.at(k, x)).cwiseAbs().maxCoeff(), 1e-14) << k;
+  }
+}
+
+TEST(Tape, TheDerivativeOfANormAtZeroHasNoValue) {
+  const TapeOf texts({"jacobian(norm(x), x)", "jacobian(sqrt(x(1)), x)"});
+  StackedFunctions functions = texts.functions();
+  EXPECT_TRUE(functions.run(point(1, 0, 0)));
+  EXPECT_FALSE(functions.run(point(0, 0, 0)));
+}
+
 TEST(Tape, AFlowMapIsThatOfReal) {
   const TapeOf texts({"flow_map([x(2); -sin(x(1)); 0.1*x(1)], x, 0.8)",
                       "flow_map([x(2); -9.8 - abs(x(2))*x(2); t], x, -x(3)/10)",

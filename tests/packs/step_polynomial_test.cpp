@@ -74,11 +74,28 @@ TEST(StepPolynomial, AddsUpItsRises) {
   EXPECT_GT(through(short_rise, short_rate, 0, 1).rise(), 2.5e-9);
 }
 
+TEST(StepPolynomial, FallsAsMuchAsItDoes) {
+  // The rate is -1 + 0.99 sin^2: coefficients rise, the value does not.
+  const auto value = [](double t) { return -t + 0.99 * (t / 2 - std::sin(6 * t) / 12); };
+  const auto rate = [](double t) { return -1 + 0.99 * std::pow(std::sin(3 * t), 2); };
+  const StepPolynomial along = through(value, rate, 0, 1);
+  EXPECT_FALSE(along.falls(0.05));
+  const StepPolynomial half = through(value, rate, 0.35, 0.3);
+  EXPECT_TRUE(half.falls(0.3 * 0.005));
+  EXPECT_FALSE(half.falls(0.3 * 0.02));
+  EXPECT_TRUE(through([](double t) { return -t; }, [](double) { return -1.0; }, 0, 1).falls(0.9));
+}
+
 TEST(StepPolynomial, FindsItsRoot) {
   const auto value = [](double t) { return 0.3 - t + t * t * t; };
   const auto rate = [](double t) { return -1 + 3 * t * t; };
   const StepPolynomial along = through(value, rate, 0, 0.5);
   EXPECT_NEAR(value(0.5 * along.root(1)), 0, 1e-15);
+  // From 0 up and back.
+  const auto flies = [](double t) { return 3 * t - 5 * t * t; };
+  const auto flies_at = [](double t) { return 3 - 10 * t; };
+  EXPECT_NEAR(through(flies, flies_at, 0, 8).root(1), 0.6 / 8, 1e-15);
+  EXPECT_NEAR(through(flies, flies_at, 0.2, 8).root(1), 0.4 / 8, 1e-15);
 }
 
 }  // namespace

@@ -192,6 +192,26 @@ TEST(EventRun, LeavingExactlyZeroIsACrossing) {
   }
 }
 
+TEST(EventRun, ABallThatBouncesAtExactlyZeroBouncesToItsRest) {
+  for (const double start : {2.012298031219591, 1.0, 3.3, 0.7123})
+    for (const bool exact : {true, false}) {
+      EventProblem problem;
+      problem.state("h", {}, std::to_string(start)).state("v", {}, "-0.287");
+      problem.flow("h", "v").flow("v", exact ? "-9.81" : "-9.81 + 0*sin(h)");
+      problem.crossing(EventKind::falls, "hit", "h").jump("hit", {{"h", "0"}, {"v", "-0.8*v"}});
+      const hybrid::System system = problem.system();
+      const hybrid::Trajectory run = simulate(system, 20);
+      const double v = std::sqrt(0.287 * 0.287 + 2 * 9.81 * start);
+      const std::vector<double> times = times_of(run, 0);
+      ASSERT_GT(times.size(), 3U);
+      for (std::size_t k = 1; k < 30; ++k)
+        EXPECT_NEAR(times[k] - times[k - 1], 2 * v / 9.81 * std::pow(0.8, static_cast<double>(k)),
+                    1e-7)
+            << start << ", flight " << k;
+      EXPECT_EQ(run.ending, hybrid::Ending::zeno) << run.message;
+    }
+}
+
 TEST(EventRun, AnEventWhoseMapLeadsToZeroMayComeAgainAtOnce) {
   EventProblem problem;
   problem.state("h", {}, "1").flow("h", "-1").state("n", {}, "0");

@@ -161,6 +161,53 @@ method:
     eased: {cost: {flow: x'*x}, below: 0.5*x'*x, tolerance: 0.5}
     none: {cost: {}, below: x'*x}
 campaign: {runs: 96, horizon: 6, initial: {x: {box: [-1, 1]}}}
+)yaml"},
+    {"norms of 0, exponentials of matrices, limits at the start", R"yaml(problem: p
+method:
+  method: m
+  events: {sample: {every: [0.1, 0.3]}}
+  let: {A: "[0, 1; -2, -0.3]", rate: lambda_min(A'*A)/20}
+  plant:
+    state: {x: {shape: 2, start: "[1; 0]"}, c: {shape: 2, start: 0}, d: {shape: 1, start: 0}}
+    flow: {x: "A*x - 0.1*x(1)^3*[0; 1]", c: A*c}
+    at: {sample: {d: 1}}
+  claims:
+    exact: {below: "norm(c) + 1", bound: 2}
+    ahead: {below: "norm(expm(A*sample.left)*x)", bound: 1.2}
+    decays: {below: norm(x)*exp(rate*t), bound: 4}
+    spent: {cost: {flow: x'*x/20}, below: x'*x/(1 - d)}
+campaign: {runs: 96, horizon: 6, initial: {x: {box: [-1, 1]}}}
+)yaml"},
+    {"balls that come to rest", R"yaml(problem: p
+method:
+  method: m
+  events:
+    hit:  {falls: "x(1)"}
+    land: {when: y <= 0}
+  plant:
+    state: {x: {shape: 2, start: "[4; 2]"}, y: {shape: 2, start: "[1; 0]"}}
+    flow: {x: "[x(2); -9.81]", y: "[y(2); -9.81 - 0.1*y(2)]"}
+    at: {hit: {x: "[0; -0.8*x(2)]"}, land: {y: "[0; -0.3*y(2)]"}}
+  claims:
+    high: {below: "x(1)", bound: 3}
+    energy: {nonincreasing: "9.81*x(1) + x(2)^2/2", tolerance: 1e-9}
+    rests: {shrinks: norm(x), to: 1e-5}
+    both: {below: "x(1) + y(1)", bound: 4}
+campaign: {runs: 96, horizon: 20, initial: {x: {box: ["[1; -1]", "[4; 1]"]}}}
+)yaml"},
+    {"a ball that comes to rest", R"yaml(problem: p
+method:
+  method: m
+  events: {hit: {falls: "x(1)"}}
+  plant:
+    state: {x: {shape: 2, start: "[4; 2]"}}
+    flow: {x: "[x(2); -9.81]"}
+    at: {hit: {x: "[0; -0.8*x(2)]"}}
+  claims:
+    high: {below: "x(1)", bound: 3}
+    energy: {nonincreasing: "9.81*x(1) + x(2)^2/2", tolerance: 1e-9}
+    rests: {shrinks: norm(x), to: 1e-5}
+campaign: {runs: 96, horizon: 20, initial: {x: {box: ["[1; -1]", "[4; 1]"]}}}
 )yaml"}};
 
 class PackRuns : public testing::TestWithParam<Case> {};
@@ -244,8 +291,14 @@ TEST(UnusualRuns, AreLeftOpen) {
       R"(state: {x: {shape: 2}}, flow: {x: "[x(2); -9.81]"}, at: {impact: {x: "[0; -0.5*x(2)]"}})";
   const std::string box = R"(["[1; 0]", "[2; 0]"])";
   EXPECT_EQ(open_runs(problem_of(ball, falls, "1", box)), 0U);
-  // It comes to rest: jumps without end.
-  EXPECT_EQ(open_runs(problem_of(ball, falls, "10", box)), 40U);
+  // It comes to rest: its jumps accumulate.
+  EXPECT_EQ(open_runs(problem_of(ball, falls, "10", box)), 0U);
+  // Jumps that follow each other at once, and do not accumulate.
+  EXPECT_EQ(open_runs(problem_of("back: {rises: x(1) - 1e-10}",
+                                 R"(state: {x: {shape: 2}}, flow: {x: "[1; 0]"},
+             at: {back: {x: "[0; x(2)]"}})",
+                                 "2", R"(["[-1; 0]", "[-0.5; 0]"])")),
+            40U);
   // A chain of a hundred jumps at one time.
   EXPECT_EQ(open_runs(problem_of("go: {when: x(1) > 1 and x(2) < 100}",
                                  R"(state: {x: {shape: 2}}, flow: {x: "[1; 0]"},

@@ -1,25 +1,33 @@
-#include "simulate/zeno.h"
+#include "hybrid/zeno.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "hybrid/tolerances.h"
-#include "simulate/tolerances.h"
 
-namespace gainsmith::simulate {
+namespace gainsmith::hybrid {
 
-using hybrid::kFewestRatios;
-using hybrid::kSteady;
+ZenoDetector::ZenoDetector(const System& system, double horizon)
+    : system_(&system), horizon_(horizon) {
+  using Kind = model::Dynamics::VariableKind;
+  for (std::size_t k = 0; k < system.dynamics.variables.size(); ++k) {
+    const model::Dynamics::Variable& variable = system.dynamics.variables[k];
+    if (variable.kind != Kind::state && variable.kind != Kind::mode) continue;
+    for (Eigen::Index e = 0; e < variable.shape.size(); ++e)
+      rows_.push_back(system.layout.slots[k].offset + e);
+  }
+}
 
-void ZenoDetector::push(double t, double length, std::size_t event, bool has_clock,
-                        const Eigen::VectorXd& states, const Eigen::VectorXd& largest) {
+void ZenoDetector::push(double t, double length, std::size_t event, const Eigen::VectorXd& values,
+                        const Eigen::VectorXd& largest) {
   t_ = t;
-  sizes_ = sizes_.size() == 0 ? largest : sizes_.cwiseMax(largest).eval();
+  sizes_ = sizes_.size() == 0 ? largest(rows_).eval() : sizes_.cwiseMax(largest(rows_)).eval();
   longest_ = std::max(longest_, length);
-  short_flows_ = length < hybrid::kHardly * horizon_ && !has_clock ? short_flows_ + 1 : 0;
+  const bool has_clock = system_->has_clock(event);
+  short_flows_ = length < kHardly * horizon_ && !has_clock ? short_flows_ + 1 : 0;
   lengths_.push_back(length);
   events_.push_back(event);
-  states_.push_back(states);
+  states_.emplace_back(values(rows_));
   if (lengths_.size() <= kRatios + longest_period) return;
   states_.erase(states_.begin());
   lengths_.erase(lengths_.begin());
@@ -69,4 +77,4 @@ std::vector<std::size_t> ZenoDetector::events() const {
   return result;
 }
 
-}  // namespace gainsmith::simulate
+}  // namespace gainsmith::hybrid

@@ -15,22 +15,24 @@
 #include <string>
 #include <vector>
 
+#include "hybrid/system.h"
 #include "hybrid/tolerances.h"
 
-namespace gainsmith::simulate {
+namespace gainsmith::hybrid {
 
 class ZenoDetector {
  public:
-  explicit ZenoDetector(double horizon) : horizon_(horizon) {}
+  /// The system must outlive it.
+  ZenoDetector(const System& system, double horizon);
 
-  /// A flow of positive length has ended at t with this event, at these values of states and modes;
-  /// `largest`: how large they were along it, at most.
-  void push(double t, double length, std::size_t event, bool has_clock,
-            const Eigen::VectorXd& states, const Eigen::VectorXd& largest);
+  /// A flow of positive length has ended at t with this event, at these values; `largest`: how large
+  /// they were along it, at most.
+  void push(double t, double length, std::size_t event, const Eigen::VectorXd& values,
+            const Eigen::VectorXd& largest);
 
   /// The time at which jumps accumulate, when lengths shrink by a steady factor.
   std::optional<double> accumulation() const;
-  bool chatters() const { return short_flows_ >= hybrid::kInARow; }
+  bool chatters() const { return short_flows_ >= kInARow; }
   /// The length of the last flow, as a part of the longest one.
   double shrinkage() const { return lengths_.empty() ? 1 : lengths_.back() / longest_; }
   /// The events of the last flows, each once, in order.
@@ -41,6 +43,8 @@ class ZenoDetector {
   std::optional<double> steady_rest(std::size_t period, std::size_t ratios) const;
   bool settles(std::size_t period) const;
 
+  const System* system_;
+  std::vector<Eigen::Index> rows_;  ///< of states and modes
   double horizon_;
   double t_ = 0;
   double longest_ = 0;
@@ -51,4 +55,4 @@ class ZenoDetector {
   Eigen::VectorXd sizes_;  ///< the largest of each state so far
 };
 
-}  // namespace gainsmith::simulate
+}  // namespace gainsmith::hybrid
