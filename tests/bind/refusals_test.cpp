@@ -32,13 +32,13 @@ TEST(Refusal, MissingAndMisspeltData) {
   expect_refused(
       {"  b: [5, 6]\n", "", {"p.yaml"}, "the datum b (n) of the method small is missing"});
   expect_refused({"  T1:", "  T1_:", at(6, 3), "has no datum 'T1_'; did you mean 'T1'?"});
-  expect_refused({"  T1:", "  delta: 1\n  T1:", at(6, 3), "it is one of its parameters"});
+  expect_refused({"  T1:", "  delta: 1\n  T1:", at(6, 3), "write it under 'parameters'"});
 }
 
 TEST(Refusal, MissingAndMisspeltParameters) {
   expect_refused({"campaign", "parameters: {dleta: 1}\ncampaign", at(7, 14),
                   "has no parameter 'dleta'; did you mean 'delta'?"});
-  expect_refused({"campaign", "parameters: {T2: 1}\ncampaign", at(7, 14), "it is one of its data"});
+  expect_refused({"campaign", "parameters: {T2: 1}\ncampaign", at(7, 14), "write it under 'data'"});
   expect_refused({"problem: p", "problem: p", {"p.yaml"}, "the parameter rate"},
                  changed(kSmallMethod, "rate: 1", "rate:"));
   expect_refused({"campaign", "parameters: {rate: [1, 2]}\ncampaign", at(7, 20), "expected 1 x 1"});

@@ -143,7 +143,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Mistake{"sampled-data-hybrid", "sampled-data-hybrit", 2, 9,
                 "unknown method 'sampled-data-hybrit'; did you mean 'sampled-data-hybrid'?"},
-        Mistake{"sampled-data-hybrid", "wrong", 2, 9, "known: "},
+        Mistake{"sampled-data-hybrid", "wrong", 2, 9, "'gainsmith methods' lists them by task"},
         Mistake{"[[0.2, -1.01], [1, 0]]", "[[0.2, -1.01], [1]]", 4, 21, "first row has 2"},
         Mistake{"T1: 0.5", "T1: .nan", 6, 7, "finite"},
         Mistake{"QF: I", "QF: [1, 2", 8, 7, "a ']' is missing"},
