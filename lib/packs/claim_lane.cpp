@@ -165,7 +165,7 @@ void ClaimLane::finish() {
   const double scale = std::abs(first_.value);
   if (claim_->kind == ClaimKind::cost && limit_ == 0) score_ = violated_ ? kNever : -1;
   // A cost that is never positive, as far as that is known: the whole of it counts.
-  if (claim_->kind == ClaimKind::cost && limit_ > 0 && score_ <= -1 + kScore)
+  if (claim_->kind == ClaimKind::cost && limit_ > 0 && score_ <= -1 + noise_)
     score_ = (last_.value - limit_) / limit_;
   if (claim_->kind == ClaimKind::nonincreasing && !violated_)
     score_ = scale == 0 ? -1 : (last_.value - first_.value) / scale;
