@@ -97,8 +97,9 @@ std::string check_text(const verify::CheckReport& check, std::size_t width) {
       fmt::format("{} run {}: {} against {} at (t, j) = ({}, {})\n", held ? "nearest" : "worst",
                   check.worst_run, brief(worst.value), brief(worst.bound), brief(worst.t), worst.j);
   if (check.kind == model::ClaimKind::shrinks && worst.violated())
-    text += "               the end of a run is compared with its start: a longer campaign.horizon "
-            "leaves it more time\n";
+    text +=
+        "               the end of a run is compared with its start: a longer campaign.horizon "
+        "leaves it more time\n";
   if (worst.undecided()) text += "               " + uncertainty_text(check.kind, worst) + "\n";
   if (worst.tolerance > 0)
     text += fmt::format("               within a tolerance of {} {}\n", brief(worst.tolerance),

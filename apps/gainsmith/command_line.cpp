@@ -195,16 +195,15 @@ std::string in_words(const CLI::App& command, const CLI::ParseError& error) {
 }
 
 /// What is wrong with the command line, and where help is.
-std::string complaint(const Program& whole, const CLI::App& program,
-                      const CLI::ParseError& error) {
+std::string complaint(const Program& whole, const CLI::App& program, const CLI::ParseError& error) {
   const auto used = program.get_subcommands();
   const CLI::App& command = used.empty() ? program : *used.front();
   const bool unknown = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr ||
                        (used.empty() && !program.remaining().empty());
   const std::string name = program.get_name() + (used.empty() ? "" : " " + command.get_name());
   return (used.empty() ? "" : command.get_name() + ": ") +
-         (unknown ? unknown_argument(whole, command) : in_words(command, error)) + " (see '" + name +
-         " --help')";
+         (unknown ? unknown_argument(whole, command) : in_words(command, error)) + " (see '" +
+         name + " --help')";
 }
 
 }  // namespace

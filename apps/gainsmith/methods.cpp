@@ -10,6 +10,7 @@
 #include "io/method_yaml.h"
 #include "io/problem_yaml.h"
 #include "io/starting_problem.h"
+#include "model/words.h"
 
 namespace gainsmith::app {
 
@@ -40,7 +41,7 @@ io::Json description(const model::Method& method) {
 }
 
 model::Method read(const methods::Text& text) {
-  return io::parse_method(std::string(text.text), "method " + std::string(text.name));
+  return io::parse_method(std::string(text.text), model::method_file(text.name));
 }
 
 /// Each task with its methods, and with the problem to begin with.
@@ -76,7 +77,8 @@ std::string text_of(const std::string& name) {
 ExitCode show_one(const MethodsOptions& options) {
   const std::string text = text_of(options.name);
   if (options.json) {
-    fmt::print("{}", io::to_text(description(io::parse_method(text, "method " + options.name))));
+    fmt::print("{}",
+               io::to_text(description(io::parse_method(text, model::method_file(options.name)))));
   } else {
     fmt::print("{}", text);
   }
@@ -85,7 +87,7 @@ ExitCode show_one(const MethodsOptions& options) {
 
 ExitCode init(const MethodsOptions& options) {
   const std::string own = text_of(options.name);
-  const model::Method method = io::parse_method(own, "method " + options.name);
+  const model::Method method = io::parse_method(own, model::method_file(options.name));
   const std::string text =
       io::starting_problem(method, methods::example(options.name), options.own ? own : "");
   if (options.json) {

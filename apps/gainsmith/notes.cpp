@@ -55,7 +55,9 @@ std::string note_on_careful_runs(const verify::Report& report) {
   // A few are no reason for slowness.
   if (!report.careful || 10 * all < report.runs) return "";
   return std::to_string(*report.careful) + " of " + std::to_string(report.runs) +
-         " runs were simulated one by one, which takes longer: " + reasons;
+         " runs were simulated one by one, which takes longer; of those that were tried many at "
+         "once " +
+         std::to_string(all) + " stayed open: " + reasons;
 }
 
 std::vector<std::string> notes_on(const verify::Report& report) {

@@ -175,10 +175,11 @@ Command scan_command() {
       "Solve a problem at every point of a grid of scalars",
       {Option("problem", options->problem, "problem file (YAML); - for standard input").required(),
        set_option(options->set),
-       Option("--over", options->over,
-              "NAME=LOW:HIGH[:COUNT[:log|lin]] or NAME=VALUE; 11 points without COUNT; without log or "
-              "lin a range of positive numbers that spans two decades is logarithmic; may be "
-              "repeated for a grid")
+       Option(
+           "--over", options->over,
+           "NAME=LOW:HIGH[:COUNT[:log|lin]] or NAME=VALUE; 11 points without COUNT; without log or "
+           "lin a range of positive numbers that spans two decades is logarithmic; may be "
+           "repeated for a grid")
            .required(),
        Option("--show", options->show,
               "a column more: an expression such as trace(P1) or norm(L); may be repeated"),

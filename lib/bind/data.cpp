@@ -4,14 +4,13 @@
 #include <cmath>
 #include <string>
 
-#include "base/nearest.h"
 #include "base/number.h"
+#include "bind/data_names.h"
 #include "bind/estimates.h"
 #include "bind/families.h"
 #include "bind/formulas.h"
 #include "bind/function_data.h"
 #include "expr/functions.h"
-#include "expr/rename.h"
 
 namespace gainsmith::bind {
 
@@ -22,14 +21,6 @@ const Item* find_named(const std::vector<Item>& items, const std::string& name) 
   const auto found =
       std::find_if(items.begin(), items.end(), [&](const Item& item) { return item.name == name; });
   return found == items.end() ? nullptr : &*found;
-}
-
-template <class Item>
-std::vector<std::string> names_of(const std::vector<Item>& items) {
-  std::vector<std::string> names;
-  names.reserve(items.size());
-  for (const Item& item : items) names.push_back(item.name);
-  return names;
 }
 
 std::string declared(const model::Declaration& declaration, const model::Dimensions& dimensions) {
@@ -68,57 +59,6 @@ std::vector<Place> element_places(const model::Value& value, expr::Shape shape) 
     return places;
   for (const expr::NodePtr& element : root.children) places.push_back(value.value.place(*element));
   return places;
-}
-
-void refuse_unknown_names(const Binding& binding) {
-  const auto data = names_of(binding.method().data);
-  const auto parameters = names_of(binding.method().parameters);
-  const auto refuse = [&](const std::vector<model::Value>& values,
-                          const std::vector<std::string>& known,
-                          const std::vector<std::string>& elsewhere, const char* what,
-                          const char* key, const char* other) {
-    for (const model::Value& value : values) {
-      if (std::find(known.begin(), known.end(), value.name) != known.end()) continue;
-      const bool misplaced =
-          std::find(elsewhere.begin(), elsewhere.end(), value.name) != elsewhere.end();
-      throw InputError(value.place,
-                       "the method " + binding.method().name + " has no " + what + " '" +
-                           value.name + "'" +
-                           (misplaced       ? "; write it under '" + std::string(other) + "'"
-                            : known.empty() ? "; declare it under '" + std::string(key) +
-                                                  "' of the method with its shape, such as " +
-                                                  value.name + ": scalar or n x p"
-                                            : suggestion(value.name, known)));
-    }
-  };
-  refuse(binding.problem().data, data, parameters, "datum", "data", "parameters");
-  for (const model::Let& function : binding.problem().functions) {
-    const std::string& name = function.signature.name;
-    if (!data.empty() && !nearest(name, data) &&
-        std::find(data.begin(), data.end(), name) == data.end())
-      throw InputError(function.place,
-                       "the method " + binding.method().name + " has no datum '" + name +
-                           "'; a part of a formula is named under 'let' of the problem");
-    refuse({{name, function.body, false, function.place}}, data, parameters, "datum", "data",
-           "parameters");
-  }
-  refuse(binding.problem().parameters, parameters, data, "parameter", "parameters", "data");
-}
-
-/// InputError where the value uses data that come after this one.
-void refuse_later_data(const Binding& binding, const model::Value& value) {
-  const auto& data = binding.method().data;
-  const auto self = std::find_if(data.begin(), data.end(),
-                                 [&](const auto& datum) { return datum.name == value.name; });
-  if (self == data.end()) return;
-  expr::visit_names(value.value, [&](const expr::Node& node) {
-    const bool later = std::any_of(self + 1, data.end(),
-                                   [&](const auto& datum) { return datum.name == node.text; });
-    if (later && !binding.names->known.symbols.contains(node.text))
-      throw InputError(value.value.place(node), "unknown name '" + node.text +
-                                                    "' here: the method declares it after " +
-                                                    value.name + ", and data use data before them");
-  });
 }
 
 /// A datum that is declared, with what the problem gives.

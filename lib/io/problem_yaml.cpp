@@ -30,10 +30,8 @@ std::shared_ptr<const model::Method> method_of(const YamlFile& file, const YamlI
     return std::make_shared<model::Method>(method_from(file, item.value, problem));
   const std::string name = file.string(item.value, "method");
   const auto text = library.text(name);
-  if (!text)
-    throw InputError(file.place(item.value),
-                     unknown_method(name, library.names));
-  return std::make_shared<model::Method>(parse_method(*text, "method " + name));
+  if (!text) throw InputError(file.place(item.value), unknown_method(name, library.names));
+  return std::make_shared<model::Method>(parse_method(*text, model::method_file(name)));
 }
 
 void add(model::Value value, const YamlItem& item, std::vector<model::Value>& values) {

@@ -11,6 +11,7 @@
 #include "base/nearest.h"
 #include "io/sources.h"
 #include "io/yaml_names.h"
+#include "model/words.h"
 
 namespace gainsmith::io {
 
@@ -109,13 +110,11 @@ class Variant {
     const YAML::Node own = root["method"];
     const YAML::Node like = own["like"];
     const std::string name = file_.string(like, "like");
-    other_ = "method " + name;
+    other_ = model::method_file(name);
     method_goes_on_ = false;
     const auto text =
         file_.sources(like).method({other_, "like", file_.place(like)}, library.text(name));
-    if (!text)
-      throw InputError(file_.place(like),
-                       unknown_method(name, library.names));
+    if (!text) throw InputError(file_.place(like), unknown_method(name, library.names));
     root_.reset(root);
     // What is only of the other one: its name, and its place in the list of methods.
     const YAML::Node other =

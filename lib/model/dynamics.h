@@ -93,8 +93,8 @@ struct Dynamics {
     std::optional<int> lost_in_a_row;        ///< at most
     Place place;
 
-    /// Whether it is of a method of the program, whose places begin so, and not of the user's text.
-    bool is_built_in() const { return place.file.starts_with("method "); }
+    /// Whether it is of a method of the program and not of the user's text.
+    bool is_built_in() const { return is_method_file(place.file); }
   };
 
   /// The new value of a variable.

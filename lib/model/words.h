@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/error.h"
@@ -101,5 +102,12 @@ using Dimensions = std::map<std::string, int>;
 
 /// Values for scalar data and parameters, by name, in place of those of the problem.
 using Overrides = std::map<std::string, double>;
+
+/// The file of places in a method of the program.
+inline std::string method_file(std::string_view name) { return "method " + std::string(name); }
+/// No file of a user has such a name: theirs have an ending.
+inline bool is_method_file(std::string_view file) {
+  return file.starts_with("method ") && file.find('.') == std::string_view::npos;
+}
 
 }  // namespace gainsmith::model

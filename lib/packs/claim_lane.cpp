@@ -134,12 +134,13 @@ void ClaimLane::compare_within(const StepSamples& samples, Known end, double ter
   if (claim_->kind == ClaimKind::shrinks) return;
   if (claim_->kind == ClaimKind::nonincreasing) {
     if (violated_) return;
+    const double allowed = std::fmax(claims::kGrown * end.error, rounding(along.largest(), terms));
     const double left = low_.value + claim_->tolerance * std::abs(low_.value) - samples.start.value;
-    const double allowed =
-        std::fmax(std::fmax(claims::kGrown * end.error, left), rounding(along.largest(), terms));
     // The rate is off by four times what the value is over a step.
-    const bool falls = along.falls(4 * along.error());
-    if (!breaks && (falls || (along.rise() <= allowed && along.error() <= allowed))) return;
+    if (!breaks &&
+        (along.falls(4 * along.error()) || (along.rise() <= allowed && along.error() <= allowed) ||
+         along.rise() + along.error() + end.error + low_.error <= left))
+      return;
     if (std::abs(along.largest()) + error <= noise_ * std::abs(first_.value)) return;
     open_ = true;
     return;

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "claims/tolerances.h"
-
 namespace gainsmith::packs {
 
 using model::Dynamics;

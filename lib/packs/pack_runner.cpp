@@ -9,7 +9,7 @@ namespace gainsmith::packs {
 std::string to_string(Why why) {
   switch (why) {
     case Why::claim:
-      return "a claim is next to its bound";
+      return "a claim is not certain at their accuracy";
     case Why::sign:
       return "the sign of a condition is not certain";
     case Why::order:

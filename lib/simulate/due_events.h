@@ -15,7 +15,7 @@ class DueEvents {
  public:
   /// What is known of an event besides its text.
   struct Mark {
-    bool spent = false;    ///< `when`: not due until its condition has been false
+    bool spent = false;  ///< `when`: not due until its condition has been false
     /// The last of e that was not 0; 0 where the start or a jump led e to exactly 0.
     int sign = 0;
     bool crossed = false;  ///< in the direction of the event, and due

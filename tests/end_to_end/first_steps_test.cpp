@@ -137,7 +137,8 @@ campaign: {runs: 5, horizon: 5, initial: {x: {box: [-0.1, 0.1]}}}
   const Outcome verify = gainsmith({"verify", gains});
   EXPECT_EQ(verify.exit, 0) << verify.err;
   EXPECT_FALSE(has(verify.out, "never happens")) << verify.out;
-  EXPECT_FALSE(has(gainsmith({"simulate", gains, "-o", folder.path("r.csv")}).out, "never happens"));
+  EXPECT_FALSE(
+      has(gainsmith({"simulate", gains, "-o", folder.path("r.csv")}).out, "never happens"));
 }
 
 /// int (x^2 - 2) dt falls from the start on: its start, 0, would tell nothing of a run.

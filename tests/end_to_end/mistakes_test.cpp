@@ -155,8 +155,9 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{&kRun, "sin(x(1))", "sin(x(1), 2)", 4, 34, "'sin' is written sin(x)"},
         Mistake{&kDesign, "decay: He(P*A - Y*C) < -2*a*P", "decay: He(P*A - Y*C) < -2*a*P;", 9, 34,
                 "a formula ends without ';'"},
-        Mistake{&kDesign, "[[0, 1], [-2, -1]]", "[[0, 1], [-2 -1]]", 13, 15,
-                "this row has 1 element, the first row has 2 elements; a comma is missing in '-2 -1'"},
+        Mistake{
+            &kDesign, "[[0, 1], [-2, -1]]", "[[0, 1], [-2 -1]]", 13, 15,
+            "this row has 1 element, the first row has 2 elements; a comma is missing in '-2 -1'"},
         Mistake{&kDesign, "  C: [[1, 0]]", "  C: [[1, 0]]\n  mu(s): s^2", 15, 3,
                 "no datum 'mu'; a part of a formula is named under 'let' of the problem"},
         Mistake{&kDesign, "  C: [[1, 0]]", "  C: [[1, 0]]\n  a: 1", 15, 3,

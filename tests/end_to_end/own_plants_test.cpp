@@ -273,31 +273,32 @@ const std::string kSampled =
     "  G(xh, S, y, t): \"xh + [0.8; 0.3]*(y - xh(1))\"\n"
     "  invP(S): eye(2)\n";
 
-const std::string kLuenberger =
-    "data:\n"
-    "  x0:    [1, 0]\n"
-    "  xh0:   [-1.5, 1.5]\n"
-    "  a:     \"[eye(2); -eye(2)]\"\n"
-    "  b:     2*ones(4, 1)\n"
-    "  outer: 4*ones(4, 1)\n"
-    "  f(x, t): \"[x(2); -x(1)]\"\n"
-    "  h(x, t): x(1)\n"
-    "  F(xh, S, y, t): \"[xh(2); -xh(1)] + [20; 99]*(y - xh(1))\"\n"
-    "  invP(S): \"inv(lyap([-20, 1; -100, 0]', [1, 0; 0, 0.01]))\"\n";
+/// An oscillator that is to stay in the square of half-width 2.
+std::string luenberger(const std::string& x0) {
+  return "data:\n"
+         "  x0:    " +
+         x0 +
+         "\n"
+         "  xh0:   [-1.5, 1.5]\n"
+         "  a:     \"[eye(2); -eye(2)]\"\n"
+         "  b:     2*ones(4, 1)\n"
+         "  outer: 4*ones(4, 1)\n"
+         "  f(x, t): \"[x(2); -x(1)]\"\n"
+         "  h(x, t): x(1)\n"
+         "  F(xh, S, y, t): \"[xh(2); -xh(1)] + [20; 99]*(y - xh(1))\"\n"
+         "  invP(S): \"inv(lyap([-20, 1; -100, 0]', [1, 0; 0, 0.01]))\"\n"
+         "campaign: {runs: 1, horizon: 3}\n";
+}
 
 INSTANTIATE_TEST_SUITE_P(
     ConstrainedRedesign, OwnPlants,
     ::testing::Values(
         Own{"luenberger", "constrained-redesign",
-            kLuenberger + "parameters: {gamma_c: 50}\n"
-                          "campaign: {runs: 1, horizon: 3}\n",
-            ""},
+            luenberger("[1, 0]") + "parameters: {gamma_c: 50}\n", ""},
         Own{"weak_pull",
             "{like: constrained-redesign, claims: {kept_by_pull: none, projected: {below: "
             "\"max(abs(flow_and_jumps.xh))\", bound: 2 + 1e-9, over: flow_and_jumps.outside}}}",
-            kLuenberger + "parameters: {gamma_c: 0.005}\n"
-                          "campaign: {runs: 1, horizon: 3}\n",
-            ""},
+            luenberger("[1, 0]") + "parameters: {gamma_c: 0.005}\n", ""},
         Own{"half_plane", "constrained-redesign",
             "let: {A: \"[-0.3, 0.2; 0, -0.2]\", L: \"[4; 3]\"}\n"
             "data:\n"
@@ -312,18 +313,7 @@ INSTANTIATE_TEST_SUITE_P(
             "  invP(S): \"inv(lyap((A - L*[1, 0])', eye(2)))\"\n"
             "campaign: {runs: 1, horizon: 3}\n",
             ""},
-        Own{"outside", "constrained-redesign",
-            "data:\n"
-            "  x0:    [3, 0]\n"
-            "  xh0:   [0, 0]\n"
-            "  a:     \"[eye(2); -eye(2)]\"\n"
-            "  b:     2*ones(4, 1)\n"
-            "  outer: 4*ones(4, 1)\n"
-            "  f(x, t): \"[x(2); -x(1)]\"\n"
-            "  h(x, t): x(1)\n"
-            "  F(xh, S, y, t): \"[xh(2); -xh(1)] + [20; 99]*(y - xh(1))\"\n"
-            "  invP(S): eye(2)\n"
-            "campaign: {runs: 1, horizon: 3}\n",
+        Own{"outside", "constrained-redesign", luenberger("[3, 0]"),
             "the assumption 'the plant starts in the set'"},
         Own{"kalman_in_steps", "{like: constrained-redesign-jumps, events: {jump: {every: 1}}}",
             "let: {A: \"[0.9, 0.4; -0.4, 0.9]\", C: \"[1, 0]\", K(S): \"A*S*C'/(C*S*C' + 0.1)\"}\n"

@@ -81,7 +81,8 @@ TEST(Tape, ADerivativeIsAFormula) {
 }
 
 TEST(Tape, TheDerivativeOfAnExponentialIsOneOfALargerMatrix) {
-  const TapeOf texts({"jacobian(expm([0, x(1); -x(2), x(3)])*[1; 2], x)", "jacobian(expm(x(1)), x)"});
+  const TapeOf texts(
+      {"jacobian(expm([0, x(1); -x(2), x(3)])*[1; 2], x)", "jacobian(expm(x(1)), x)"});
   StackedFunctions functions = texts.functions();
   for (const Vector& x : {point(0.3, 2, -1), point(0, 0, 0)}) {
     ASSERT_TRUE(functions.run(x));

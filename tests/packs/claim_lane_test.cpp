@@ -66,6 +66,40 @@ TEST(ClaimLane, AValueThatNeverRises) {
   EXPECT_TRUE(lane.violated() || lane.open());
 }
 
+TEST(ClaimLane, AToleranceCountsBetweenPointsToo) {
+  const auto wavers = [](double t) { return 1 + 1e-4 * std::sin(t); };
+  const auto rate = [](double t) { return 1e-4 * std::cos(t); };
+  const auto lane = [&](double tolerance) {
+    Follower follower(ClaimKind::nonincreasing, 0);
+    follower.claim.tolerance = tolerance;
+    return follower.along(wavers, rate, 7, 0.5);
+  };
+  EXPECT_FALSE(lane(1e-3).open());
+  EXPECT_FALSE(lane(1e-3).violated());
+  EXPECT_TRUE(lane(1e-4).violated());
+  // The start is 1, the top of the first step lies within it.
+  const auto bump = [](double t) { return 1 - 1e-4 * (t - 0.2) * (t - 0.2) * 25 + 1e-4; };
+  const auto slope = [](double t) { return -5e-3 * (t - 0.2); };
+  Follower follower(ClaimKind::nonincreasing, 0);
+  follower.claim.tolerance = 0.9e-4;
+  const ClaimLane found = follower.along(bump, slope, 0.5, 0.5);
+  EXPECT_TRUE(found.open() || found.violated());
+}
+
+TEST(ClaimLane, AJumpThatChangesAValueByRoundingLeavesIt) {
+  Follower follower(ClaimKind::nonincreasing, 0);
+  const auto after_jump = [&](double value) {
+    ClaimLane lane;
+    lane.begin(follower.claim, follower.system, {1, 1}, 0);
+    lane.at(0, {1, 1, 1}, {});
+    lane.at(0.5, {value, value + 1e-9, 1}, 0);
+    return lane;
+  };
+  EXPECT_FALSE(after_jump(1 + 2e-16).open());
+  EXPECT_TRUE(after_jump(1 + 1e-10).open());
+  EXPECT_TRUE(after_jump(1 + 1e-6).violated());
+}
+
 TEST(ClaimLane, AValueThatShrinks) {
   EXPECT_FALSE(Follower(ClaimKind::shrinks, 0.01).along(kDecay, kDecayRate, 5, 0.25).violated());
   EXPECT_TRUE(Follower(ClaimKind::shrinks, 0.001).along(kDecay, kDecayRate, 5, 0.25).violated());

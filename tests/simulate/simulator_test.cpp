@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "simulate/event_runs.h"
 #include "support/event_problem.h"
 #include "support/input_error.h"
 
@@ -19,46 +19,6 @@ using tests::part_of;
 using tests::value_at;
 using EventKind = model::Dynamics::EventKind;
 using VariableKind = model::Dynamics::VariableKind;
-
-hybrid::Trajectory simulate(const hybrid::System& system, double horizon,
-                            const Accuracy& accuracy = {}, std::uint64_t run = 0) {
-  const hybrid::Scenario scenario = hybrid::make_scenario(horizon, system);
-  return Simulator(system, scenario).run(1, run, accuracy);
-}
-
-std::vector<double> times_of(const hybrid::Trajectory& trajectory, std::size_t event = 0) {
-  std::vector<double> times;
-  for (const hybrid::JumpPoint& jump : jumps_of(trajectory))
-    if (jump.event == event) times.push_back(jump.t);
-  return times;
-}
-
-/// Parts fit together: each starts where and when the one before it ended.
-void expect_contiguous(const hybrid::Trajectory& trajectory) {
-  double t = 0;
-  std::int64_t j = 0;
-  for (const auto& part : trajectory.parts) {
-    if (const auto* piece = std::get_if<hybrid::FlowPiece>(&part)) {
-      EXPECT_EQ(piece->j, j);
-      for (const hybrid::DenseStep& step : piece->steps) {
-        EXPECT_EQ(step.from, t);
-        EXPECT_LT(step.from, step.to);
-        t = step.to;
-      }
-      const VectorXd first = piece->steps.front()(piece->from());
-      EXPECT_LT((first - piece->start).cwiseAbs().maxCoeff(),
-                1e-13 * (1 + piece->start.cwiseAbs().maxCoeff()));
-      const VectorXd last = piece->steps.back()(piece->to());
-      EXPECT_LT((last - piece->end).cwiseAbs().maxCoeff(),
-                1e-13 * (1 + piece->end.cwiseAbs().maxCoeff()));
-      continue;
-    }
-    const auto& jump = std::get<hybrid::JumpPoint>(part);
-    EXPECT_EQ(jump.t, t);
-    EXPECT_EQ(jump.j, j++);
-  }
-  EXPECT_EQ(trajectory.end, t);
-}
 
 /// The ball of examples.md F.
 EventProblem ball(double restitution) {
@@ -117,110 +77,6 @@ TEST(EventRun, FlowsThatShrinkMoreSlowlyAreNoZeno) {
   EXPECT_EQ(jumps_of(run).size(), 615U);  // the sum of 1/k up to 615 is 6.9997
 }
 
-TEST(EventRun, ThreeCrossingsInOneStepAllJump) {
-  EventProblem problem;
-  problem.state("p", {}, "0").flow("p", "(t - 0.3)^2 - 0.01").state("n", {}, "0");
-  problem.let("cubic", "(t - 0.1)*(t - 0.50001)*(t - 0.5)");
-  problem.crossing(EventKind::crosses, "c", "cubic").jump("c", {{"n", "n + 1"}});
-  const hybrid::System system = problem.system();
-  const hybrid::Trajectory run = simulate(system, 16);
-  const std::vector<double> times = times_of(run);
-  ASSERT_EQ(times.size(), 3U);
-  EXPECT_NEAR(times[0], 0.1, 1e-15);
-  EXPECT_NEAR(times[1], 0.5, 1e-10);
-  EXPECT_NEAR(times[2], 0.50001, 1e-10);
-  EXPECT_EQ(part_of(system, jumps_of(run).back().after, "n")(0), 3);
-}
-
-TEST(EventRun, RisesFallsAndCrossesComeOnceEach) {
-  for (const bool exact : {true, false}) {
-    EventProblem problem;
-    problem.state("x", {2, 1}, "[0; 1]")
-        .flow("x", exact ? "[x(2); -x(1)]" : "[x(2); -sin(x(1)) - x(1) + sin(x(1))]");
-    problem.crossing(EventKind::rises, "up", "x(1) - 0.5");
-    problem.crossing(EventKind::falls, "down", "x(1) - 0.5");
-    problem.crossing(EventKind::crosses, "both", "x(1) - 0.5");
-    const hybrid::System system = problem.system();
-    EXPECT_EQ(system.affine, exact);
-    const hybrid::Trajectory run = simulate(system, 20);
-    constexpr double kPi = std::numbers::pi;
-    const std::vector<double> up = {kPi / 6, kPi / 6 + 2 * kPi, kPi / 6 + 4 * kPi,
-                                    kPi / 6 + 6 * kPi};
-    const std::vector<double> rising = times_of(run, 0);
-    const std::vector<double> falling = times_of(run, 1);
-    ASSERT_EQ(rising.size(), 4U);
-    ASSERT_EQ(falling.size(), 3U);
-    EXPECT_EQ(times_of(run, 2).size(), 7U);
-    for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(rising[k], up[k], exact ? 1e-12 : 1e-7);
-    for (std::size_t k = 0; k < 3; ++k)
-      EXPECT_NEAR(falling[k], 5 * kPi / 6 + 2 * kPi * static_cast<double>(k), exact ? 1e-12 : 1e-7);
-    expect_contiguous(run);
-  }
-}
-
-TEST(EventRun, ACrossingByTheJumpOfAnotherEventCountsAndByItsOwnDoesNot) {
-  EventProblem problem;
-  problem.state("x", {}, "-1").state("n", {}, "0");
-  problem.crossing(EventKind::crosses, "c", "x").at("push", {"1", "2"});
-  problem.jump("push", {{"x", "-x"}}).jump("c", {{"x", "-2*x"}, {"n", "n + 1"}});
-  const hybrid::System system = problem.system();
-  const hybrid::Trajectory run = simulate(system, 3);
-  // push: -1 -> 1, c: 1 -> -2; push: -2 -> 2, c: 2 -> -4.
-  EXPECT_EQ(times_of(run, 0), (std::vector<double>{1, 2}));
-  EXPECT_EQ(part_of(system, jumps_of(run).back().after, "x")(0), -4);
-}
-
-TEST(EventRun, LeavingExactlyZeroIsACrossing) {
-  for (const bool exact : {true, false}) {
-    EventProblem problem;
-    problem.state("x", {}, "0.3").state("v", {}, "1");
-    problem.flow("x", exact ? "v" : "v*cos(x)");
-    problem.crossing(EventKind::rises, "up", "x - 0.3").at("push", {"1"});
-    problem.crossing(EventKind::falls, "down", "x - 0.3");
-    problem.crossing(EventKind::crosses, "both", "x - 0.3");
-    problem.jump("push", {{"x", "0.3"}, {"v", "-v"}});
-    const hybrid::System system = problem.system();
-    EXPECT_EQ(system.affine, exact);
-    const hybrid::Trajectory run = simulate(system, 2);
-    ASSERT_EQ(times_of(run, 0).size(), 1U);
-    ASSERT_EQ(times_of(run, 2).size(), 1U);
-    ASSERT_EQ(times_of(run, 3).size(), 2U);
-    EXPECT_NEAR(times_of(run, 0)[0], 0, 1e-14);
-    EXPECT_NEAR(times_of(run, 2)[0], 1, 1e-14);
-    EXPECT_NEAR(times_of(run, 3)[0], 0, 1e-14);
-    EXPECT_NEAR(times_of(run, 3)[1], 1, 1e-14);
-  }
-}
-
-TEST(EventRun, ABallThatBouncesAtExactlyZeroBouncesToItsRest) {
-  for (const double start : {2.012298031219591, 1.0, 3.3, 0.7123})
-    for (const bool exact : {true, false}) {
-      EventProblem problem;
-      problem.state("h", {}, std::to_string(start)).state("v", {}, "-0.287");
-      problem.flow("h", "v").flow("v", exact ? "-9.81" : "-9.81 + 0*sin(h)");
-      problem.crossing(EventKind::falls, "hit", "h").jump("hit", {{"h", "0"}, {"v", "-0.8*v"}});
-      const hybrid::System system = problem.system();
-      const hybrid::Trajectory run = simulate(system, 20);
-      const double v = std::sqrt(0.287 * 0.287 + 2 * 9.81 * start);
-      const std::vector<double> times = times_of(run, 0);
-      ASSERT_GT(times.size(), 3U);
-      for (std::size_t k = 1; k < 30; ++k)
-        EXPECT_NEAR(times[k] - times[k - 1], 2 * v / 9.81 * std::pow(0.8, static_cast<double>(k)),
-                    1e-7)
-            << start << ", flight " << k;
-      EXPECT_EQ(run.ending, hybrid::Ending::zeno) << run.message;
-    }
-}
-
-TEST(EventRun, AnEventWhoseMapLeadsToZeroMayComeAgainAtOnce) {
-  EventProblem problem;
-  problem.state("h", {}, "1").flow("h", "-1").state("n", {}, "0");
-  problem.crossing(EventKind::falls, "floor", "h").jump("floor", {{"h", "0"}, {"n", "n + 1"}});
-  const hybrid::Trajectory run = simulate(problem.system(), 3);
-  EXPECT_EQ(run.ending, hybrid::Ending::chattering) << run.message;
-  EXPECT_NEAR(run.end, 1, 1e-9);
-}
-
 TEST(EventRun, AClockAtTheEndOfAStepFiresOnce) {
   EventProblem problem;
   problem.state("x", {}, "1").flow("x", "-x + sin(x)").state("n", {}, "0");
@@ -232,11 +88,11 @@ TEST(EventRun, AClockAtTheEndOfAStepFiresOnce) {
   problem.only_if("done == 0").mode("done", "0").jump("edge", {{"done", "1"}});
   const hybrid::System system = problem.system();
   const hybrid::Trajectory run = simulate(system, 3);
-  const std::vector<double> times = times_of(run);
+  const std::vector<double> times = jump_times(run);
   ASSERT_EQ(times.size(), 30U);
   for (std::size_t k = 0; k < times.size(); ++k)
     EXPECT_NEAR(times[k], 0.1 * static_cast<double>(k + 1), 1e-15 * times[k]);
-  EXPECT_EQ(times_of(run, 1).size(), 1U);
+  EXPECT_EQ(jump_times(run, 1).size(), 1U);
   EXPECT_EQ(part_of(system, jumps_of(run).back().after, "count(tick)")(0), 30);
   EXPECT_EQ(run.end, 3);
   EXPECT_EQ(run.ending, hybrid::Ending::horizon);
@@ -385,9 +241,9 @@ TEST(EventRun, AnOccurrenceThatIfRejectsIsSpent) {
   const hybrid::System system = problem.system();
   const hybrid::Trajectory run = simulate(system, 6.2);
   // sin > 0.5 over (0.52, 2.62) is rejected once; x = sin t > 0 at 1, 2, 3 and not at 4, 5, 6.
-  EXPECT_EQ(times_of(run, 0), (std::vector<double>{1, 2, 3}));
-  EXPECT_TRUE(times_of(run, 1).empty());
-  EXPECT_EQ(times_of(simulate(system, 8), 1).size(), 1U);
+  EXPECT_EQ(jump_times(run, 0), (std::vector<double>{1, 2, 3}));
+  EXPECT_TRUE(jump_times(run, 1).empty());
+  EXPECT_EQ(jump_times(simulate(system, 8), 1).size(), 1U);
 }
 
 TEST(EventRun, FrozenComponentsRestAndSteadyStatesAreExact) {
@@ -399,7 +255,7 @@ TEST(EventRun, FrozenComponentsRestAndSteadyStatesAreExact) {
   problem.at("restart", {"2"}).jump("restart", {{"q", "0"}, {"s", "0"}});
   const hybrid::System system = problem.system();
   const hybrid::Trajectory run = simulate(system, 4);
-  EXPECT_EQ(times_of(run, 0), (std::vector<double>{0.7, 2.7}));
+  EXPECT_EQ(jump_times(run, 0), (std::vector<double>{0.7, 2.7}));
   EXPECT_EQ(value_at(system, run, "s", 1.5)(0), 0.7);
   EXPECT_NEAR(value_at(system, run, "y", 1.9)(0), std::exp(-0.7), 1e-9);
   EXPECT_NEAR(value_at(system, run, "y", 2.5)(0), std::exp(-1.2), 1e-9);
@@ -466,8 +322,8 @@ TEST(EventRun, TheDrawsOfOneEventDoNotDependOnAnother) {
   more.every("tock", "0.01", "0.02");
   const hybrid::Trajectory a = simulate(problem.system(), 5);
   const hybrid::Trajectory b = simulate(more.system(), 5);
-  EXPECT_EQ(times_of(a), times_of(b));
-  EXPECT_GT(times_of(b, 1).size(), 200U);
+  EXPECT_EQ(jump_times(a), jump_times(b));
+  EXPECT_GT(jump_times(b, 1).size(), 200U);
 }
 
 }  // namespace

@@ -1,18 +1,14 @@
 // Sampled linear systems for the tests of packs.
 #pragma once
 
-#include <ostream>
 #include <string>
 #include <vector>
 
+#include "verify/pack_cases.h"
+
 namespace gainsmith::verify::linear {
 
-struct Case {
-  const char* name;
-  std::string text;
-};
-
-inline void PrintTo(const Case& one, std::ostream* out) { *out << one.name; }
+using Case = PackCase;
 
 /// A text with another part.
 inline std::string with(std::string text, const std::string& part, const std::string& other) {

@@ -1,0 +1,74 @@
+#include "bind/data_names.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "base/nearest.h"
+#include "expr/rename.h"
+
+namespace gainsmith::bind {
+
+namespace {
+
+template <class Item>
+std::vector<std::string> names_of(const std::vector<Item>& items) {
+  std::vector<std::string> names;
+  names.reserve(items.size());
+  for (const Item& item : items) names.push_back(item.name);
+  return names;
+}
+
+}  // namespace
+
+void refuse_unknown_names(const Binding& binding) {
+  const auto data = names_of(binding.method().data);
+  const auto parameters = names_of(binding.method().parameters);
+  const auto refuse = [&](const std::vector<model::Value>& values,
+                          const std::vector<std::string>& known,
+                          const std::vector<std::string>& elsewhere, const char* what,
+                          const char* key, const char* other) {
+    for (const model::Value& value : values) {
+      if (std::find(known.begin(), known.end(), value.name) != known.end()) continue;
+      const bool misplaced =
+          std::find(elsewhere.begin(), elsewhere.end(), value.name) != elsewhere.end();
+      throw InputError(value.place,
+                       "the method " + binding.method().name + " has no " + what + " '" +
+                           value.name + "'" +
+                           (misplaced       ? "; write it under '" + std::string(other) + "'"
+                            : known.empty() ? "; declare it under '" + std::string(key) +
+                                                  "' of the method with its shape, such as " +
+                                                  value.name + ": scalar or n x p"
+                                            : suggestion(value.name, known)));
+    }
+  };
+  refuse(binding.problem().data, data, parameters, "datum", "data", "parameters");
+  for (const model::Let& function : binding.problem().functions) {
+    const std::string& name = function.signature.name;
+    if (!data.empty() && !nearest(name, data) &&
+        std::find(data.begin(), data.end(), name) == data.end())
+      throw InputError(function.place,
+                       "the method " + binding.method().name + " has no datum '" + name +
+                           "'; a part of a formula is named under 'let' of the problem");
+    refuse({{name, function.body, false, function.place}}, data, parameters, "datum", "data",
+           "parameters");
+  }
+  refuse(binding.problem().parameters, parameters, data, "parameter", "parameters", "data");
+}
+
+void refuse_later_data(const Binding& binding, const model::Value& value) {
+  const auto& data = binding.method().data;
+  const auto self = std::find_if(data.begin(), data.end(),
+                                 [&](const auto& datum) { return datum.name == value.name; });
+  if (self == data.end()) return;
+  expr::visit_names(value.value, [&](const expr::Node& node) {
+    const bool later = std::any_of(self + 1, data.end(),
+                                   [&](const auto& datum) { return datum.name == node.text; });
+    if (later && !binding.names->known.symbols.contains(node.text))
+      throw InputError(value.value.place(node), "unknown name '" + node.text +
+                                                    "' here: the method declares it after " +
+                                                    value.name + ", and data use data before them");
+  });
+}
+
+}  // namespace gainsmith::bind

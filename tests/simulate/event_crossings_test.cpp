@@ -1,0 +1,123 @@
+// Events that happen where a function crosses 0: which crossings count, and once each.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "simulate/event_runs.h"
+#include "support/event_problem.h"
+
+namespace gainsmith::simulate {
+namespace {
+
+using tests::EventProblem;
+using tests::jumps_of;
+using tests::part_of;
+using EventKind = model::Dynamics::EventKind;
+
+TEST(EventRun, ThreeCrossingsInOneStepAllJump) {
+  EventProblem problem;
+  problem.state("p", {}, "0").flow("p", "(t - 0.3)^2 - 0.01").state("n", {}, "0");
+  problem.let("cubic", "(t - 0.1)*(t - 0.50001)*(t - 0.5)");
+  problem.crossing(EventKind::crosses, "c", "cubic").jump("c", {{"n", "n + 1"}});
+  const hybrid::System system = problem.system();
+  const hybrid::Trajectory run = simulate(system, 16);
+  const std::vector<double> times = jump_times(run);
+  ASSERT_EQ(times.size(), 3U);
+  EXPECT_NEAR(times[0], 0.1, 1e-15);
+  EXPECT_NEAR(times[1], 0.5, 1e-10);
+  EXPECT_NEAR(times[2], 0.50001, 1e-10);
+  EXPECT_EQ(part_of(system, jumps_of(run).back().after, "n")(0), 3);
+}
+
+TEST(EventRun, RisesFallsAndCrossesComeOnceEach) {
+  for (const bool exact : {true, false}) {
+    EventProblem problem;
+    problem.state("x", {2, 1}, "[0; 1]")
+        .flow("x", exact ? "[x(2); -x(1)]" : "[x(2); -sin(x(1)) - x(1) + sin(x(1))]");
+    problem.crossing(EventKind::rises, "up", "x(1) - 0.5");
+    problem.crossing(EventKind::falls, "down", "x(1) - 0.5");
+    problem.crossing(EventKind::crosses, "both", "x(1) - 0.5");
+    const hybrid::System system = problem.system();
+    EXPECT_EQ(system.affine, exact);
+    const hybrid::Trajectory run = simulate(system, 20);
+    constexpr double kPi = std::numbers::pi;
+    const std::vector<double> up = {kPi / 6, kPi / 6 + 2 * kPi, kPi / 6 + 4 * kPi,
+                                    kPi / 6 + 6 * kPi};
+    const std::vector<double> rising = jump_times(run, 0);
+    const std::vector<double> falling = jump_times(run, 1);
+    ASSERT_EQ(rising.size(), 4U);
+    ASSERT_EQ(falling.size(), 3U);
+    EXPECT_EQ(jump_times(run, 2).size(), 7U);
+    for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(rising[k], up[k], exact ? 1e-12 : 1e-7);
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_NEAR(falling[k], 5 * kPi / 6 + 2 * kPi * static_cast<double>(k), exact ? 1e-12 : 1e-7);
+    expect_contiguous(run);
+  }
+}
+
+TEST(EventRun, ACrossingByTheJumpOfAnotherEventCountsAndByItsOwnDoesNot) {
+  EventProblem problem;
+  problem.state("x", {}, "-1").state("n", {}, "0");
+  problem.crossing(EventKind::crosses, "c", "x").at("push", {"1", "2"});
+  problem.jump("push", {{"x", "-x"}}).jump("c", {{"x", "-2*x"}, {"n", "n + 1"}});
+  const hybrid::System system = problem.system();
+  const hybrid::Trajectory run = simulate(system, 3);
+  // push: -1 -> 1, c: 1 -> -2; push: -2 -> 2, c: 2 -> -4.
+  EXPECT_EQ(jump_times(run, 0), (std::vector<double>{1, 2}));
+  EXPECT_EQ(part_of(system, jumps_of(run).back().after, "x")(0), -4);
+}
+
+TEST(EventRun, LeavingExactlyZeroIsACrossing) {
+  for (const bool exact : {true, false}) {
+    EventProblem problem;
+    problem.state("x", {}, "0.3").state("v", {}, "1");
+    problem.flow("x", exact ? "v" : "v*cos(x)");
+    problem.crossing(EventKind::rises, "up", "x - 0.3").at("push", {"1"});
+    problem.crossing(EventKind::falls, "down", "x - 0.3");
+    problem.crossing(EventKind::crosses, "both", "x - 0.3");
+    problem.jump("push", {{"x", "0.3"}, {"v", "-v"}});
+    const hybrid::System system = problem.system();
+    EXPECT_EQ(system.affine, exact);
+    const hybrid::Trajectory run = simulate(system, 2);
+    ASSERT_EQ(jump_times(run, 0).size(), 1U);
+    ASSERT_EQ(jump_times(run, 2).size(), 1U);
+    ASSERT_EQ(jump_times(run, 3).size(), 2U);
+    EXPECT_NEAR(jump_times(run, 0)[0], 0, 1e-14);
+    EXPECT_NEAR(jump_times(run, 2)[0], 1, 1e-14);
+    EXPECT_NEAR(jump_times(run, 3)[0], 0, 1e-14);
+    EXPECT_NEAR(jump_times(run, 3)[1], 1, 1e-14);
+  }
+}
+
+TEST(EventRun, ABallThatBouncesAtExactlyZeroBouncesToItsRest) {
+  for (const double start : {2.012298031219591, 1.0, 3.3, 0.7123})
+    for (const bool exact : {true, false}) {
+      EventProblem problem;
+      problem.state("h", {}, std::to_string(start)).state("v", {}, "-0.287");
+      problem.flow("h", "v").flow("v", exact ? "-9.81" : "-9.81 + 0*sin(h)");
+      problem.crossing(EventKind::falls, "hit", "h").jump("hit", {{"h", "0"}, {"v", "-0.8*v"}});
+      const hybrid::System system = problem.system();
+      const hybrid::Trajectory run = simulate(system, 20);
+      const double v = std::sqrt(0.287 * 0.287 + 2 * 9.81 * start);
+      const std::vector<double> times = jump_times(run, 0);
+      ASSERT_GT(times.size(), 3U);
+      for (std::size_t k = 1; k < 30; ++k)
+        EXPECT_NEAR(times[k] - times[k - 1], 2 * v / 9.81 * std::pow(0.8, static_cast<double>(k)),
+                    1e-7)
+            << start << ", flight " << k;
+      EXPECT_EQ(run.ending, hybrid::Ending::zeno) << run.message;
+    }
+}
+
+TEST(EventRun, AnEventWhoseMapLeadsToZeroMayComeAgainAtOnce) {
+  EventProblem problem;
+  problem.state("h", {}, "1").flow("h", "-1").state("n", {}, "0");
+  problem.crossing(EventKind::falls, "floor", "h").jump("floor", {{"h", "0"}, {"n", "n + 1"}});
+  const hybrid::Trajectory run = simulate(problem.system(), 3);
+  EXPECT_EQ(run.ending, hybrid::Ending::chattering) << run.message;
+  EXPECT_NEAR(run.end, 1, 1e-9);
+}
+
+}  // namespace
+}  // namespace gainsmith::simulate
