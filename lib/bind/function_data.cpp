@@ -37,11 +37,15 @@ expr::Definition definition(const Binding& binding, const model::Declaration& da
   if (const model::Let* let = given(binding.problem(), datum.name)) {
     const std::size_t expected = datum.arguments.size();
     const std::size_t found = let->signature.parameters.size();
-    if (found != expected)
+    if (found > expected)
       throw InputError(let->place, datum.name + " has " + std::to_string(expected) +
                                        (expected == 1 ? " argument: " : " arguments: ") +
                                        declared(datum) + "; found " + std::to_string(found));
-    return {let->signature.parameters, let->body};
+    expr::Definition function{let->signature.parameters, let->body};
+    // Of those that are left out no text can have the name.
+    for (std::size_t k = found; k < expected; ++k)
+      function.parameters.push_back("#" + std::to_string(k));
+    return function;
   }
   if (!datum.fallback)
     throw InputError({binding.problem().file},

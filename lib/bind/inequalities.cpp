@@ -116,13 +116,14 @@ void add_box(const Binding& binding, const model::Forall& forall, const Member& 
     scope.symbols[name] = {bound.domain.back().shape};
     column += (k == 1 ? "" : "; ") + name;
   }
-  scope.definitions[forall.variable] = {
-      {}, expr::parse(expr::Text::generated("[" + column + "]", forall.place))};
+  const std::string text = elements == 0 ? "zeros(0, 1)" : "[" + column + "]";
+  scope.definitions[forall.variable] = {{}, expr::parse(expr::Text::generated(text, forall.place))};
 }
 
-/// How many elements the ends of an interval have, when it is one of columns; 0 otherwise.
-int elements_of_box(const Binding& binding, const model::Forall& forall, const Member& member) {
-  if (forall.over != model::Over::interval) return 0;
+/// How many elements the ends of an interval have, when it is one of columns; none otherwise.
+std::optional<int> elements_of_box(const Binding& binding, const model::Forall& forall,
+                                   const Member& member) {
+  if (forall.over != model::Over::interval) return std::nullopt;
   int rows = 1;
   for (const expr::Expression& point : forall.points) {
     const expr::Expression end = instantiate(point, member, binding.names->known);
@@ -131,9 +132,9 @@ int elements_of_box(const Binding& binding, const model::Forall& forall, const M
       throw InputError(end.place(*end.root), "the ends of " + forall.variable +
                                                  " are numbers, or columns of one length; found " +
                                                  to_string(shape));
-    rows = std::max(rows, shape.rows);
+    if (shape.rows != 1) rows = shape.rows;
   }
-  return rows == 1 ? 0 : rows;
+  return rows == 1 ? std::nullopt : std::optional(rows);
 }
 
 void bind_objective(Binding& binding, const expr::Expression& text) {
@@ -174,8 +175,8 @@ void add_inequality(Binding& binding, const model::Requirement& requirement, con
   const expr::Expression that = instantiate(requirement.that, member, scope);
   bound.that_place = that.place(*that.root);
   for (const model::Forall& forall : requirement.forall) {
-    if (const int elements = elements_of_box(binding, forall, member)) {
-      add_box(binding, forall, member, elements, bound, scope);
+    if (const auto elements = elements_of_box(binding, forall, member)) {
+      add_box(binding, forall, member, *elements, bound, scope);
       continue;
     }
     bound.domain.push_back(variable(binding, forall, member));
@@ -243,7 +244,7 @@ void refuse_free_unknowns(const model::Design& design) {
         unknown.place,
         "the unknown " + unknown.name +
             " is used by no inequality under 'require', so nothing determines it" +
-             in_another_case(design, unknown.name) +
+            in_another_case(design, unknown.name) +
             (user == design.gains.end() ? "" : "; the gain " + user->name + " needs it") +
             ": require something of it, or remove it");
   }

@@ -60,13 +60,21 @@ TEST(FunctionData, HaveDefaults) {
   EXPECT_EQ(problem.instance.design->dimensions.at("p"), 3);
 }
 
+TEST(FunctionData, ArgumentsAtTheEndMayBeLeftOut) {
+  const std::string low = kWithFunctions + "  low: [-1, -2, 0]\n  R: I\n";
+  const YamlProblem problem(low + "  f(v): 2*v\n");
+  EXPECT_EQ(problem.instance.design->dimensions.at("n"), 3);
+  // A name that is left out is none in the text.
+  expect_message("  low: [-1, -2]\n  R: I\n  f(v): u*v\n", "unknown name 'u'");
+}
+
 TEST(FunctionData, WhatDoesNotFitIsSaid) {
   const std::string low = "  low: [-1, -2]\n  R: I\n";
   expect_message(low,
                  "the datum f(x, u) (n; x: n; u: scalar) of the method m is missing under 'data'");
   expect_message(low + "  f: 2\n",
                  "test.yaml:14:3: the datum f(x, u) (n; x: n; u: scalar) is a function");
-  expect_message(low + "  f(x): x\n", "test.yaml:14:3: f has 2 arguments: f(x, u)");
+  expect_message(low + "  f(x, u, v): x\n", "test.yaml:14:3: f has 2 arguments: f(x, u)");
   expect_message(low + "  f(x, u): \"[x; 1]\"\n",
                  "test.yaml:14:13: [x; 1] (3 x 1) has the wrong shape: expected 2 x 1");
   expect_message(low + "  f(x, u): A*x\n", "unknown name 'A'");
@@ -87,6 +95,7 @@ TEST(Box, EndsAreNumbersOrColumnsOfOneLength) {
   };
   EXPECT_EQ(elements("[-1, [1; 2; 3]]"), 3U);
   EXPECT_EQ(elements("[-[1; 2], [1; 2]]"), 2U);
+  EXPECT_EQ(elements("[zeros(0, 1), zeros(0, 1)]"), 0U);
   for (const std::string text : {"[[1; 2], [1; 2; 3]]", "[[1, 2], [3, 4]]", "[0, eye(2)]"}) {
     const std::string found = input_error([&] { YamlProblem{ends(text)}; }).what();
     EXPECT_NE(found.find("the ends of x are numbers, or columns of one length"), std::string::npos)
