@@ -178,9 +178,9 @@ INSTANTIATE_TEST_SUITE_P(
             "  fo(z): \"[z(2); -9.81]\"\n"
             "  guard(z): z\n"
             "  Ano:  0\n"
-            "  ud(t): 2 + sin(t)\n"
-            "  ud_low:  1\n"
-            "  ud_high: 3\n"
+            "  input(t): 2 + sin(t)\n"
+            "  input_low:  1\n"
+            "  input_high: 3\n"
             "  Jo(z): \"[z(1); -0.5*z(2)]\"\n"
             "  Jono(z, u): \"[0; u]\"\n"
             "  T1:   0.5\n"
@@ -189,7 +189,7 @@ INSTANTIATE_TEST_SUITE_P(
             "campaign: {runs: 5, horizon: 15, initial: {zo: [10, 0], xi: {box: [0.5, 2]}}}\n",
             ""},
         Own{"sensor_that_depends_on_speed", "coupled-observer",
-            kSpeedSensor + "  terms(z): \"[z(2); z(2)^2]\"\n" + kSpeeds, ""},
+            kSpeedSensor + "  Ld_terms(z): \"[z(2); z(2)^2]\"\n" + kSpeeds, ""},
         Own{"sensor_that_depends_on_speed_with_one_gain", "coupled-observer",
             kSpeedSensor + kSpeeds, "infeasible: contraction cannot hold"}),
     name_of);
