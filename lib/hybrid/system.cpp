@@ -8,6 +8,7 @@
 
 #include "base/number.h"
 #include "hybrid/affine.h"
+#include "hybrid/pulses.h"
 #include "hybrid/tolerances.h"
 #include "model/dynamics_programs.h"
 
@@ -73,6 +74,13 @@ void classify_flows(System& system) {
   system.affine = std::all_of(
       system.dynamics.flow.begin(), system.dynamics.flow.end(),
       [&](const auto& one) { return first_not_affine(one.value.program, moves) == nullptr; });
+  const auto is_clock = [&](const std::string& name) {
+    const auto slot = system.slot(name);
+    return slot && system.moves[*slot] == Moves::steady;
+  };
+  system.pulses = std::ranges::any_of(system.dynamics.flow, [&](const auto& one) {
+    return has_pulses(one.value.program, is_clock);
+  });
 }
 
 System::Clock make_clock(const Dynamics::Event& event, const System& system) {

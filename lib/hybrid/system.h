@@ -21,6 +21,7 @@
 
 #include "hybrid/state_layout.h"
 #include "hybrid/switches.h"
+#include "hybrid/tolerances.h"
 #include "model/dynamics.h"
 #include "model/run_texts.h"
 
@@ -54,11 +55,14 @@ struct System {
   std::vector<std::optional<expr::Program>> free_flow;
   std::vector<Moves> moves;                            ///< of each slot of the layout
   bool affine = false;                                 ///< the whole flow
+  bool pulses = false;                                 ///< of clocks, in the flow (pulses.h)
   std::vector<std::optional<Clock>> clocks;            ///< by event
   std::vector<std::vector<double>> times;              ///< by event: of `at`, rising
   std::vector<NoiseValues> noise;                      ///< by noise
   std::vector<std::vector<std::int64_t>> most_passes;  ///< by reaction, of each of its maps
 
+  /// Of a run, as a part of its horizon.
+  double longest_step() const { return pulses ? kLongestOfPulses : kLongestStep; }
   /// The slot of a name, or none.
   std::optional<std::size_t> slot(const std::string& name) const { return layout.slot(name); }
   /// Whether a name is that of what changes within a flow.

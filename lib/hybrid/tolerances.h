@@ -13,6 +13,12 @@ constexpr double kTermRounding = 16 * 0x1p-52;  ///< of the sum of the sizes of 
 constexpr double kPlain = 1e4;  ///< times the rounding
 ///< | what has left 0 by more is plainly no rounding
 ///< | ZeroCrossings.AFlightThatDrownsInTheNoiseOfAStepEndsInTime
+constexpr double kLongestStep = 1.0 / 16;  ///< of the horizon
+///< | no step of a careful run is longer, as what lasts less may be stepped over
+///< | ZeroCrossings.WhatBranchesForLittleTimeIsCrossed
+constexpr double kLongestOfPulses = 1e-3;  ///< of the horizon
+///< | the same, of all runs, where the flow has pulses
+///< | Campaign.IntegratedFlowsAreNoCauseOfWrongVerdicts
 constexpr double kAddedUp = 1e-12;  ///< relative
 ///< | rounding that has added up over a run: of a clock at the horizon, of data beside their range,
 ///< of the pieces of a step

@@ -217,6 +217,8 @@ bool LaneSet::accept(std::size_t l) {
   const double wanted = lane.h * step_factor(errors_.at(0, l));
   const bool shortened = lane.forced > 0 || lane.h < lane.wanted;
   lane.wanted = shortened ? std::max(lane.wanted, wanted) : wanted;
+  if (pack_.system->pulses)
+    lane.wanted = std::min(lane.wanted, pack_.system->longest_step() * horizon_);
   lane.t = now;
   fill_clocks(l);
   const int target = lane.target;

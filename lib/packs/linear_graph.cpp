@@ -57,10 +57,20 @@ Numbers known_z(const LinearSystem& system, const Carried& carried, int root, Er
   return z;
 }
 
-/// v just after a jump against all before it.
-void compare(const Known& v, Nodes& claim, ErrorGraph& graph) {
-  claim[2] = graph.maximum(claim[2], graph.subtract(graph.add(v.value, v.error), claim[0]));
-  claim[3] = graph.maximum(claim[3], graph.subtract(graph.subtract(v.value, v.error), claim[1]));
+/// v just after a jump against all before it. A tolerance forgives a part of the size of the least
+/// value, at least that of its lower bound where this is positive.
+void compare(const Known& v, double tolerance, Nodes& claim, ErrorGraph& graph) {
+  int low = claim[0], high = claim[1];
+  if (tolerance > 0) {
+    claim[kWholeRise] =
+        graph.maximum(claim[kWholeRise], graph.subtract(graph.subtract(v.value, v.error), high));
+    constexpr double rounding = 0x1p-30;
+    const int size = graph.maximum(graph.abs(low), graph.abs(high));
+    high = graph.add(high, graph.scaled(tolerance * (1 + rounding), size));
+    low = graph.maximum(low, graph.scaled(1 + tolerance * (1 - rounding), low));
+  }
+  claim[2] = graph.maximum(claim[2], graph.subtract(graph.add(v.value, v.error), low));
+  claim[3] = graph.maximum(claim[3], graph.subtract(graph.subtract(v.value, v.error), high));
 }
 
 void keep_least(const Known& v, Nodes& claim, ErrorGraph& graph) {
@@ -100,7 +110,8 @@ void follow_claims(const LinearSystem& system, const LengthTable& table, std::si
   const std::size_t size = z.size() * (z.size() + 1) / 2;
   for (std::size_t c = 0; c < claims.size(); ++c) {
     if (is_compared(system.model.claims[c])) {
-      compare(form_in_block(table, next, sigma, z, claims[c], graph), claims[c], graph);
+      compare(form_in_block(table, next, sigma, z, claims[c], graph),
+              system.model.claims[c].tolerance, claims[c], graph);
       // It has fallen along the flow.
       keep_least(form_in_block(table, next, sigma, z, claims[c], graph), claims[c], graph);
     } else {
@@ -140,9 +151,11 @@ lanes::LaneCode first_code(const LinearSystem& system, const LengthTable& table)
   Carried carried{z.value, Nodes(system.rank * system.rank, graph.constant(0)), z.added, {}};
   const int most = graph.constant(1e300), least = graph.constant(-1e300), zero = graph.constant(0);
   for (const CarriedClaim& claim : system.claims)
-    carried.claims.push_back(claim.count == kComparedNumbers ? Nodes{most, most, least, least, zero}
-                             : claim.count == kCostNumbers   ? Nodes{zero, zero}
-                                                             : Nodes{});
+    carried.claims.push_back(
+        claim.count > kComparedNumbers    ? Nodes{most, most, least, least, zero, least}
+        : claim.count == kComparedNumbers ? Nodes{most, most, least, least, zero}
+        : claim.count == kCostNumbers     ? Nodes{zero, zero}
+                                          : Nodes{});
   const Nodes values = start_claims(system, table, next, sigma, xi, carried.claims, graph);
   return graph.code({all_of(carried), values});
 }
@@ -307,7 +320,8 @@ lanes::LaneCode last_code(const LinearSystem& system, const LinearTables& tables
     if (system.model.claims[c].kind == ClaimKind::cost)
       add_cost(graph.form(end_table, next, sigma, z), carried.claims[c], graph);
     if (is_compared(system.model.claims[c]))
-      compare(graph.form(tables.length, next_length, whole, z), carried.claims[c], graph);
+      compare(graph.form(tables.length, next_length, whole, z), system.model.claims[c].tolerance,
+              carried.claims[c], graph);
   }
   Nodes values;
   std::size_t factor = 0;

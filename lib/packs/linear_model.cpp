@@ -230,9 +230,11 @@ bool set_factor(const JudgedFunction& factor, const LinearModel& linear, LinearC
 }
 
 bool add_claim(const claims::JudgedClaim& claim, LinearModel& linear) {
-  if (claim.after > 0 || claim.over || claim.tolerance > 0) return false;
+  if (claim.after > 0 || claim.over) return false;
+  if (claim.tolerance > 0 && claim.kind != ClaimKind::nonincreasing) return false;
   LinearClaim& made = linear.claims.emplace_back();
   made.kind = claim.kind;
+  made.tolerance = claim.tolerance;
   switch (claim.kind) {
     case ClaimKind::nonincreasing:
       return add_parts(claim.value, linear, made.value);

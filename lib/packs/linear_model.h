@@ -43,6 +43,7 @@ struct LinearClaim {
   std::vector<LinearForm> value;
   std::optional<Wide> flow_cost, jump_cost;  ///< of `cost`
   double factor = 0;                         ///< of `shrinks`, > 0
+  double tolerance = 0;                      ///< of `nonincreasing`: a part of the least value
   bool falls = false;  ///< of `nonincreasing`: shown for all runs (linear_proof.h)
 };
 

@@ -313,7 +313,9 @@ bool LinearLanes::judge_rise(std::size_t c, std::size_t l, PackVerdict::Claim& c
   const double open = compared ? carried(c, 2, l) : 0, rise = compared ? carried(c, 3, l) : 0;
   const double scale = std::abs(before.value);
   claim.violated = rise > 0;
-  claim.score = (claim.violated ? unit_of(l) * rise : after.value - before.value) / scale;
+  const bool tolerant = compared && system_.model.claims[c].tolerance > 0;
+  const double whole = tolerant ? carried(c, kWholeRise, l) : rise;
+  claim.score = (claim.violated ? unit_of(l) * whole : after.value - before.value) / scale;
   const double error = (before.error + after.error) / scale;
   return (claim.violated || open <= 0) && error <= kScore;
 }

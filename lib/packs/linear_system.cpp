@@ -220,7 +220,7 @@ std::unique_ptr<const LinearSystem> make_linear_system(LinearModel given) {
   system->rank = model.jump_rows.size();
   system->carried = system->rank * (system->rank + 2);
   for (const LinearClaim& claim : model.claims) {
-    const std::size_t count = is_compared(claim)              ? kComparedNumbers
+    const std::size_t count = is_compared(claim) ? kComparedNumbers + (claim.tolerance > 0 ? 1 : 0)
                               : claim.kind == ClaimKind::cost ? kCostNumbers
                                                               : 0;
     system->claims.push_back({system->carried, count});

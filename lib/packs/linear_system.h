@@ -23,6 +23,7 @@
 //                                in all runs
 //                   open, rise   the largest (v + error) - low and (v - error) - high so far
 //                   error        of v, in this block
+//                   whole rise   of a claim with a tolerance, which open and rise leave out
 //   cost            sum, error   with that of the whole block
 #pragma once
 
@@ -37,8 +38,8 @@ namespace gainsmith::packs {
 
 /// How many numbers a lane carries of a claim that is compared at jumps, and of a cost.
 constexpr std::size_t kComparedNumbers = 5, kCostNumbers = 2;
-/// Which of the former is the error in this block.
-constexpr std::size_t kBlockError = 4;
+/// Which of the former is the error in this block, and the one more of a claim with a tolerance.
+constexpr std::size_t kBlockError = 4, kWholeRise = 5;
 
 /// Of the numbers that a lane carries.
 struct CarriedClaim {

@@ -55,7 +55,7 @@ class EventRun {
         noise_(system, scenario, seed, run),
         rows_(system),
         branches_(system, watch, accuracy),
-        flow_(make_flow(field, accuracy, kLongestStep * scenario.horizon, places())),
+        flow_(make_flow(field, accuracy, system.longest_step() * scenario.horizon, places())),
         zeno_(system, scenario.horizon),
         flow_sets_(watch),
         sliding_(system, watch, accuracy, scenario.horizon),

@@ -4,9 +4,6 @@
 
 namespace gainsmith::simulate {
 
-constexpr double kLongestStep = 1.0 / 16;  ///< of the horizon
-///< | no step is longer, as what lasts less may be stepped over
-///< | ZeroCrossings.WhatBranchesForLittleTimeIsCrossed
 constexpr double kEarly = 0.1;  ///< of a step
 ///< | an event so early is found again on a shorter step, whose rounding is smaller
 ///< | EventRun.ZenoStopsAtItsAccumulation

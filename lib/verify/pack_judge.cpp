@@ -11,7 +11,8 @@ using claims::Judgement;
 namespace {
 
 /// `system`: nullptr for linear packs, whose errors are proved.
-RunVerdict verdict_of(const packs::PackVerdict& pack, const packs::PackSystem* system) {
+RunVerdict verdict_of(const packs::PackVerdict& pack, const packs::PackSystem* system,
+                      const SampledSetup* sampled) {
   RunVerdict verdict;
   verdict.judgement = pack.violated() ? Judgement::violated : Judgement::held;
   verdict.happened = pack.happened;
@@ -23,7 +24,8 @@ RunVerdict verdict_of(const packs::PackVerdict& pack, const packs::PackSystem* s
     finding.floor = claim.floor;
     finding.looked = claim.looked;
     finding.estimated = system != nullptr;
-    if (system != nullptr) finding.tolerance = system->claims[c].tolerance;
+    finding.tolerance =
+        system != nullptr ? system->claims[c].tolerance : sampled->judged[c].tolerance;
     verdict.findings.push_back(finding);
   }
   return verdict;
@@ -98,7 +100,7 @@ CampaignVerdictOnRun PackJudge::operator()(std::uint64_t run) {
   if (!linear_ && !packs_) return {careful(seed_, run), true, {}};
   const packs::PackVerdict& pack = verdicts_[static_cast<std::size_t>(run - first_)];
   if (pack.open) return {careful(seed_, run), true, pack.why};
-  RunVerdict verdict = verdict_of(pack, system_);
+  RunVerdict verdict = verdict_of(pack, system_, setup_->sampled.get());
   if (run % kSampled != 0) return {std::move(verdict), false, {}};
   RunVerdict again = careful(seed_, run);
   for (std::size_t c = 0; c < again.findings.size(); ++c)

@@ -121,6 +121,17 @@ method:
     error: {shrinks: norm(x), to: 0.1}
 campaign: {runs: 160, horizon: 3, initial: {x: {box: [-1, 1]}}}
 )yaml"}};
+    made.push_back({"a tolerance of a value that flows keep", R"yaml(problem: p
+method:
+  method: m
+  plant:
+    state: {x: {shape: 2}}
+    flow: {x: "[0, 1; -1, 0]*x"}
+    jump: {x: "[1.01, 0; 0, 0.8]*x"}
+  timer: {tau: {reset: [0.1, 2], first: [0, 2]}}
+  claims: {falls: {nonincreasing: "x'*x", tolerance: 0.01}, error: {shrinks: norm(x), to: 0.5}}
+campaign: {runs: 160, horizon: 3, initial: {x: {box: [-2, 3]}}}
+)yaml"});
     made.push_back(
         {"a mode that lives next to jumps alone",
          with(with(made[1].text, "[0.5; 0.1]*th\", th: -2*th", "[2000; 400]*th\", th: -8000*th"),
