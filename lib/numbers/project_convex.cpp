@@ -14,8 +14,6 @@ namespace gainsmith::numbers {
 
 namespace {
 
-using expr::Op;
-
 /// The body as functions of z. What else it depends on moves in q directions.
 template <class W>
 class ConvexBody {
@@ -50,11 +48,10 @@ class ConvexBody {
       if (c.slope.row(i).allFinite())
         result.slope.row(i) = c.slope.row(i);
       else if (c.value(i) >= W(0))
-        expr::fault::without_result(
-            Op::project_convex,
+        throw numerics::NoProjection(
             (c.without ? "the " + expr::to_string(*c.without) + " has no derivative"
                        : std::string("the derivative is not a finite number")) +
-                at_point());
+            at_point());
     }
     return result;
   }
@@ -64,7 +61,7 @@ class ConvexBody {
     try {
       return evaluator_.run();
     } catch (const expr::EvaluationError& error) {
-      expr::fault::without_result(Op::project_convex, error.message() + at_point());
+      throw numerics::NoProjection(error.message() + at_point());
     }
   }
 

@@ -11,8 +11,7 @@
 
 namespace gainsmith::numbers {
 
-/// numerics::NoProjection; EvaluationError where c has no value, or no derivative where it is not
-/// below 0, at a point on the way.
+/// numerics::NoProjection, also where c has no value at x, or no derivative where it is not below 0.
 template <class Scalar>
 MatrixOf<Scalar> project_convex(const expr::Instruction& instruction,
                                 expr::Operands<MatrixOf<Scalar>> operands);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -141,6 +142,15 @@ class ConvexSearch {
     return {z, found.value, found.slope.leftCols(z.size())};
   }
 
+  /// None where c has no value.
+  std::optional<Place<W>> place_if_any(const Column<W>& z) const {
+    try {
+      return place(z);
+    } catch (const NoProjection&) {
+      return std::nullopt;
+    }
+  }
+
   W distance(const Column<W>& a, const Column<W>& b) const {
     using std::sqrt;
     const Column<W> from = a - b;
@@ -203,8 +213,7 @@ class ConvexSearch {
   }
 
   /// min over z of L(z, y), by Newton's method with steps that are halved until L falls.
-  Lowest lowest(const Column<W>& y, const Column<W>& start) const {
-    Place<W> at = place(start);
+  Lowest lowest(const Column<W>& y, Place<W> at) const {
     for (int step = 0; step < kMostSteps; ++step) {
       const Column<W> slope = gradient(at, y);
       const W rest = length<W>(times<W>(T_, slope));
@@ -214,15 +223,16 @@ class ConvexSearch {
       const MatrixOf<W> T = hessian(at, y);
       const Column<W> down = -times<W>(T.transpose(), times<W>(T, slope));
       W part(1);
-      Place<W> next = place(at.z + down);
+      std::optional<Place<W>> next = place_if_any(at.z + down);
       for (int halving = 0; halving < kMostHalvings; ++halving) {
         const W least = value + W(kGain) * part * slope.dot(down);
-        if (lagrangian(next, y) <= least + noise(at, y)) break;
+        if (next && lagrangian(*next, y) <= least + noise(at, y)) break;
         part *= W(0.5);
-        next = place(at.z + part * down);
+        next = place_if_any(at.z + part * down);
       }
-      require_above(at, next);
-      at = next;
+      if (!next) throw_unfound();
+      require_above(at, *next);
+      at = *next;
     }
     throw_unfound();
   }
@@ -237,7 +247,8 @@ class ConvexSearch {
     const Column<W> turn = aim.y - at.y, way = aim.z - at.place.z;
     W part(1);
     for (int halving = 0; halving < kMostHalvings; ++halving) {
-      const Lowest next = lowest(at.y + part * turn, at.place.z + part * way);
+      const Lowest next =
+          lowest(at.y + part * turn, place_if_any(at.place.z + part * way).value_or(at.place));
       const W least = at.value - at.above + W(kGain) * part * turn.dot(at.place.value);
       if (next.value >= least - noise(next.place, next.y)) return next;
       part *= W(0.5);

@@ -43,6 +43,7 @@ struct Tangents {
   MatrixOf<W> value;  ///< c(z), m x 1
   MatrixOf<W> slope;  ///< c'(z), m x n; for a derivative m x (n + q), by q other directions too
 };
+/// NoProjection, with the reason, where they have no value: shorter steps avoid such points.
 template <class W>
 using Functions = std::function<Tangents<W>(const MatrixOf<W>& z)>;
 

@@ -162,6 +162,14 @@ TEST_F(ConvexProjections, AreNearestAmongThePointsOfTheSet) {
   EXPECT_GT(outside, 25);
 }
 
+/// Tangents of -log reach points below 0.
+TEST_F(ConvexProjections, GoRoundPointsWithoutAValue) {
+  world.set("x", Matrix{{0.001}, {5}});
+  const Matrix z = world("project_convex(x, I, [-log(x(1)) - log(3 - x(2)/2); x(1) - 0.5])");
+  EXPECT_EQ(z(0), 0.5);
+  EXPECT_NEAR(z(1), 2, 1e-15);
+}
+
 TEST_F(ConvexProjections, HaveADerivative) {
   world.set("r", 2).set("m", Matrix{{0.5}, {-0.25}});
   // Within the set, on a curve, and at a corner.
