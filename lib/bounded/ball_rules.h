@@ -388,8 +388,8 @@ struct BallRules {
   }
   template <Op op>
   requires expr::OneOf<op, Op::project_polytope, Op::project_ellipsoid, Op::project_affine,
-                       Op::flow_map, Op::extremum, Op::eigenvalues, Op::continuous_riccati,
-                       Op::discrete_riccati>
+                       Op::project_convex, Op::flow_map, Op::extremum, Op::eigenvalues,
+                       Op::continuous_riccati, Op::discrete_riccati>
   void operator()(Is<op>, const At&, Value&) const { expr::fault::no_error_bound(op); }
 };
 

@@ -1,4 +1,5 @@
-// What jacobian(e, x) and flow_map(e, x, d) have in common: e as a function of the name x.
+// What jacobian(e, x), flow_map(e, x, d) and project_convex(x, P, e) have in common: e as a function
+// of the name x.
 #include <algorithm>
 #include <utility>
 
@@ -6,9 +7,10 @@
 
 namespace gainsmith::expr {
 
-Binder::Varied Binder::varied(const Expression& expression, const Node& node, bool rate) {
-  const Node& value_node = *node.children[0];
-  const Node& variable_node = *node.children[1];
+Binder::Varied Binder::varied(const Expression& expression, const Node& node, std::size_t value_at,
+                              std::size_t variable_at, bool rate) {
+  const Node& value_node = *node.children[value_at];
+  const Node& variable_node = *node.children[variable_at];
   const std::string& name = variable_node.text;
   const auto definition = scope_.definitions.find(name);
   const bool is_parameter = environment_.contains(name);
@@ -17,8 +19,8 @@ Binder::Varied Binder::varied(const Expression& expression, const Node& node, bo
       definition != scope_.definitions.end() && definition->second.parameters.empty();
   if (variable_node.kind != NodeKind::name)
     fail(expression, variable_node,
-         node.text + "(e, x" + (rate ? ", d" : "") +
-             ") needs a name x - a state, an output, a datum, a definition or one of its "
+         std::string(find_function(node.text)->usage) +
+             " needs a name x - a state, an output, a datum, a definition or one of its "
              "parameters -, not '" +
              expression.quote(variable_node) + "'");
   const int point = sized(expression, variable_node, bind_name(expression, variable_node));

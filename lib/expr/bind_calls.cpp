@@ -227,6 +227,8 @@ Bound Binder::bind_composed(const Expression& expression, const Node& node, Comp
       return jacobian(expression, node);
     case Composed::flow_map:
       return flow_map(expression, node);
+    case Composed::project_convex:
+      return convex_projection(expression, node);
     case Composed::maximum:
     case Composed::minimum:
       return extremum(expression, node, function == Composed::maximum);

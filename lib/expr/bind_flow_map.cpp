@@ -10,7 +10,7 @@
 namespace gainsmith::expr {
 
 Bound Binder::flow_map(const Expression& expression, const Node& node) {
-  const Varied rate = varied(expression, node, true);
+  const Varied rate = varied(expression, node, 0, 1, true);
   const Node& length = *node.children[2];
   const int d = materialise(expression, length, bind(expression, length), {});
   std::vector<int> operands = {rate.point, d};

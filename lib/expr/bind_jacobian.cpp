@@ -8,7 +8,7 @@
 namespace gainsmith::expr {
 
 Bound Binder::jacobian(const Expression& expression, const Node& node) {
-  const auto [value, variable, point] = varied(expression, node, false);
+  const auto [value, variable, point] = varied(expression, node, 0, 1, false);
   const Shape result{shape(value).size(), shape(variable).size()};
   if (!depending_on({variable}, value)[static_cast<std::size_t>(value)])
     return {emit(expression, node, Op::zeros, {}, result)};

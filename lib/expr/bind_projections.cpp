@@ -1,5 +1,11 @@
 // project_polytope, project_ellipsoid and project_affine: x says the size of the others, so that a
-// multiple of I may stand for P and Q, and 0 for x0 and b.
+// multiple of I may stand for P and Q, and 0 for x0 and b. project_convex: the set as a program of
+// its own in x.
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "expr/binder.h"
 
 namespace gainsmith::expr {
@@ -33,6 +39,30 @@ Bound Binder::projection(const Expression& expression, const Node& node, const F
   operands.push_back(A);
   operands.push_back(shaped(3, {shape(A).rows, 1}));
   return {emit(expression, node, op, operands, point)};
+}
+
+Bound Binder::convex_projection(const Expression& expression, const Node& node) {
+  const Node& metric = *node.children[1];
+  const Node& functions = *node.children[2];
+  const auto [value, variable, at] = varied(expression, node, 2, 0, false);
+  const Shape point = shape(at);
+  if (point.cols != 1)
+    fail(expression, *node.children[0],
+         node.text + " needs a column x, not " + describe(expression, *node.children[0], {at}));
+  if (shape(value).cols != 1)
+    fail(expression, functions,
+         node.text + " needs a column c, an element for each function, not " +
+             describe(expression, functions, {value}));
+  const int P = materialise(expression, metric, bind(expression, metric), {point.rows, point.rows});
+  const Body body = body_of(value, {{variable, "the variable"}}, 2);
+  if (!body.call.empty())
+    fail(expression, node,
+         "'" + body.call + "' is a call of an unknown or a gain, onto which nothing is projected");
+  std::vector<int> operands{at, P};
+  operands.insert(operands.end(), body.outside.begin(), body.outside.end());
+  auto program = std::make_shared<const Program>(body.assembly.extract(body.result));
+  return {emit(expression, node, Op::project_convex, std::move(operands), point, {}, {},
+               std::move(program))};
 }
 
 }  // namespace gainsmith::expr

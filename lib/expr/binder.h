@@ -81,15 +81,16 @@ class Binder {
   Bound saturated(const Expression& expression, const Node& node);
 
   // bind_bodies.cpp: expressions as functions of a name.
-  /// e of a call f(e, x, ...): `value` depends on the instruction `variable`, which stands for the
-  /// value of the instruction `point`.
+  /// e of a call f(e, x, ...) or f(x, ..., e): `value` depends on the instruction `variable`, which
+  /// stands for the value of the instruction `point`.
   struct Varied {
     int value = -1;
     int variable = -1;
     int point = -1;
   };
-  /// `rate`: e has the shape of x.
-  Varied varied(const Expression& expression, const Node& node, bool rate);
+  /// `value`, `variable`: the arguments e and x; `rate`: e has the shape of x.
+  Varied varied(const Expression& expression, const Node& node, std::size_t value,
+                std::size_t variable, bool rate);
   /// What depends on some instructions, as a program of its own.
   struct Body {
     Assembly assembly;
@@ -206,6 +207,7 @@ class Binder {
   Bound gramian(const Expression& expression, const Node& node, bool backward);
   // bind_projections.cpp
   Bound projection(const Expression& expression, const Node& node, const Function& function, Op op);
+  Bound convex_projection(const Expression& expression, const Node& node);
 
   int same_shape(const Expression& expression, const Node& node, Bound value, Shape shape);
   int square_argument(const Expression& expression, const Node& node, std::string_view function);

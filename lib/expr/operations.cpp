@@ -122,6 +122,8 @@ std::optional<Shape> result_shape(Op op, std::span<const Shape> operands,
     case ShapeRule::nearest_to_rows:
     case ShapeRule::nearest_to_form:
       return nearest_shape(operation(op).rule, operands);
+    case ShapeRule::nearest_of_body:
+      return when(operands.size() >= 2 && a.cols == 1 && b == Shape{a.rows, a.rows}, a);
     case ShapeRule::complement_basis:
       return when(a.cols + wanted.cols <= a.rows, {a.rows, wanted.cols});
     case ShapeRule::jacobian:

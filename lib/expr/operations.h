@@ -47,6 +47,7 @@ enum class ShapeRule {
   kernel_basis,      ///< A -> c x k, c - min(r, c) <= k <= c given
   nearest_to_rows,   ///< n x 1, n x n, m x n, m x 1 -> n x 1
   nearest_to_form,   ///< n x 1, n x n, n x 1, n x n, s -> n x 1
+  nearest_of_body,   ///< n x 1, n x n, A, ... -> n x 1
   complement_basis,  ///< A -> r x k, c + k <= r given
   jacobian,          ///< A, B, ... -> any number of rows x rc
   flow_map           ///< A, s, ... -> r x c

@@ -24,8 +24,8 @@ struct Instruction {
                      ///< said where there is no result (number_type.h)
   std::shared_ptr<const Text> origin;
   std::size_t offset = 0;  ///< where in the origin it was written
-  /// jacobian: what is differentiated; its inputs are the operands. flow_map: the rate. extremum:
-  /// what is maximised.
+  /// jacobian: what is differentiated; its inputs are the operands. flow_map: the rate.
+  /// project_convex: what is to be <= 0. extremum: what is maximised.
   std::shared_ptr<const Program> body = nullptr;
 
   Place place() const { return origin ? origin->place(offset) : Place{}; }

@@ -325,8 +325,8 @@ struct AffineRules {
                        Op::minimum, Op::maximum, Op::where, Op::norm, Op::inverse,
                        Op::pseudo_inverse, Op::singular_values, Op::range_basis, Op::kernel_basis,
                        Op::project_polytope, Op::project_ellipsoid, Op::project_affine,
-                       Op::flow_map, Op::extremum, Op::determinant, Op::eigenvalues,
-                       Op::continuous_riccati, Op::discrete_riccati>
+                       Op::project_convex, Op::flow_map, Op::extremum, Op::determinant,
+                       Op::eigenvalues, Op::continuous_riccati, Op::discrete_riccati>
   void operator()(Is<op>, const At& at, AffineForm&) const {
     for (const AffineForm* operand : at.operands)
       if (!operand->is_constant()) rules.refuse(op, *operand);

@@ -12,6 +12,7 @@
 #include "numbers/dual.h"
 #include "numbers/flow_map_rules.h"
 #include "numbers/householder.h"
+#include "numbers/project_convex.h"
 #include "numbers/real_rules.h"
 #include "numbers/tangent.h"
 
@@ -258,6 +259,9 @@ struct DualRules {
                        Op::eigenvalues, Op::continuous_riccati, Op::discrete_riccati>
   void operator()(Is<op>, const At& at, Value& out) const {
     for (const Value* operand : at.operands) no_slope(*operand, out, op);
+  }
+  void operator()(Is<Op::project_convex>, const At& at, Value& out) const {
+    project_convex_slope<Scalar>(at.instruction, at.operands, out);
   }
   /// By the variational equation.
   void operator()(Is<Op::flow_map>, const At& at, Value& out) const {

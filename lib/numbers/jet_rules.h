@@ -281,8 +281,8 @@ struct JetRules {
   }
   template <Op op>
   requires expr::OneOf<op, Op::project_polytope, Op::project_ellipsoid, Op::project_affine,
-                       Op::flow_map, Op::extremum, Op::eigenvalues, Op::continuous_riccati,
-                       Op::discrete_riccati>
+                       Op::project_convex, Op::flow_map, Op::extremum, Op::eigenvalues,
+                       Op::continuous_riccati, Op::discrete_riccati>
   void operator()(Is<op>, const At&, Jet&) const { expr::fault::no_error_bound(op); }
 
  private:

@@ -117,8 +117,9 @@ struct PackRules {
       Op::pseudo_inverse, Op::matrix_exponential, Op::log, Op::sqrt, Op::sin, Op::cos, Op::tanh,
       Op::abs, Op::sign, Op::minimum, Op::maximum, Op::where, Op::trace, Op::norm,
       Op::diagonal_matrix, Op::diagonal_of, Op::range_basis, Op::kernel_basis, Op::singular_values,
-      Op::project_polytope, Op::project_ellipsoid, Op::project_affine, Op::flow_map, Op::extremum,
-      Op::determinant, Op::eigenvalues, Op::continuous_riccati, Op::discrete_riccati>
+      Op::project_polytope, Op::project_ellipsoid, Op::project_affine, Op::project_convex,
+      Op::flow_map, Op::extremum, Op::determinant, Op::eigenvalues, Op::continuous_riccati,
+      Op::discrete_riccati>
   void operator()(Is<op>, const At& at, Pack& out) const {
     point_by_point(at.instruction, at.operands, out);
   }

@@ -188,8 +188,8 @@ struct Rules {
   requires expr::OneOf<op, Op::real_power, Op::log, Op::sqrt, Op::atan2, Op::norm,
                        Op::pseudo_inverse, Op::singular_values, Op::range_basis, Op::kernel_basis,
                        Op::complement_basis, Op::jacobian, Op::project_polytope,
-                       Op::project_ellipsoid, Op::project_affine, Op::flow_map, Op::extremum,
-                       Op::eigenvalues, Op::continuous_riccati, Op::discrete_riccati>
+                       Op::project_ellipsoid, Op::project_affine, Op::project_convex, Op::flow_map,
+                       Op::extremum, Op::eigenvalues, Op::continuous_riccati, Op::discrete_riccati>
   void operator()(Is<op>, const At&, Value&) const { not_rational(op); }
 
  private:

@@ -18,6 +18,7 @@
 #include "numbers/extremum.h"
 #include "numbers/flow_map.h"
 #include "numbers/householder.h"
+#include "numbers/project_convex.h"
 #include "numbers/real.h"
 #include "numbers/scalar_functions.h"
 #include "numbers/shared_rules.h"
@@ -250,6 +251,9 @@ struct RealRules {
   }
   void operator()(Is<Op::project_affine>, const At& at, Value& out) const {
     project(at, out, [&] { return numerics::project_affine<Scalar>(at[0], at[1], at[2], at[3]); });
+  }
+  void operator()(Is<Op::project_convex>, const At& at, Value& out) const {
+    solve(at, [&] { out = project_convex<Scalar>(at.instruction, at.operands); });
   }
   void operator()(Is<Op::complement_basis>, const At& at, Value& out) const {
     const auto basis =

@@ -57,6 +57,35 @@ void activate(Eigen::Index p, W gap, const Rows<W>& rows, Basis<W>& basis, Colum
   }
 }
 
+/// The point of the rows nearest to x, z = x + T'd, with a multiplier y for each row.
+template <class W>
+struct Nearest {
+  Column<W> z;
+  Column<W> y;
+  bool moved = false;  ///< z is not x
+};
+
+template <class W>
+Nearest<W> nearest_of_rows(const Column<W>& x, const MatrixOf<W>& T, const Rows<W>& rows) {
+  Basis<W> basis(rows);
+  Nearest<W> found{x, Column<W>::Zero(rows.count())};
+  Column<W> u(0);
+  auto p = most_violated<W>(rows, basis, x, true);
+  found.moved = p.has_value();
+  for (W covered(0); p; p = most_violated<W>(rows, basis, found.z, false)) {
+    activate<W>(*p, rows.excess(*p, found.z) / rows.lengths(*p), rows, basis, u);
+    const auto step = basis.shortest(x);
+    found.z = on_rows<W>(x, step.d, T, rows, basis);
+    u = step.u;
+    // What is left to gain is below the working arithmetic.
+    if (!(step.d.squaredNorm() > covered)) break;
+    covered = step.d.squaredNorm();
+  }
+  for (Eigen::Index i = 0; i < basis.size(); ++i)
+    found.y(basis.row(i)) = std::max(u(i), W(0)) / rows.lengths(basis.row(i));
+  return found;
+}
+
 /// Eigenvalues q and orthonormal columns V with M = V diag(q) V', by Jacobi's rotations (Golub and
 /// Van Loan, 8.5.2).
 template <class W>
@@ -168,21 +197,9 @@ Projection<S> project_polytope(const MatrixOf<S>& x, const MatrixOf<S>& P, const
   using W = Working<S>;
   const MatrixOf<W> T = metric<W>(widened<S>(P), rounding<S>());
   const Rows<W> rows(widened<S>(A), widened<S>(b), T, rounding<S>());
-  const Column<W> start = widened<S>(x);
-  Basis<W> basis(rows);
-  Column<W> z = start, u(0);
-  auto p = most_violated<W>(rows, basis, z, true);
-  if (!p) return unmoved<S>(x, A.rows());
-  for (W covered(0); p; p = most_violated<W>(rows, basis, z, false)) {
-    activate<W>(*p, rows.excess(*p, z) / rows.lengths(*p), rows, basis, u);
-    const auto step = basis.shortest(start);
-    z = on_rows<W>(start, step.d, T, rows, basis);
-    u = step.u;
-    // What is left to gain is below the working arithmetic.
-    if (!(step.d.squaredNorm() > covered)) break;
-    covered = step.d.squaredNorm();
-  }
-  return moved<S>(z, rows, basis, u.cwiseMax(W(0)));
+  const Nearest<W> found = nearest_of_rows<W>(widened<S>(x), T, rows);
+  if (!found.moved) return unmoved<S>(x, A.rows());
+  return {narrowed<S>(found.z), narrowed<S>(found.y)};
 }
 
 template <class S>

@@ -299,6 +299,11 @@ INSTANTIATE_TEST_SUITE_P(
             "{like: constrained-redesign, claims: {kept_by_pull: none, projected: {below: "
             "\"max(abs(flow_and_jumps.xh))\", bound: 2 + 1e-9, over: flow_and_jumps.outside}}}",
             luenberger("[1, 0]") + "parameters: {gamma_c: 0.005}\n", ""},
+        Own{"cut_disc",
+            "{like: constrained-redesign, let: {limits(x): \"[x'*x/4 - 1; x(1) + x(2) - 2.5]\"}, "
+            "claims: {kept_by_pull: none, projected: {below: \"max(limits(projected.xh))\", "
+            "bound: 1e-9, over: projected.outside}}}",
+            luenberger("[1, 0]") + "parameters: {gamma_c: 50, delta_max: 40}\n", ""},
         Own{"half_plane", "constrained-redesign",
             "let: {A: \"[-0.3, 0.2; 0, -0.2]\", L: \"[4; 3]\"}\n"
             "data:\n"

@@ -11,9 +11,9 @@ namespace gainsmith::numbers {
 namespace {
 
 const std::vector<expr::Op> kWithoutBound = {
-    expr::Op::project_polytope,   expr::Op::project_ellipsoid, expr::Op::project_affine,
-    expr::Op::flow_map,           expr::Op::extremum,          expr::Op::eigenvalues,
-    expr::Op::continuous_riccati, expr::Op::discrete_riccati};
+    expr::Op::project_polytope, expr::Op::project_ellipsoid,  expr::Op::project_affine,
+    expr::Op::project_convex,   expr::Op::flow_map,           expr::Op::extremum,
+    expr::Op::eigenvalues,      expr::Op::continuous_riccati, expr::Op::discrete_riccati};
 
 template <class Scalar>
 Subject real(const std::string& name, double tolerance) {
