@@ -229,18 +229,34 @@ void add_parameter(Binding& binding, const model::Parameter& parameter) {
   define(binding, std::move(bound), binding.design->parameters);
 }
 
+const model::Let* find_let(const model::Method& method, const std::string& name) {
+  const auto found = std::ranges::find_if(
+      method.let, [&](const model::Let& let) { return let.signature.name == name; });
+  return found == method.let.end() ? nullptr : &*found;
+}
+
+/// What a name that a problem defines is already; empty: nothing.
+std::string meaning_of(const Binding& binding, const std::string& name) {
+  const model::Method& method = binding.method();
+  const std::string of_method = " of the method " + method.name;
+  if (find_named(method.data, name) != nullptr)
+    return "it is a datum of the method, which stands under 'data'";
+  if (find_named(method.parameters, name) != nullptr)
+    return "it is a parameter of the method, which stands under 'parameters'";
+  if (find_named(method.unknowns, name) != nullptr) return "it is an unknown" + of_method;
+  if (find_named(method.gains, name) != nullptr) return "it is a gain" + of_method;
+  if (find_let(method, name) != nullptr) return "it is a definition" + of_method;
+  if (expr::is_reserved(name)) return "it is a word of the language";
+  if (binding.names->known.symbols.contains(name)) return "it is a name of the problem";
+  return "";
+}
+
 /// The definitions of the problem, which its data may use, too.
 void add_problem_definitions(Binding& binding) {
   for (const model::Let& let : binding.problem().let) {
     const std::string& name = let.signature.name;
-    const bool datum = find_named(binding.method().data, name) != nullptr;
-    const bool parameter = find_named(binding.method().parameters, name) != nullptr;
-    if (datum || parameter || binding.names->known.symbols.contains(name) ||
-        expr::is_reserved(name))
-      throw InputError(let.place, "'" + name + "' already has a meaning" +
-                                      (datum ? ": it is a datum of the method, which stands under "
-                                               "'data'"
-                                             : ""));
+    if (const std::string meaning = meaning_of(binding, name); !meaning.empty())
+      throw InputError(let.place, "'" + name + "' already has a meaning: " + meaning);
     binding.names->known.definitions[name] = {let.signature.parameters, let.body};
   }
 }
