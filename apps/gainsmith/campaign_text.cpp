@@ -160,6 +160,16 @@ std::string undecided_text(const verify::Report& report, const std::string& gain
   return text;
 }
 
+/// What the worst run of a violated claim did.
+std::string violation_text(const verify::CheckReport& check, const verify::Report& report) {
+  const claims::Finding& worst = check.worst;
+  if (!worst.ended)
+    return fmt::format("{} against {} at (t, j) = ({}, {}) of run {}", brief(worst.value),
+                       brief(worst.bound), brief(worst.t), worst.j, check.worst_run);
+  return fmt::format("run {} {}; run {}: {}", check.worst_run, end_text(worst),
+                     report.unfinished_run, unfinished_text(report));
+}
+
 }  // namespace
 
 std::string kind_text(model::ClaimKind kind) {
@@ -268,12 +278,9 @@ std::vector<std::string> campaign_causes(const verify::Report& report,
   std::stable_sort(violated.begin(), violated.end(),
                    [](const auto* a, const auto* b) { return a->worst.score > b->worst.score; });
   for (const verify::CheckReport* check : violated)
-    causes.push_back(fmt::format("claim {} ({}) violated in {}: {} against {} at (t, j) = ({}, {}) "
-                                 "of run {}",
-                                 check->name, kind_text(check->kind), runs_text(check->violations),
-                                 brief(check->worst.value), brief(check->worst.bound),
-                                 brief(check->worst.t), check->worst.j, check->worst_run) +
-                     replay(check->worst_run));
+    causes.push_back(fmt::format("claim {} ({}) violated in {}: ", check->name,
+                                 kind_text(check->kind), runs_text(check->violations)) +
+                     violation_text(*check, report) + replay(check->worst_run));
   return causes;
 }
 

@@ -4,6 +4,8 @@
 #include <string>
 #include <utility>
 
+#include "numbers/degree.h"
+
 namespace gainsmith::bounded {
 
 namespace {
@@ -41,6 +43,28 @@ bool is_sampled(const hybrid::System& system) {
   return is_one_clock(dynamics) && dynamics.noise.empty() && dynamics.measured.empty() &&
          system.switches.empty() && all(dynamics.components) && all(dynamics.variables) &&
          all(dynamics.reactions);
+}
+
+bool is_without_bound(expr::Op op) {
+  using enum expr::Op;
+  switch (op) {
+    case project_polytope:
+    case project_ellipsoid:
+    case project_affine:
+    case project_convex:
+    case flow_map:
+    case extremum:
+    case eigenvalues:
+    case continuous_riccati:
+    case discrete_riccati:
+    case pseudo_inverse:
+    case range_basis:
+    case kernel_basis:
+    case determinant:
+      return true;
+    default:
+      return false;
+  }
 }
 
 /// The values of the entries at (x, tau = 0); the other elements come from `rest`.
@@ -108,6 +132,14 @@ void add_variables(SampledSystem& system) {
 
 }  // namespace
 
+bool has_error_bound(const expr::Program& program, const hybrid::StateLayout& layout) {
+  const auto degrees =
+      numbers::degrees(program, [&](const std::string& name) { return layout.moves(name); });
+  for (std::size_t k = 0; k < program.code.size(); ++k)
+    if (degrees[k] > 0 && is_without_bound(program.code[k].op)) return false;
+  return true;
+}
+
 std::unique_ptr<const SampledSystem> make_sampled_system(const hybrid::System& dynamics) {
   if (!is_sampled(dynamics)) return nullptr;
   auto system = std::make_unique<SampledSystem>();
@@ -125,6 +157,9 @@ std::unique_ptr<const SampledSystem> make_sampled_system(const hybrid::System& d
   for (const Dynamics::Reaction& reaction : dynamics.dynamics.reactions)
     for (const Dynamics::Assignment& one : reaction.passes.front().map)
       system->jump.push_back({slot_of(one.variable), one.value.program});
+  for (const std::vector<MapEntry>* map : {&system->flow_entries, &system->jump})
+    for (const MapEntry& entry : *map)
+      if (!has_error_bound(entry.program, system->layout)) return nullptr;
   const hybrid::System::Clock& clock = *dynamics.clocks.front();
   system->longest = std::max(clock.high, clock.first ? clock.first->second : 0);
   find_affine_flow(places, *system);

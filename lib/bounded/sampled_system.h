@@ -43,9 +43,14 @@ struct SampledSystem {
   const numbers::Values& constants() const { return dynamics->constants; }
 };
 
+/// Whether what a program computes from the states has a bound of its error (ball.h): projections,
+/// eigenvalues, solutions of Riccati equations and of flows, extrema, pseudo-inverses, bases and
+/// determinants have none.
+bool has_error_bound(const expr::Program& program, const hybrid::StateLayout& layout);
+
 /// The same dynamics in this form; none when they are of another kind. Of another kind are other
-/// events, conditions, noise, measured data, modes, losses, and texts that ask for the time or
-/// branch. The dynamics must outlive it.
+/// events, conditions, noise, measured data, modes, losses, and texts that ask for the time, branch
+/// or have no error bound. The dynamics must outlive it.
 std::unique_ptr<const SampledSystem> make_sampled_system(const hybrid::System& dynamics);
 
 /// The draws of one run: its first state, and the lengths from jump to jump.

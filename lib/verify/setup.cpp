@@ -81,10 +81,14 @@ std::unique_ptr<const SampledSetup> make_sampled_setup(const model::Instance& in
   setup->system = bounded::make_sampled_system(events.system);
   if (!setup->system) return nullptr;
   const bounded::SampledSystem& system = *setup->system;
+  const std::vector<expr::Program> functions = functions_of(events.claims);
+  if (!std::ranges::all_of(functions, [&](const expr::Program& one) {
+        return bounded::has_error_bound(one, system.layout);
+      }))
+    return nullptr;
   if (system.flow) setup->steps.emplace(*system.flow, system.longest, system.flow_place);
-  setup->coordinates =
-      bounded::make_coordinates(system, hybrid::exact_values(instance, system.constants(), gains),
-                                functions_of(events.claims));
+  setup->coordinates = bounded::make_coordinates(
+      system, hybrid::exact_values(instance, system.constants(), gains), functions);
   if (!setup->steps) add_integrals(events.claims, setup->coordinates);
   std::vector<Wide> forms;
   add_judged_claims(events.claims, *setup, forms);

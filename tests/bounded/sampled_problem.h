@@ -23,13 +23,15 @@ struct SampledProblem {
         made(make_sampled_system(dynamics)),
         scenario(hybrid::make_scenario(texts.campaign, dynamics)),
         values(hybrid::exact_values(instance, dynamics.constants, problem.gains)) {
-    if (!made) throw std::logic_error("not sampled");
-    if (made->flow) steps.emplace(*made->flow, made->longest, made->flow_place);
+    if (made && made->flow) steps.emplace(*made->flow, made->longest, made->flow_place);
   }
   SampledProblem(const SampledProblem&) = delete;
   SampledProblem& operator=(const SampledProblem&) = delete;
 
-  const SampledSystem& system() const { return *made; }
+  const SampledSystem& system() const {
+    if (!made) throw std::logic_error("not sampled");
+    return *made;
+  }
 
   /// The states themselves as coordinates.
   Coordinates states() const {

@@ -75,6 +75,23 @@ TEST(SampledSystem, OnlyAffineFlowsWithConstantCoefficientsAreExact) {
   }
 }
 
+/// Their error bounds say nothing: such runs are followed in packs, or carefully.
+TEST(SampledSystem, HasNoTextsWithoutErrorBounds) {
+  const auto is_sampled = [](const char* jump) {
+    TextProblem problem;
+    problem.state("x", "2").state("P", "2 x 2").jump({{"x", jump}}).timer("1", "2", "0", "2");
+    const SampledProblem made(problem);
+    return made.made != nullptr;
+  };
+  EXPECT_TRUE(is_sampled("inv(P)*x"));
+  EXPECT_TRUE(is_sampled("pinv([1, 2; 2, 4])*x"));
+  for (const char* jump :
+       {"project_polytope(x, eye(2), [1, 0], 2)", "project_ellipsoid(x, eye(2), [0; 0], eye(2), 4)",
+        "project_convex(x, eye(2), x'*x - 4)", "pinv(P)*x", "det(P)*x", "eig(P)(:, 1)",
+        "flow_map(-x, x, 1)"})
+    EXPECT_FALSE(is_sampled(jump)) << jump;
+}
+
 TEST(SampledSystem, NonlinearJumpIsKeptAsText) {
   TextProblem problem;
   problem.state("x", "scalar").state("w", "scalar").jump({{"x", "x^2"}}).timer("1", "2", "0", "2");

@@ -218,5 +218,40 @@ TEST(CampaignTest, WhatIsNotCertainIsUndecided) {
   EXPECT_EQ(report["repeated_in_31_digits"], 5);
 }
 
+/// A plant that is sampled, with a jump or a claim that has no error bound.
+std::string without_bounds(const std::string& jump, const std::string& value) {
+  return "problem: p\nmethod:\n  method: m\n"
+         "  plant:\n"
+         "    state: {x: {shape: 2, start: '[3; 4]'}, P: {shape: 2 x 2, start: '[2, 0; 0, 1]'}}\n"
+         "    flow: {x: '[0, -1; 1, 0]*x'}\n"
+         "    at: {j: {x: \"" +
+         jump +
+         "\", P: 0.9*P + 0.1*x*x'}}\n"
+         "  events: {j: {every: [0.3, 0.7]}}\n"
+         "  claims: {c: {below: \"" +
+         value + "\", bound: 30}}\ncampaign: {runs: 20, horizon: 5}\n";
+}
+
+TEST(CampaignTest, TextsWithoutErrorBoundsAreJudgedLikeOthers) {
+  for (const char* jump :
+       {"project_polytope(x, eye(2), [1, 0], 2)", "project_ellipsoid(x, eye(2), [0; 0], eye(2), 4)",
+        "project_convex(x, eye(2), x'*x - 4)", "pinv(P)*x", "flow_map(-x, x, 1)"})
+    EXPECT_EQ(verified(without_bounds(jump, "norm(x)"), 0)["undecided"], 0) << jump;
+  for (const char* value : {"max(eig(P)(:, 1))", "det(P)", "norm(pinv(P))"})
+    EXPECT_EQ(verified(without_bounds("0.9*x", value), 0)["undecided"], 0) << value;
+}
+
+TEST(CampaignTest, ARunThatEndsSaysWhy) {
+  const Folder folder;
+  const Outcome outcome = gainsmith(
+      {"run",
+       folder.file("p.yaml", without_bounds("project_polytope(x, -eye(2), [1, 0], 2)", "norm(x)")),
+       "-o", folder.path("out")});
+  EXPECT_EQ(outcome.exit, 1);
+  EXPECT_TRUE(has(outcome.out, "violated in 20 runs: run ")) << outcome.out;
+  EXPECT_TRUE(has(outcome.out, "before its horizon; run 0: ")) << outcome.out;
+  EXPECT_TRUE(has(outcome.out, "positive definite")) << outcome.out;
+}
+
 }  // namespace
 }  // namespace gainsmith::tests
