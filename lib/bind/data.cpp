@@ -11,6 +11,7 @@
 #include "bind/formulas.h"
 #include "bind/function_data.h"
 #include "expr/functions.h"
+#include "model/words.h"
 
 namespace gainsmith::bind {
 
@@ -245,7 +246,9 @@ std::string meaning_of(const Binding& binding, const std::string& name) {
     return "it is a parameter of the method, which stands under 'parameters'";
   if (find_named(method.unknowns, name) != nullptr) return "it is an unknown" + of_method;
   if (find_named(method.gains, name) != nullptr) return "it is a gain" + of_method;
-  if (find_let(method, name) != nullptr) return "it is a definition" + of_method;
+  // Those of a method in the problem itself may be set again: `--set k=2`.
+  if (model::is_method_file(method.file) && find_let(method, name) != nullptr)
+    return "it is a definition" + of_method;
   if (expr::is_reserved(name)) return "it is a word of the language";
   if (binding.names->known.symbols.contains(name)) return "it is a name of the problem";
   return "";

@@ -119,23 +119,15 @@ INSTANTIATE_TEST_SUITE_P(
             "contraction"}),
     name_of);
 
+const std::string kFall =
+    "data: {low: [-1, -20], high: [30, 20], fo(z): '[z(2); -9.81]', guard(z): z, Ano: 0";
 // One gain for all speeds reaches a factor of 1/2, one that depends on the speed less.
 const std::string kSpeedSensor =
-    "data:\n"
-    "  low:  [-1, -20]\n"
-    "  high: [30, 20]\n"
-    "  fo(z): \"[z(2); -9.81]\"\n"
-    "  guard(z): z\n"
-    "  Ano:  0\n"
-    "  Jo(z): \"[z(1); -0.5*z(2) + 4]\"\n"
-    "  Jono(z): zeros(2, 1)\n"
-    "  Hdno(z): 3 + 0.2*z(2)\n"
-    "  from: [-1, -10]\n"
-    "  to:   [1, 0]\n"
-    "  T1:   0.1\n"
-    "  T2:   4\n";
+    kFall +
+    ",\n  Jo(z): '[z(1); 4 - 0.5*z(2)]', Jono(z): 'zeros(2, 1)', Hdno(z): 3 + 0.2*z(2),\n"
+    "  from: [-1, -10], to: [1, 0], T1: 0.1, T2: 4";
 const std::string kSpeeds =
-    "parameters: {rho: 0.3}\n"
+    "}\nparameters: {rho: 0.3}\n"
     "campaign: {runs: 5, horizon: 15, initial: {zo: [4, 0], xi: {box: [0.5, 2]}}}\n";
 
 INSTANTIATE_TEST_SUITE_P(
@@ -172,24 +164,14 @@ INSTANTIATE_TEST_SUITE_P(
             ""},
         // (18), (19): Jono depends on a known input at jumps, Ld on zo.
         Own{"input_at_jumps", "coupled-observer",
-            "data:\n"
-            "  low:  [-1, -20]\n"
-            "  high: [30, 20]\n"
-            "  fo(z): \"[z(2); -9.81]\"\n"
-            "  guard(z): z\n"
-            "  Ano:  0\n"
-            "  input(t): 2 + sin(t)\n"
-            "  input_low:  1\n"
-            "  input_high: 3\n"
-            "  Jo(z): \"[z(1); -0.5*z(2)]\"\n"
-            "  Jono(z, u): \"[0; u]\"\n"
-            "  T1:   0.5\n"
-            "  T2:   3\n"
-            "parameters: {rho: 0.6}\n"
-            "campaign: {runs: 5, horizon: 15, initial: {zo: [10, 0], xi: {box: [0.5, 2]}}}\n",
+            kFall +
+                ",\n  input(t): 2 + sin(t), input_low: 1, input_high: 3,\n"
+                "  Jo(z): '[z(1); -0.5*z(2)]', 'Jono(z, u)': '[0; u]', T1: 0.5, T2: 3}\n"
+                "parameters: {rho: 0.6}\n"
+                "campaign: {runs: 5, horizon: 15, initial: {zo: [10, 0], xi: {box: [0.5, 2]}}}\n",
             ""},
         Own{"sensor_that_depends_on_speed", "coupled-observer",
-            kSpeedSensor + "  Ld_terms(z): \"[z(2); z(2)^2]\"\n" + kSpeeds, ""},
+            kSpeedSensor + ", Ld_terms(z): '[z(2); z(2)^2]'" + kSpeeds, ""},
         Own{"sensor_that_depends_on_speed_with_one_gain", "coupled-observer",
             kSpeedSensor + kSpeeds, "infeasible: contraction cannot hold"}),
     name_of);
