@@ -80,6 +80,8 @@ TEST(FunctionData, WhatDoesNotFitIsSaid) {
   expect_message(low + "  f(x, u): A*x\n", "unknown name 'A'");
   expect_message(low + "  g(x): x\n  f(x, u): x\n", "the method m has no datum 'g'");
   expect_message("  low(x): x\n  f(x, u): x\n", "the datum low is declared n; found a function");
+  expect_message(low + "  f(x, u): x\nlet: {Y: 2}\n",
+                 "'Y' already has a meaning: it is an unknown of the method m");
   expect_message(low + "  f(x, u): x\nlet: {f(x): x}\n",
                  "'f' already has a meaning: it is a datum");
 }

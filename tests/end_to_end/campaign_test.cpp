@@ -241,6 +241,16 @@ TEST(CampaignTest, TextsWithoutErrorBoundsAreJudgedLikeOthers) {
     EXPECT_EQ(verified(without_bounds("0.9*x", value), 0)["undecided"], 0) << value;
 }
 
+TEST(CampaignTest, ASaturationThatLeavesAStateAsItIsIsNoRise) {
+  const Json report = verified(
+      "problem: p\nmethod:\n  method: m\n"
+      "  plant: {state: {x: 2}, flow: {x: -0.5*x}, at: {j: {x: 'clip(x, -2, 2)'}}}\n"
+      "  events: {j: {every: [0.3, 0.7]}}\n  claims: {c: {nonincreasing: x'*x}}\n"
+      "campaign: {runs: 20, horizon: 5, initial: {x: {box: [-3, 3]}}}\n",
+      0);
+  EXPECT_EQ(report["undecided"], 0);
+}
+
 TEST(CampaignTest, ARunThatEndsSaysWhy) {
   const Folder folder;
   const Outcome outcome = gainsmith(
