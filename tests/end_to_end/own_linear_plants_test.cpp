@@ -1,4 +1,5 @@
-// Own plants of the designs by inequalities, and of coupled observers that vary: see own_plants_test.cpp.
+// Own plants of the designs by inequalities, of coupled observers that vary and of their gains: see
+// own_plants_test.cpp.
 #include "end_to_end/own_plants.h"
 
 namespace gainsmith::tests {
@@ -174,6 +175,82 @@ INSTANTIATE_TEST_SUITE_P(
             kSpeedSensor + ", Ld_terms(z): '[z(2); z(2)^2]'" + kSpeeds, ""},
         Own{"sensor_that_depends_on_speed_with_one_gain", "coupled-observer",
             kSpeedSensor + kSpeeds, "infeasible: contraction cannot hold"}),
+    name_of);
+
+const std::string kImpacts =
+    "data:\n"
+    "  Ao: [[0, 1], [0, -0.1]]\n"
+    "  Ano: 0\n"
+    "  Jo(z): '[z(1); 5]'\n"
+    "  Jono(z): '[0; -z(2)]'\n"
+    "  from: [0, -8]\n"
+    "  to: [0, -2]\n"
+    "  xi_low: 0\n"
+    "  xi_high: 1\n"
+    "  Kd: [[0, 0.2]]\n"
+    "  T2: 2\n";
+
+INSTANTIATE_TEST_SUITE_P(
+    CoupledGain, OwnPlants,
+    ::testing::Values(
+        Own{"ball", "coupled-gain", kImpacts + "  T1: 1\nparameters: {l: 15, lc: 1.4}\n", ""},
+        Own{"far_above_the_least_gain", "coupled-gain",
+            kImpacts + "  T1: 1\nparameters: {l: 100, lc: 1.4}\n", ""},
+        Own{"turns", "coupled-gain",
+            "data: {Ao: -0.2, Ano: [[0, -2], [2, 0]], Jo(z): 0.5*z, Jono(z): '[1, 0]', from: -2, "
+            "to: 2, xi_low: [-1, -1], xi_high: [1, 1], T1: 0.3, T2: 0.6, Kd: [[0.5], [0]]}\n"
+            "parameters: {l: 30}\n",
+            ""},
+        Own{"damped_turns", "coupled-gain",
+            "data: {Ao: -0.2, Ano: [[-0.2, 1], [-1, -0.2]], Jo(z): 0.5*z, Jono(z): '[1, 0]', "
+            "from: -2, to: 2, xi_low: [-1, -1], xi_high: [1, 1], T1: 0.3, T2: 0.6, Kd: [[0.2], "
+            "[0]]}\n"
+            "parameters: {l: 30}\n",
+            ""},
+        Own{"shown_at_jumps", "coupled-gain",
+            "data: {Ao: [[0, 1], [-1, 0]], Ano: -0.1, Jo(z): '[z(1); -0.5*z(2)]', Jono(z): '[0; "
+            "0]', Hdno(z): 1, from: [-1, -1], to: [1, 1], xi_low: -1, xi_high: 1, T1: 1, T2: 2, "
+            "Kd: [[0, 0]], Ld: 0.5}\n",
+            ""},
+        Own{"jumps_without_flows", "coupled-gain", kImpacts + "  T1: 0\n",
+            "the assumption 'flows'"}),
+    name_of);
+
+INSTANTIATE_TEST_SUITE_P(
+    SampledDataNoise, OwnPlants,
+    ::testing::Values(
+        Own{"double_integrator", "sampled-data-noise",
+            "data: {A: [[0, 1], [0, 0]], B: [[0], [1]], C: [[1, 0]], D: 0.2, T1: 0.1, T2: 0.3}\n"
+            "campaign: {runs: 20, horizon: 40}\n"
+            "compare: [{at: {t: 40}, value: sqrt(error/spent)}, {at: {t: 40}, value: "
+            "gain/sqrt(error/spent)}]\n",
+            ""},
+        Own{"oscillator", "sampled-data-noise",
+            "data: {A: [[0, 1], [-4, -0.2]], B: [[0], [1]], C: [[1, 0]], D: 0.1, T1: 0.1, T2: "
+            "0.25}\n"
+            "campaign: {runs: 20, horizon: 40}\n"
+            "compare: [{at: {t: 40}, value: sqrt(error/spent)}, {at: {t: 40}, value: "
+            "gain/sqrt(error/spent)}]\n",
+            ""},
+        Own{"unstable", "sampled-data-noise",
+            "data: {A: 0.5, B: 1, C: 1, D: 1, T1: 0.1, T2: 0.4}\n"
+            "campaign: {runs: 20, horizon: 40}\n"
+            "compare: [{at: {t: 40}, value: sqrt(error/spent)}, {at: {t: 40}, value: "
+            "gain/sqrt(error/spent)}]\n",
+            ""},
+        Own{"two_outputs", "sampled-data-noise",
+            "data: {A: [[-1, 1, 0], [0, -0.5, 1], [0, -1, -0.5]], B: \"[eye(2); zeros(1, 2)]\", C: "
+            "[[1, 0, 0], [0, 1, 0]], D: 0.1*eye(2), T1: 0.2, T2: 0.6}\n"
+            "campaign: {runs: 20, horizon: 40}\n"
+            "compare: [{at: {t: 40}, value: sqrt(error/spent)}, {at: {t: 40}, value: "
+            "gain/sqrt(error/spent)}]\n",
+            ""},
+        Own{"hidden_mode", "sampled-data-noise",
+            "data: {A: [[0.5, 0], [0, -1]], B: [[0], [1]], C: [[0, 1]], D: 0.1, T1: 0.2, T2: 0.6}\n"
+            "campaign: {runs: 20, horizon: 40}\n"
+            "compare: [{at: {t: 40}, value: sqrt(error/spent)}, {at: {t: 40}, value: "
+            "gain/sqrt(error/spent)}]\n",
+            "infeasible: the output does not show a mode"}),
     name_of);
 
 }  // namespace
