@@ -69,6 +69,22 @@ INSTANTIATE_TEST_SUITE_P(
             "  J(v): '[1, 0; 0, v/2]'\n  T1: 0.3\n  T2: 1\n" +
                 kStarts,
             ""},
+        Own{"damping_that_varies", "hybrid-kalman-like-varying",
+            "data: {known(t): cos(t), F(v): '[0, 1; -2, -0.3*(1 + v)]', Hc(v): '[1, 0]', J(v): "
+            "'[1, "
+            "0; 0, -0.8]', T1: 0.3, T2: 1}\n" +
+                kStarts,
+            ""},
+        Own{"sensor_that_varies", "hybrid-kalman-like-varying",
+            "data: {known(t): 1 + 0.5*sin(3*t), F(v): '[0, 1; -1, 0]', Hc(v): '[v, 0]', J(v): "
+            "eye(2), T1: 0.3, T2: 1}\n" +
+                kStarts,
+            ""},
+        Own{"unknown_load_at_samples", "hybrid-kalman-like-varying",
+            "data: {known(t): sin(t), F(v): '[0, 1, v; 0, 0, 1; 0, 0, 0]', Hc(v): 'zeros(1, 3)', "
+            "J(v): eye(3), Hd(v): '[1, 0, 0]', T1: 0.3, T2: 0.6}\nparameters: {gamma: 0.7}\n" +
+                kStarts,
+            ""},
         Own{"forgets_too_much", "hybrid-kalman-like-varying",
             "data:\n  known(t): 2 + sin(t)\n  F(v): '[0, -v; v, 0]'\n  Hc(v): '[1, 0]'\n"
             "  J(v): eye(2)\n  T1: 0.3\n  T2: 1\nparameters: {gamma: 1.5}\n" +
@@ -339,6 +355,29 @@ INSTANTIATE_TEST_SUITE_P(
             "{like: constrained-redesign-jumps, events: {jump: {every: 0.5}}}",
             kSampled + "  x0:  [2, 0]\n  xh0: [0, 0]\ncampaign: {runs: 1, horizon: 5}\n",
             "the assumption 'the plant starts in the set'"},
+        Own{"floor_and_impacts",
+            "{like: constrained-redesign-jumps, events: {jump: {every: [0.3, 0.6]}}}",
+            "data:\n"
+            "  a:   [[-1, 0]]\n"
+            "  b:   [0]\n"
+            "  f(x): \"[-0.2, 0.1; 0, -0.1]*x\"\n"
+            "  hd(x): x(1)\n"
+            "  g(x): \"[x(1); 0.8*x(2)]\"\n"
+            "  G(xh, S, y): \"[1, 0; 0, 0.8]*(xh + [0.5; 0.2]*(y - xh(1)))\"\n"
+            "  invP(S): eye(2)\n"
+            "  x0:  [2, 1]\n"
+            "  xh0: [-1, 0]\n"
+            "parameters: {rho: 100}\n"
+            "campaign: {runs: 5, horizon: 15}\n",
+            ""},
+        Own{"ellipse_at_samples",
+            "{like: constrained-redesign-jumps, events: {jump: {every: [0.2, 0.5]}}, let: "
+            "{limits(x): x(1)^2/2.25 + x(2)^2/4 - 1}}",
+            kSampled + "  x0:  [1, 0]\n"
+                       "  xh0: [-3, 3]\n"
+                       "parameters: {rho: 100}\n"
+                       "campaign: {runs: 5, horizon: 15}\n",
+            ""},
         Own{"samples", "{like: constrained-redesign-jumps, events: {jump: {every: [0.2, 0.5]}}}",
             kSampled + "  x0:  [1, 0]\n"
                        "  xh0: [-3, 3]\n"
