@@ -1,9 +1,11 @@
 // Campaigns whose truth is known by hand, from a problem's text to the exit code.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <string>
+#include <vector>
 
 #include "base/file.h"
 #include "end_to_end/program.h"
@@ -239,6 +241,38 @@ TEST(CampaignTest, TextsWithoutErrorBoundsAreJudgedLikeOthers) {
     EXPECT_EQ(verified(without_bounds(jump, "norm(x)"), 0)["undecided"], 0) << jump;
   for (const char* value : {"max(eig(P)(:, 1))", "det(P)", "norm(pinv(P))"})
     EXPECT_EQ(verified(without_bounds("0.9*x", value), 0)["undecided"], 0) << value;
+}
+
+/// What the campaign of a sampled plant says of its claims, with more events.
+std::vector<std::array<int, 2>> verdicts(const std::string& jump, const std::string& events) {
+  const Folder folder;
+  const std::string gains = folder.path("gains.json");
+  const std::string text =
+      "problem: p\nmethod:\n  method: m\n"
+      "  plant:\n"
+      "    state: {x: {shape: 2}, P: {shape: 2 x 2, start: '[2, 0.3; 0.3, 1]'}, s: {shape: scalar, "
+      "start: 0}}\n"
+      "    flow: {x: '[-0.2, 1; -1, -0.2]*x', s: 1}\n"
+      "    at: {j: {x: \"" +
+      jump + "\", P: 0.9*P + 0.1*x*x', s: 0}}\n  events: {j: {every: [0.3, 0.7]}" + events +
+      "}\n  claims:\n"
+      "    falls: {nonincreasing: x'*x}\n    shrinks: {shrinks: norm(x), to: 0.5}\n"
+      "    stays: {below: lambda_max(P), bound: 3}\n    cost: {cost: {flow: x'*x}, below: 20}\n"
+      "campaign: {runs: 40, horizon: 4, initial: {x: {box: [-3, 3]}}}\n";
+  EXPECT_EQ(gainsmith({"synth", folder.file("p.yaml", text), "-o", gains}).exit, 0) << jump;
+  const Json report = gainsmith({"verify", gains, "--json"}).json();
+  std::vector<std::array<int, 2>> all;
+  for (const Json& check : report["checks"])
+    all.push_back({check["violations"].get<int>(), check["undecided"].get<int>()});
+  return all;
+}
+
+/// Sampled plants are judged with bounds, those of more clocks by the difference of two runs.
+TEST(CampaignTest, AnEventThatNeverHappensChangesNoVerdict) {
+  for (const char* jump : {"0.9*x", "clip(x, -2, 2)", "inv(P)*x", "where(x(1) > 0, 0.5*x, 0.9*x)",
+                           "exp(-s)*x", "project_polytope(x, P, [1, 0], 1)", "x/(1 + s)",
+                           "[tanh(x(1)); atan2(x(2), 1)]", "pinv(P)*x", "mod(x, 2)"})
+    EXPECT_EQ(verdicts(jump, ""), verdicts(jump, ", never: {every: 1e6}")) << jump;
 }
 
 TEST(CampaignTest, ASaturationThatLeavesAStateAsItIsIsNoRise) {
