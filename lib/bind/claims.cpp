@@ -54,9 +54,12 @@ model::Formula constant_of_claim(const Binding& binding, const expr::Expression&
   };
   for (const expr::Input& input : bound.program.inputs)
     if (changes(input.name))
-      throw InputError(bound.place, key + ": '" + input.name +
-                                        "' changes along a run; this is made of what data, parameters "
-                                        "and gains give");
+      throw InputError(
+          bound.place,
+          key + ": '" + input.name +
+              "' changes along a run; this is made of what data, parameters "
+              "and gains give" +
+              (key == "bound" ? "; the value comes first: {below: norm(x), bound: 2}" : ""));
   return bound;
 }
 

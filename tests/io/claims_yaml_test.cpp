@@ -82,7 +82,7 @@ TEST(Claims, MistakesAreNamedAtTheirPlace) {
        "over: of the claims nonincreasing, below and above"},
       {"nonincreasing: V, over: impact", "above: V, below: V, bound: 1", 17, 5,
        "needs exactly one of nonincreasing, cost, shrinks, below, above; found 2"},
-      {"bound: 2*m", "bound: x(1)", 18, 40, "'x' changes along a run"},
+      {"bound: 2*m", "bound: x(1)", 18, 40, "the value comes first: {below: norm(x), bound: 2}"},
       {"after: 5", "after: t", 18, 52, "'t' changes along a run"},
       {"rate(V)", "rate(x*x')", 18, 25, "rate(v) is of a number or a column, not x*x'"},
       {"rate(V)", "rate(rate(V))", 18, 20, "what holds a jacobian or a rate has none"},
