@@ -126,14 +126,18 @@ Bound Binder::condition_number(const Expression& expression, const Node& node) {
                "cond: a singular value is 0, so there is no finite quotient")};
 }
 
-/// With c = |M|: the singular values of M + cI, c I - M are eigenvalues, the largest of them the
-/// one looked for but for c.
+/// With the Frobenius norm c >= |M|: the singular values of M + c I and c I - M are eigenvalues, the
+/// largest of them the one looked for but for c.
 Bound Binder::extreme_eigenvalue(const Expression& expression, const Node& node, bool largest) {
   const Emitter make(*this, expression, node);
   const int m = square_argument(expression, node, node.text);
-  if (shape(m).rows == 0) fail(expression, node, "an empty matrix has no eigenvalues");
-  const int c = make(Op::norm, {m});
-  const int shift = make.identity(c, shape(m).rows);
+  const int size = shape(m).rows;
+  if (size == 0) fail(expression, node, "an empty matrix has no eigenvalues");
+  if (size == 1) return {m};
+  std::vector<int> columns;
+  for (int j = 0; j < size; ++j) columns.push_back(make.part(m, 0, size, j, j + 1));
+  const int c = make(Op::norm, {make.blocks(columns, 1)});
+  const int shift = make.identity(c, size);
   const int shifted = largest ? make.add(m, shift) : make.subtract(shift, m);
   const int first = make.element(make(Op::singular_values, {shifted}), 0);
   return {largest ? make.subtract(first, c) : make.subtract(c, first)};

@@ -364,8 +364,9 @@ class LaneCode::Maker {
 };
 
 LaneCode::LaneCode(const numbers::ScalarGraph& graph, const std::vector<std::vector<int>>& results,
-                   std::size_t inputs, std::optional<std::uint32_t> feed_back) {
-  Maker maker(numbers::tape_code(graph, results, static_cast<int>(inputs)), *this);
+                   std::size_t inputs, std::optional<std::uint32_t> feed_back,
+                   numbers::Computed computed) {
+  Maker maker(numbers::tape_code(graph, results, static_cast<int>(inputs), computed), *this);
   maker.make(feed_back);
   if (feed_back) maker.feed_back(*feed_back);
   may_fault_ = std::any_of(steps_.begin(), steps_.end(),

@@ -23,7 +23,8 @@ class LaneCode {
   /// Computes the nodes of `results` and what may have no value, from `inputs` numbers a lane.
   /// `feed_back`: then writes the first result to the inputs from this one on.
   LaneCode(const numbers::ScalarGraph& graph, const std::vector<std::vector<int>>& results,
-           std::size_t inputs, std::optional<std::uint32_t> feed_back = {});
+           std::size_t inputs, std::optional<std::uint32_t> feed_back = {},
+           numbers::Computed computed = numbers::Computed::partial);
 
  private:
   friend class LaneMachine;

@@ -184,8 +184,9 @@ int ScalarGraph::block(Block block) {
   std::vector<int> heights;
   for (const expr::Shape& shape : block.shapes) heights.push_back(shape.rows);
   heights.push_back(instruction.shape.rows);
-  const BlockKey key{instruction.op, instruction.attributes, number_of(instruction.body),
-                     block.operands, std::move(heights)};
+  const BlockKey key{instruction.op,         block.is_slope,
+                     instruction.attributes, number_of(instruction.body),
+                     block.operands,         std::move(heights)};
   const auto [found, fresh] = known_blocks_.emplace(key, static_cast<int>(blocks_.size()));
   if (!fresh) return blocks_[index(found->second)].first;
   block.first = static_cast<int>(nodes_.size());

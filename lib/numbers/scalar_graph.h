@@ -63,7 +63,9 @@ class ScalarGraph {
     expr::Instruction instruction;
     std::vector<std::vector<int>> operands;
     std::vector<expr::Shape> shapes;  ///< of the operands
-    int first = 0;                    ///< node of its result; the others follow
+    /// Its derivative in a direction: the second half of the operands are the slopes of the first.
+    bool is_slope = false;
+    int first = 0;  ///< node of its result; the others follow
   };
 
   int input(int position) { return node({ScalarOp::input, position, -1, -1}); }
@@ -104,6 +106,7 @@ class ScalarGraph {
   };
   struct BlockKey {
     expr::Op op;
+    bool is_slope;
     expr::Attributes attributes;
     int body;
     std::vector<std::vector<int>> operands;

@@ -7,6 +7,7 @@
 
 #include "base/number.h"
 #include "expr/number_type.h"
+#include "numbers/block_slope.h"
 #include "numbers/scalar_rules.h"
 
 namespace gainsmith::numbers {
@@ -39,24 +40,58 @@ class Tracer : public NodeRules {
 
  private:
   TracedMatrix instruction(const Instruction& one, const TracedOperands& operands) {
+    if (one.op == Op::norm && !is_line(operands[0]->shape)) return largest(one, operands);
     TracedMatrix out{one.shape, {}};
     if (!value(one, operands, out)) return block(one, operands);
-    std::size_t directions = 0;
-    for (const TracedMatrix* operand : operands)
-      directions = std::max(directions, operand->slopes.size());
-    for (std::size_t d = 0; d < directions; ++d)
+    for (std::size_t d = 0; d < directions_of(operands); ++d)
       out.slopes.push_back(slope(graph_, one, operands, d, out, kind_));
     return out;
   }
 
+  static bool is_line(Shape shape) {
+    return shape.size() == 0 || shape.rows == 1 || shape.cols == 1;
+  }
+
+  static std::size_t directions_of(const TracedOperands& operands) {
+    std::size_t directions = 0;
+    for (const TracedMatrix* operand : operands)
+      directions = std::max(directions, operand->slopes.size());
+    return directions;
+  }
+
   TracedMatrix block(const Instruction& one, const TracedOperands& operands) {
+    const std::size_t directions = directions_of(operands);
+    if (directions > 0 && (kind_ == Derivative::jacobian || !has_block_slope(one.op)))
+      throw NoFormula();
     ScalarGraph::Block made{one, {}, {}};
     for (const TracedMatrix* operand : operands) {
-      if (operand->moves()) throw NoFormula();
       made.operands.push_back(operand->value);
       made.shapes.push_back(operand->shape);
     }
-    return {one.shape, block_of(std::move(made))};
+    TracedMatrix out{one.shape, block_of(made)};
+    for (std::size_t d = 0; d < directions; ++d) {
+      ScalarGraph::Block moved = made;
+      moved.is_slope = true;
+      for (const TracedMatrix* operand : operands) {
+        moved.operands.push_back(operand->moves() ? operand->slopes[d] : zeros(operand->shape));
+        moved.shapes.push_back(operand->shape);
+      }
+      out.slopes.push_back(block_of(moved));
+    }
+    return out;
+  }
+
+  /// The norm of a matrix: its first singular value.
+  TracedMatrix largest(const Instruction& norm, const TracedOperands& operands) {
+    Instruction values = norm;
+    values.op = Op::singular_values;
+    const Shape shape = operands[0]->shape;
+    values.shape = {std::min(shape.rows, shape.cols), 1};
+    TracedMatrix out = instruction(values, operands);
+    out.shape = norm.shape;
+    out.value.resize(1);
+    for (Nodes& slope : out.slopes) slope.resize(1);
+    return out;
   }
 
   /// False: there is no formula.
@@ -107,7 +142,8 @@ class Tracer : public NodeRules {
         return true;
       }
       case Op::norm:
-        return norm(*in[0], out);
+        norm(*in[0], out);
+        return true;
       case Op::inverse:
         if (one.shape.size() == 1)
           return each([&](std::size_t k) { return graph_.divide(number(1), of(0, k)); });
@@ -167,17 +203,15 @@ class Tracer : public NodeRules {
     }
   }
 
-  bool norm(const TracedMatrix& in, TracedMatrix& out) {
-    const Shape shape = in.shape;
-    if (shape.size() > 0 && shape.rows != 1 && shape.cols != 1) return false;
-    if (shape.size() == 1) {
+  /// Of a column or a row.
+  void norm(const TracedMatrix& in, TracedMatrix& out) {
+    if (in.shape.size() == 1) {
       out.value = {graph_.apply(ScalarOp::abs, in.value[0])};
-      return true;
+      return;
     }
     int sum = zero();
     for (const int node : in.value) sum = graph_.add(sum, graph_.multiply(node, node));
     out.value = {graph_.apply(ScalarOp::sqrt, sum)};
-    return true;
   }
 
   /// Rows are the elements of the body's value, columns those of the first operand.

@@ -5,7 +5,7 @@
 //
 // The rules are those of Real, element by element; derivatives (Op::jacobian) are those of Dual,
 // whose slopes are nodes too. What has no formula on numbers is one block: decompositions of
-// matrices, projections, flow_map, extremum, and derivatives of these.
+// matrices, projections, flow_map, extremum, and derivatives of these (block_slope.h).
 #pragma once
 
 #include <functional>

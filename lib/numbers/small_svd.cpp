@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <utility>
 
 namespace gainsmith::numbers {
 
@@ -18,7 +19,8 @@ constexpr double kOrthogonal = 8 * std::numeric_limits<double>::epsilon();
 /// the gap of its two diagonal elements, is not above this.
 constexpr double kNothing = 0x1p-54;
 
-using Column = std::array<double, kLargest>;
+/// A column of M and, below it, one of the rotations so far.
+using Column = std::array<double, 2 * kLargest>;
 
 double product(const Column& a, const Column& b, std::size_t rows) {
   double sum = 0;
@@ -26,8 +28,8 @@ double product(const Column& a, const Column& b, std::size_t rows) {
   return sum;
 }
 
-/// Makes two columns orthogonal; false: they are.
-bool rotate(Column& a, Column& b, std::size_t rows) {
+/// Makes the first `rows` elements of two columns of `height` elements orthogonal; false: they are.
+bool rotate(Column& a, Column& b, std::size_t rows, std::size_t height) {
   const double aa = product(a, a, rows);
   const double bb = product(b, b, rows);
   const double ab = product(a, b, rows);
@@ -36,7 +38,7 @@ bool rotate(Column& a, Column& b, std::size_t rows) {
   const double t = std::copysign(1 / (std::abs(zeta) + std::sqrt(1 + zeta * zeta)), zeta);
   const double c = 1 / std::sqrt(1 + t * t);
   const double s = c * t;
-  for (std::size_t i = 0; i < rows; ++i) {
+  for (std::size_t i = 0; i < height; ++i) {
     const double x = a[i];
     a[i] = c * x - s * b[i];
     b[i] = s * x + c * b[i];
@@ -89,43 +91,81 @@ bool diagonalize(Square& A, std::size_t n) {
 }
 
 /// Rotates columns until they are orthogonal; false: after many sweeps they are not.
-bool make_orthogonal(Square& columns, std::size_t rows, std::size_t count) {
+bool make_orthogonal(Square& columns, std::size_t rows, std::size_t height, std::size_t count) {
   for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
     bool rotated = false;
     for (std::size_t p = 0; p < count; ++p)
       for (std::size_t q = p + 1; q < count; ++q)
-        rotated = rotate(columns[p], columns[q], rows) || rotated;
+        rotated = rotate(columns[p], columns[q], rows, height) || rotated;
     if (!rotated) return true;
   }
   return false;
 }
 
+/// M, or its transpose if that is taller, column by column and scaled by a power of 2.
+struct Scaled {
+  Square columns{};
+  std::size_t rows, count;
+  bool turned;
+  double half, rest;  ///< the factor: two, since one may overflow
+
+  explicit Scaled(const Matrix& M)
+      : rows(static_cast<std::size_t>(std::max(M.rows(), M.cols()))),
+        count(static_cast<std::size_t>(std::min(M.rows(), M.cols()))),
+        turned(M.cols() > M.rows()) {
+    const double largest = M.cwiseAbs().maxCoeff();
+    const int unit = largest > 0 ? std::ilogb(largest) : 0;
+    half = std::ldexp(1.0, -unit / 2);
+    rest = std::ldexp(1.0, -unit - -unit / 2);
+    for (std::size_t j = 0; j < count; ++j)
+      for (std::size_t i = 0; i < rows; ++i) columns[j][i] = of(M, i, j) * half * rest;
+  }
+  double of(const Matrix& M, std::size_t i, std::size_t j) const {
+    return M(static_cast<Eigen::Index>(turned ? j : i), static_cast<Eigen::Index>(turned ? i : j));
+  }
+};
+
+bool is_small(const Matrix& M) {
+  return M.rows() <= kLargest && M.cols() <= kLargest && M.size() > 0 && M.allFinite();
+}
+
 }  // namespace
 
 bool small_singular_values(const Matrix& M, double* out) {
-  if (M.rows() > kLargest || M.cols() > kLargest || M.size() == 0 || !M.allFinite()) return false;
-  const double largest = M.cwiseAbs().maxCoeff();
-  const bool turned = M.cols() > M.rows();
-  const auto rows = static_cast<std::size_t>(turned ? M.cols() : M.rows());
-  const auto count = static_cast<std::size_t>(turned ? M.rows() : M.cols());
-  const int unit = largest > 0 ? std::ilogb(largest) : 0;
-  // Two factors, since one may overflow.
-  const double half = std::ldexp(1.0, -unit / 2);
-  const double rest = std::ldexp(1.0, -unit - -unit / 2);
-  Square A{};
-  for (std::size_t j = 0; j < count; ++j)
-    for (std::size_t i = 0; i < rows; ++i) {
-      const auto row = static_cast<Eigen::Index>(turned ? j : i);
-      const auto column = static_cast<Eigen::Index>(turned ? i : j);
-      A[j][i] = M(row, column) * half * rest;
-    }
+  if (!is_small(M)) return false;
+  Scaled A(M);
   const bool symmetric = is_symmetric(M);
-  if (!(symmetric ? diagonalize(A, count) : make_orthogonal(A, rows, count))) return false;
-  for (std::size_t j = 0; j < count; ++j) {
-    const double value = symmetric ? std::abs(A[j][j]) : std::sqrt(product(A[j], A[j], rows));
-    out[j] = value / half / rest;
+  if (!(symmetric ? diagonalize(A.columns, A.count)
+                  : make_orthogonal(A.columns, A.rows, A.rows, A.count)))
+    return false;
+  for (std::size_t j = 0; j < A.count; ++j) {
+    const Column& column = A.columns[j];
+    const double value =
+        symmetric ? std::abs(column[j]) : std::sqrt(product(column, column, A.rows));
+    out[j] = value / A.half / A.rest;
   }
-  std::sort(out, out + count, std::greater<>());
+  std::sort(out, out + A.count, std::greater<>());
+  return true;
+}
+
+bool small_singular_slopes(const Matrix& M, const Matrix& dM, double* out) {
+  if (!is_small(M)) return false;
+  Scaled A(M);
+  for (std::size_t j = 0; j < A.count; ++j) A.columns[j][A.rows + j] = 1;
+  if (!make_orthogonal(A.columns, A.rows, A.rows + A.count, A.count)) return false;
+  std::array<std::pair<double, double>, kLargest> values{};
+  for (std::size_t k = 0; k < A.count; ++k) {
+    const Column& column = A.columns[k];
+    double sum = 0;
+    for (std::size_t j = 0; j < A.count; ++j)
+      for (std::size_t i = 0; i < A.rows; ++i)
+        sum += column[i] * A.of(dM, i, j) * column[A.rows + j];
+    const double length = std::sqrt(product(column, column, A.rows));
+    values[k] = {length, length > 0 ? sum / length : 0};
+  }
+  std::stable_sort(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(A.count),
+                   [](const auto& one, const auto& other) { return one.first > other.first; });
+  for (std::size_t k = 0; k < A.count; ++k) out[k] = values[k].second;
   return true;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "numbers/block_slope.h"
 #include "numbers/real.h"
 #include "numbers/small_inverse.h"
 #include "numbers/small_svd.h"
@@ -11,6 +12,7 @@ namespace gainsmith::numbers {
 TapeBlock::TapeBlock(const TapeCode::Block& block)
     : instruction_(std::make_unique<const expr::Instruction>(block.instruction)),
       from_(block.operands),
+      is_slope_(block.is_slope),
       out_(Matrix::Zero(block.instruction.shape.rows, block.instruction.shape.cols)) {
   for (const expr::Shape& shape : block.shapes)
     operands_.push_back(Matrix::Zero(shape.rows, shape.cols));
@@ -21,21 +23,13 @@ TapeBlock::TapeBlock(const TapeCode::Block& block)
     flow_map_ = std::make_unique<FlowMapEvaluator>(*instruction_);
 }
 
-/// Singular values, and the norm of a matrix, without the rules' allocations. False: for these.
-bool TapeBlock::find_small_values() {
-  const bool norm = instruction_->op == expr::Op::norm;
-  if (!norm && instruction_->op != expr::Op::singular_values) return false;
-  const Matrix& operand = operands_[0];
-  out_.resize(norm ? std::min(operand.rows(), operand.cols()) : instruction_->shape.rows, 1);
-  if (!small_singular_values(operand, out_.data())) return false;
-  if (norm) out_.conservativeResize(1, 1);
-  return true;
-}
-
 bool TapeBlock::find_value() {
-  if (instruction_->op == expr::Op::inverse && small_inverse(operands_[0], out_.data())) return true;
-  if (find_small_values()) return true;
+  using expr::Op;
+  const Op op = instruction_->op;
   try {
+    if (is_slope_) return block_slope(*instruction_, pointers_, out_);
+    if (op == Op::inverse && small_inverse(operands_[0], out_.data())) return true;
+    if (op == Op::singular_values && small_singular_values(operands_[0], out_.data())) return true;
     if (jacobian_ != nullptr) {
       out_ = (*jacobian_)(pointers_);
     } else if (flow_map_ != nullptr) {

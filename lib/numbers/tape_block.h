@@ -21,13 +21,13 @@ class TapeBlock {
 
  private:
   bool find_value();
-  bool find_small_values();
 
   /// At an address that stays, where the evaluators have it from.
   std::unique_ptr<const expr::Instruction> instruction_;
   std::vector<std::vector<std::uint32_t>> from_;
   std::vector<Matrix> operands_;
   std::vector<const Matrix*> pointers_;
+  bool is_slope_;
   Matrix out_;
   bool is_known_ = false;  ///< `out_` is the value for these operands
   std::unique_ptr<JacobianEvaluator<double>> jacobian_;

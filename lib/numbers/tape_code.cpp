@@ -1,5 +1,6 @@
 #include "numbers/tape_code.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace gainsmith::numbers {
@@ -9,8 +10,8 @@ namespace {
 /// Lays out registers: inputs, constants, then what is computed, in the order of the graph.
 class Maker {
  public:
-  Maker(const ScalarGraph& graph, TapeCode& code)
-      : graph_(graph), nodes_(graph.nodes()), code_(code) {}
+  Maker(const ScalarGraph& graph, Computed computed, TapeCode& code)
+      : graph_(graph), nodes_(graph.nodes()), computed_(computed), code_(code) {}
 
   void make(const std::vector<std::vector<int>>& results, int inputs) {
     count_uses(results);
@@ -45,22 +46,34 @@ class Maker {
     is_fused_.assign(nodes_.size(), false);
     for (const std::vector<int>& result : results)
       for (const int node : result) uses_[index(node)] += 2;  // read after the run: never fused
-    for (std::size_t k = 0; k < nodes_.size(); ++k)
-      if (graph_.is_partial(static_cast<int>(k))) ++uses_[k];
+    if (computed_ == Computed::partial)
+      for (std::size_t k = 0; k < nodes_.size(); ++k)
+        if (graph_.is_partial(static_cast<int>(k))) ++uses_[k];
     auto block = graph_.blocks().rbegin();
     for (std::size_t k = nodes_.size(); k-- > 0;) {
       const ScalarGraph::Node& node = nodes_[k];
       for (; block != graph_.blocks().rend() && index(block->first) >= k + 1; ++block)
-        for (const std::vector<int>& operand : block->operands)
-          for (const int one : operand) uses_[index(one)] += 2;
+        use_operands(*block);
       if (is_leaf(node.op) || uses_[k] == 0) continue;
       use(node.a);
       use(node.b);
       use(node.c);
     }
-    for (; block != graph_.blocks().rend(); ++block)
-      for (const std::vector<int>& operand : block->operands)
-        for (const int one : operand) uses_[index(one)] += 2;
+    for (; block != graph_.blocks().rend(); ++block) use_operands(*block);
+  }
+
+  /// Whether it is computed: once the uses of its results are counted.
+  bool is_used(const ScalarGraph::Block& block) const {
+    if (computed_ == Computed::partial) return true;
+    const auto first = uses_.begin() + block.first;
+    return std::any_of(first, first + block.instruction.shape.size(),
+                       [](int uses) { return uses > 0; });
+  }
+
+  void use_operands(const ScalarGraph::Block& block) {
+    if (!is_used(block)) return;
+    for (const std::vector<int>& operand : block.operands)
+      for (const int one : operand) uses_[index(one)] += 2;
   }
 
   static bool is_leaf(ScalarOp op) {
@@ -112,9 +125,11 @@ class Maker {
 
   void add_block() {
     const ScalarGraph::Block& block = graph_.blocks()[next_block_++];
+    if (!is_used(block)) return;
     TapeCode::Block& made = code_.blocks.emplace_back();
     made.instruction = block.instruction;
     made.shapes = block.shapes;
+    made.is_slope = block.is_slope;
     for (const std::vector<int>& operand : block.operands) {
       auto& from = made.operands.emplace_back();
       for (const int node : operand) from.push_back(registers_[index(node)]);
@@ -127,6 +142,7 @@ class Maker {
 
   const ScalarGraph& graph_;
   const std::vector<ScalarGraph::Node>& nodes_;
+  Computed computed_;
   TapeCode& code_;
   std::vector<int> uses_;
   std::vector<bool> is_fused_;  ///< by node: a product without a register of its own
@@ -138,9 +154,9 @@ class Maker {
 }  // namespace
 
 TapeCode tape_code(const ScalarGraph& graph, const std::vector<std::vector<int>>& results,
-                   int inputs) {
+                   int inputs, Computed computed) {
   TapeCode code;
-  Maker(graph, code).make(results, inputs);
+  Maker(graph, computed, code).make(results, inputs);
   return code;
 }
 

@@ -1,6 +1,6 @@
 // A scalar graph as one list of operations on registers: the inputs, the constants, then one for
-// each operation, in the order of the graph. What no result needs is left out, but for what may
-// have no value. A product that is needed by one sum alone is computed with it.
+// each operation, in the order of the graph. What no result needs is left out; what may have no
+// value is not, if it is asked for. A product that is needed by one sum alone is computed with it.
 #pragma once
 
 #include <cstdint>
@@ -20,6 +20,7 @@ struct TapeCode {
     expr::Instruction instruction;
     std::vector<std::vector<std::uint32_t>> operands;  ///< registers, column by column
     std::vector<expr::Shape> shapes;                   ///< of the operands
+    bool is_slope = false;                             ///< as of ScalarGraph::Block
   };
 
   std::vector<Step> steps;
@@ -31,8 +32,13 @@ struct TapeCode {
   std::uint32_t registers = 0;
 };
 
+enum class Computed {
+  partial,  ///< what results need, and all that may have no value
+  needed    ///< what results need
+};
+
 /// What computes the nodes of `results` from `inputs` numbers.
 TapeCode tape_code(const ScalarGraph& graph, const std::vector<std::vector<int>>& results,
-                   int inputs);
+                   int inputs, Computed computed = Computed::partial);
 
 }  // namespace gainsmith::numbers

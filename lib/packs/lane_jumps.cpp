@@ -47,8 +47,8 @@ void LaneSet::take_noise(std::size_t noise, std::size_t l) {
 }
 
 std::uint32_t LaneSet::allowed(std::size_t event, std::uint32_t mask) {
-  look(fine_, middle_, mask);
-  look(coarse_, end_, mask);
+  look(look_, fine_, middle_, mask);
+  look(look_, coarse_, end_, mask);
   std::uint32_t goes = 0;
   each(mask, [&](std::size_t l) {
     Sides sides(pack_.watches.size(), 0);

@@ -23,6 +23,8 @@ LaneSet::LaneSet(const PackSystem& pack)
       horizon_(pack.scenario->horizon),
       step_(*pack.step),
       look_(*pack.look),
+      look_coarse_(*pack.look_coarse),
+      look_between_(*pack.look_between),
       begin_(*pack.start),
       coarse_(pack.whole),
       fine_(pack.whole),
@@ -159,13 +161,14 @@ void LaneSet::fill_clocks(std::size_t l) {
       set(element, l, std::max(lane.clocks.due(e) - lane.t, 0.0));
 }
 
-void LaneSet::look(const LaneValues& values, LaneLook& seen, std::uint32_t active) {
-  std::copy_n(values.row(0), values.rows() * kLanes, look_.input(0));
-  look_.run(active);
-  seen.faults = look_.faults();
+void LaneSet::look(lanes::LaneMachine& by, const LaneValues& values, LaneLook& seen,
+                   std::uint32_t active) {
+  std::copy_n(values.row(0), values.rows() * kLanes, by.input(0));
+  by.run(active);
+  seen.faults = by.faults();
   for (std::size_t r = 0; r < seen.of.size(); ++r)
-    for (std::size_t k = 0; k < seen.of[r].rows(); ++k)
-      std::copy_n(look_.result(r, k), kLanes, seen.of[r].row(k));
+    for (std::size_t k = 0; k < by.size(r); ++k)
+      std::copy_n(by.result(r, k), kLanes, seen.of[r].row(k));
 }
 
 std::uint32_t LaneSet::begin_claims(std::uint32_t mask) {
@@ -184,8 +187,8 @@ std::uint32_t LaneSet::begin_claims(std::uint32_t mask) {
 }
 
 void LaneSet::look_all(std::uint32_t mask) {
-  look(fine_, middle_, mask);
-  look(coarse_, end_, mask);
+  look(look_, fine_, middle_, mask);
+  look(look_, coarse_, end_, mask);
   const std::uint32_t faults = middle_.faults | end_.faults | begin_claims(mask);
   each(mask, [&](std::size_t l) {
     start_.copy_lane(middle_, l);

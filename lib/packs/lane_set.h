@@ -50,7 +50,7 @@ class LaneSet {
 
   // --- Looking at values. ---
 
-  void look(const LaneValues& values, LaneLook& seen, std::uint32_t active);
+  void look(lanes::LaneMachine& by, const LaneValues& values, LaneLook& seen, std::uint32_t active);
   /// How far a watched difference may be from the true one.
   static double error_of(std::size_t w, std::size_t l, const LaneLook& fine,
                          const LaneLook& coarse) {
@@ -171,7 +171,7 @@ class LaneSet {
 
   const PackSystem& pack_;
   double horizon_;
-  lanes::LaneMachine step_, look_, begin_;
+  lanes::LaneMachine step_, look_, look_coarse_, look_between_, begin_;
   std::vector<lanes::LaneMachine> jumps_;
   std::vector<std::optional<lanes::LaneMachine>> lost_;
   LaneValues coarse_, fine_;  ///< now

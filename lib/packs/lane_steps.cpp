@@ -58,7 +58,7 @@ void LaneSet::look_between(bool mirrored, LaneLook& seen, std::uint32_t active) 
       between_.at(row, l) = sum;
     }
   }
-  look(between_, seen, active);
+  look(look_between_, between_, seen, active);
 }
 
 void LaneSet::step_all(std::uint32_t mask) {
@@ -69,11 +69,11 @@ void LaneSet::step_all(std::uint32_t mask) {
   std::copy_n(step_.result(PackSystem::error, 0), kLanes, errors_.row(0));
   step(fine_, 0.5, fine_middle_, mask, faults);
   step(fine_middle_, 0.5, fine_end_, mask, faults);
-  look(fine_middle_, middle_, mask);
+  look(look_, fine_middle_, middle_, mask);
   faults |= middle_.faults;
-  look(fine_end_, end_, mask);
+  look(look_, fine_end_, end_, mask);
   faults |= end_.faults;
-  look(coarse_end_, coarse_look_, mask);
+  look(look_coarse_, coarse_end_, coarse_look_, mask);
   faults |= coarse_look_.faults;
   look_between(false, quarter_, mask);
   look_between(true, three_quarters_, mask);

@@ -171,7 +171,9 @@ class LookCode {
         made.branches.push_back(results_[PackSystem::extras].size());
         push(PackSystem::extras, node);
       }
-    for (const int node : roots_in(value.value[0])) {
+    std::vector<int> roots = roots_in(value.value[0]);
+    for (const int tie : ties_in(value.value[0])) roots.push_back(tie);
+    for (const int node : roots) {
       made.roots.push_back(results_[PackSystem::extras].size());
       push(PackSystem::extras, node);
     }
@@ -217,14 +219,49 @@ class LookCode {
     return made;
   }
 
-  LaneCode make() { return {texts_.graph(), results_, pack_.whole}; }
+  void make() {
+    pack_.look.emplace(texts_.graph(), results_, pack_.whole);
+    using Is = PackSystem;
+    pack_.look_coarse.emplace(
+        without({Is::rates, Is::claim_rates, Is::claim_terms, Is::watch_terms, Is::extras}));
+    pack_.look_between.emplace(
+        without({Is::rates, Is::claim_rates, Is::claim_terms, Is::watch_rates, Is::watch_terms}));
+  }
 
  private:
+  LaneCode without(std::initializer_list<PackSystem::LookResult> left_out) {
+    auto results = results_;
+    for (const PackSystem::LookResult one : left_out) results[one].clear();
+    return {texts_.graph(), results, pack_.whole, {}, numbers::Computed::needed};
+  }
+
   void add_cost(const claims::Claim& claim) {
     const std::size_t element = *cost_element(claim, *pack_.system);
     push(PackSystem::claim_values, x_[element]);
     push(PackSystem::claim_rates, rates_[element]);
     push(PackSystem::claim_terms, texts_.graph().apply(ScalarOp::abs, x_[element]));
+  }
+
+  /// What is 0 where singular values of which a node is made are equal, or are 0: the squares of
+  /// their differences, which are smooth.
+  std::vector<int> ties_in(int node) {
+    using Difference = std::pair<int, int>;  // of nodes; the second may be -1
+    std::set<Difference> differences;
+    visit(node, [&](const ScalarGraph::Node& one, int at) {
+      if (one.op != ScalarOp::element) return;
+      const ScalarGraph::Block& block = texts_.graph().blocks()[index(one.a)];
+      if (block.instruction.op != expr::Op::singular_values || block.is_slope) return;
+      const int last = block.first + block.instruction.shape.size() - 1;
+      if (at > block.first) differences.insert({at - 1, at});
+      differences.insert({at, at < last ? at + 1 : -1});
+    });
+    std::vector<int> ties;
+    for (const auto& [one, other] : differences) {
+      ScalarGraph& graph = texts_.graph();
+      const int gap = other < 0 ? one : graph.subtract(one, other);
+      ties.push_back(graph.multiply(gap, gap));
+    }
+    return ties;
   }
 
   /// Visits all that a node is made of, itself first.
@@ -237,7 +274,7 @@ class LookCode {
       waiting.pop_back();
       if (at < 0 || !seen.insert(at).second) continue;
       const ScalarGraph::Node one = texts_.graph().nodes()[index(at)];
-      seen_by(one);
+      seen_by(one, at);
       if (one.op == ScalarOp::input || one.op == ScalarOp::constant) continue;
       if (one.op != ScalarOp::element) {
         waiting.insert(waiting.end(), {one.a, one.b, one.c});
@@ -251,7 +288,7 @@ class LookCode {
   /// The operands of all square roots that a node is made of.
   std::vector<int> roots_in(int node) {
     std::vector<int> found;
-    visit(node, [&](const ScalarGraph::Node& one) {
+    visit(node, [&](const ScalarGraph::Node& one, int) {
       if (one.op == ScalarOp::sqrt) found.push_back(one.a);
     });
     return found;
@@ -260,7 +297,7 @@ class LookCode {
   /// Whether a node changes along flows with more than clocks.
   bool depends_on_states(int node) {
     bool depends = false;
-    visit(node, [&](const ScalarGraph::Node& one) {
+    visit(node, [&](const ScalarGraph::Node& one, int) {
       depends = depends || (one.op == ScalarOp::input && is_state_[index(one.a)]);
     });
     return depends;
@@ -271,7 +308,7 @@ class LookCode {
   bool has_peaks(int node) {
     bool peaks = false;
     std::vector<int> operands;
-    visit(node, [&](const ScalarGraph::Node& one) {
+    visit(node, [&](const ScalarGraph::Node& one, int) {
       if (one.op == ScalarOp::divide) operands.push_back(one.b);
       if (one.op == ScalarOp::exp || one.op == ScalarOp::tanh || one.op == ScalarOp::log ||
           one.op == ScalarOp::power || one.op == ScalarOp::angle)
@@ -376,7 +413,7 @@ std::unique_ptr<const PackSystem> make_pack_system(const hybrid::System& system,
         if (!look.add(set.where, pack->flow_sets.emplace_back())) return nullptr;
     add_switches(look, *pack);
     if (look.has_peaks()) return nullptr;
-    pack->look.emplace(look.make());
+    look.make();
     pack->start.emplace(start_code(*pack, claims));
   } catch (const numbers::NoFormula&) {
     return nullptr;

@@ -85,7 +85,10 @@ struct PackSystem {
   std::vector<Watch> watches;
   std::vector<PackClaim> claims;
   std::vector<RunningCost> costs;
-  std::optional<lanes::LaneCode> step, look, start;
+  std::optional<lanes::LaneCode> step, start;
+  /// At the points of steps; at the end of the coarser run, without rates and terms of claims; and
+  /// between the points, values alone.
+  std::optional<lanes::LaneCode> look, look_coarse, look_between;
 
   /// Results of `step`.
   enum StepResult : std::size_t { end, error };

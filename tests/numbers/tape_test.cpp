@@ -149,5 +149,54 @@ TEST(Tape, TheInverseOfASmallMatrixIsThatOfReal) {
   }
 }
 
+/// The rate of a text over x as x moves by dx, and its central difference.
+std::pair<Matrix, Matrix> rates(const std::string& text, const Vector& x, const Vector& dx) {
+  expr::Scope scope;
+  scope.symbols["x"] = {{3, 1}, false};
+  const expr::Program program = expr::compile(expr::parse({text, "test"}), scope);
+  ScalarGraph graph;
+  TracedMatrix moving{{3, 1}, {graph.input(0), graph.input(1), graph.input(2)}};
+  moving.slopes = {{graph.input(3), graph.input(4), graph.input(5)}};
+  const TracedMatrix traced = trace(
+      program, [&](const expr::Input&) { return moving; }, graph);
+  Tape tape(graph, {traced.value, traced.slopes[0]}, 6);
+  const auto result = [&](const Vector& at, std::size_t which) {
+    std::copy_n(at.data(), 3, tape.inputs());
+    std::copy_n(dx.data(), 3, tape.inputs() + 3);
+    EXPECT_TRUE(tape.run());
+    Matrix value(traced.shape.rows, traced.shape.cols);
+    tape.copy(which, value.data());
+    return value;
+  };
+  const double h = 1e-6;
+  const Matrix difference = (result(x + h * dx, 0) - result(x - h * dx, 0)) / (2 * h);
+  return {result(x, 1), difference};
+}
+
+TEST(Tape, OperationsOnMatricesHaveRates) {
+  const std::string wide = "[x(1), x(2), 1; x(2), x(3)^2, x(1)]";
+  const std::string large = "kron([x(1), x(2); x(2), x(3)], eye(5) + x(1)*ones(5, 5))";
+  const std::string texts[] = {"svd(" + wide + ")",
+                               "svd(" + wide + "')",
+                               "norm(" + wide + ")",
+                               "pinv(" + wide + ")",
+                               "det([x(1), 2; x(2), x(3)])",
+                               "lambda_min([x(1), x(2); x(2), x(3)])",
+                               "lambda_max([x(1), x(2), 0; x(2), x(3), 1; 0, 1, 4])",
+                               "norm(" + large + ")"};
+  for (const std::string& text : texts)
+    for (const Vector& x : {point(0.3, 2, -1), point(-1.5, 0.25, 2)}) {
+      const auto [rate, difference] = rates(text, x, point(0.7, -0.2, 1.1));
+      EXPECT_LE((rate - difference).cwiseAbs().maxCoeff(), 1e-7 * (1 + difference.norm())) << text;
+    }
+}
+
+TEST(Tape, ARateOfEqualSingularValuesIsBetweenThoseOfBothSides) {
+  const auto [rate, difference] =
+      rates("svd([1 + x(1), 0; 0, 1 - x(1)])", point(0, 0, 0), point(1, 0, 0));
+  EXPECT_LE(rate.cwiseAbs().maxCoeff(), 1);
+  EXPECT_EQ(rates("norm([x(1), 0; 0, x(2)])", point(0, 0, 0), point(1, 1, 0)).first(0), 0);
+}
+
 }  // namespace
 }  // namespace gainsmith::numbers

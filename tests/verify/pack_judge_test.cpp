@@ -202,6 +202,24 @@ method:
     energy: {nonincreasing: "9.81*x(1) + x(2)^2/2", tolerance: 1e-9}
     rests: {shrinks: norm(x), to: 1e-5}
 campaign: {runs: 96, horizon: 20, initial: {x: {box: ["[1; -1]", "[4; 1]"]}}}
+)yaml"},
+    // M has the eigenvalues 1 + |x|, 1 - |x|, which meet wherever x(1) and x(2) are 0 at once.
+    {"eigenvalues, norms and determinants of matrices", R"yaml(problem: p
+method:
+  method: m
+  plant:
+    state: {x: {shape: 2, start: 0}, P: {shape: symmetric 3, start: I}}
+    flow: {x: "[x(2); -x(1)]", P: "He([0, 1, 0; 0, 0, 1; -1, -2, -2]*P) + [0.1, 0, 0; 0, 0.2, 0; 0, 0, x(1)^2]"}
+  signals: {M: "[1 + x(1), 0; 0, 1 - x(1)]", N: "[1, x(1); x(2), 0; 0, x(1)]"}
+  claims:
+    least: {above: lambda_min(P), bound: 0.1}
+    meet: {below: lambda_min(M), bound: 0.99999}
+    apart: {above: lambda_max(M), bound: 1.00001}
+    size: {below: norm(N), bound: 1.6}
+    volume: {above: det(P), bound: 0.01}
+    inverse: {below: "norm(pinv(N)(1, :))", bound: 1.2}
+    shrinks: {shrinks: norm(P), to: 0.9}
+campaign: {runs: 96, horizon: 6, initial: {x: {box: [-1, 1]}}}
 )yaml"}};
 
 class PackRuns : public testing::TestWithParam<PackCase> {};
