@@ -42,6 +42,11 @@ model::ClaimRecord claim_record(const verify::CheckReport& check) {
   return record;
 }
 
+std::string replay_command(const std::string& gains_file, std::uint64_t run, std::uint64_t seed) {
+  return fmt::format("gainsmith simulate {} --run {} --seed {} -o run.csv",
+                     model::quoted(gains_file), run, seed);
+}
+
 std::string runs_text(std::uint64_t runs) {
   return fmt::format("{} run{}", runs, runs == 1 ? "" : "s");
 }
@@ -49,6 +54,15 @@ std::string runs_text(std::uint64_t runs) {
 /// Whether nothing is known of the value any more.
 bool has_parted(const claims::Finding& finding) {
   return finding.estimated && !std::isfinite(finding.rounding);
+}
+
+/// With as many digits as tell them apart.
+std::pair<std::string, std::string> told_apart(double value, double bound) {
+  constexpr int kUsual = 6, kMost = 17;
+  for (int digits = kUsual; digits < kMost; ++digits)
+    if (auto one = brief(value, digits), other = brief(bound, digits); one != other || value == bound)
+      return {one, other};
+  return {brief(value, kMost), brief(bound, kMost)};
 }
 
 /// Why nothing is certain of an undecided comparison.
@@ -93,9 +107,9 @@ std::string check_text(const verify::CheckReport& check, std::size_t width) {
     return text + fmt::format("{} run {}, stopped before its values were known\n",
                               held ? "nearest" : "worst", check.worst_run);
   if (worst.ended) return text + fmt::format("run {} {}\n", check.worst_run, end_text(worst));
-  text +=
-      fmt::format("{} run {}: {} against {} at (t, j) = ({}, {})\n", held ? "nearest" : "worst",
-                  check.worst_run, brief(worst.value), brief(worst.bound), brief(worst.t), worst.j);
+  const auto [value, bound] = told_apart(worst.value, worst.bound);
+  text += fmt::format("{} run {}: {} against {} at (t, j) = ({}, {})\n", held ? "nearest" : "worst",
+                      check.worst_run, value, bound, brief(worst.t), worst.j);
   if (check.kind == model::ClaimKind::shrinks && worst.violated())
     text +=
         "               the end of a run is compared with its start: a longer campaign.horizon "
@@ -263,8 +277,7 @@ std::string campaign_line(const model::CampaignRecord& record) {
 std::vector<std::string> campaign_causes(const verify::Report& report,
                                          const std::string& gains_file) {
   const auto replay = [&](std::uint64_t run) {
-    return fmt::format("; replay: gainsmith simulate {} --run {} --seed {}",
-                       model::quoted(gains_file), run, report.seed);
+    return "; replay: " + replay_command(gains_file, run, report.seed);
   };
   std::vector<std::string> causes;
   if (report.verdict == model::CampaignVerdict::undecided && report.first_undecided)
@@ -303,8 +316,8 @@ std::string campaign_summary(const verify::Report& report, const std::string& ga
   if (report.violation_probability < 1)
     text += fmt::format("  with {} % confidence at most {} of such runs violate\n",
                         brief(100 * report.confidence), brief(report.violation_probability, 3));
-  return text + fmt::format("  replay      gainsmith simulate {} --run {} --seed {}\n", gains_file,
-                            report.worst_run, report.seed);
+  return text +
+         "  replay      " + replay_command(gains_file, report.worst_run, report.seed) + "\n";
 }
 
 }  // namespace gainsmith::app

@@ -133,6 +133,19 @@ std::optional<model::Gains> rounded(const ExportOptions& options, const LoadedGa
   return std::nullopt;
 }
 
+/// False, after a word on it, for gains whose file says yes and for which an inequality does not hold:
+/// they were changed.
+bool hold(const ExportOptions& options, const LoadedGains& loaded) {
+  if (loaded.gains.verdict != model::Verdict::yes) return true;
+  const design::GainCheck check = check_gains(loaded);
+  if (check.verdict != model::Verdict::no) return true;
+  const std::string which = not_shown_text(check);
+  say(fmt::format("gainsmith: {}: the inequalities do not hold at these gains{}{}; nothing is "
+                  "written ('gainsmith check {}' has the margins)\n",
+                  loaded.gains.file, which.empty() ? "" : ": ", which, model::quoted(options.gains)));
+  return false;
+}
+
 void check_output(const ExportOptions& options) {
   const bool to_stdout = options.output.empty() || options.output == "-";
   if (to_stdout && (options.target == "csv" || options.target == "mat"))
@@ -154,11 +167,13 @@ ExitCode export_gains(const ExportOptions& options) {
   check_output(options);
   prepare_outputs(options.gains, {options.output});
   LoadedGains loaded = load_gains(options.gains);
+  ExitCode exit = ExitCode::yes;
   if (options.single) {
-    ExitCode exit = ExitCode::yes;
     auto single = rounded(options, loaded, exit);
     if (!single) return exit;
     loaded.gains = std::move(*single);
+  } else if (!hold(options, loaded)) {
+    return ExitCode::no;
   }
   const model::Design& design = *loaded.stated.design;
   const model::Stated stated = bind::state(loaded.stated, loaded.gains);
@@ -208,9 +223,9 @@ Command export_command() {
            Option("--float", options->single,
                   "round the gains to single precision and show every inequality again there")},
           "C, MATLAB and Python have the maps of the observers too.\n"
-          "Exit code: 0 written, 2 wrong input; with --float 1 or 3 where the inequalities do not "
-          "hold at the\n"
-          "rounded gains, or are not shown: nothing is written then.\n"
+          "Exit code: 0 written, 1 the inequalities do not hold at the gains, with --float at the "
+          "rounded ones,\n"
+          "2 wrong input, 3 with --float they are not shown; but for 0 nothing is written.\n"
           "Examples:\n"
           "  gainsmith export gains.json --to c -o observer.h\n"
           "  gainsmith export gains.json --to c --float -o observer.h\n"

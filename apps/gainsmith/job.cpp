@@ -70,12 +70,18 @@ void set_interrupted(const std::string& line, JobResult& result) {
 constexpr std::array kWritten = {"gains.json",    "campaign.json", "summary.txt",
                                  "worst-run.csv", "worst-run.svg", "result.json"};
 
-/// Makes the folder and removes what an earlier run left in it.
+/// Removes what an earlier run left in the folder.
+void clear(const fs::path& folder) {
+  std::error_code ignored;
+  for (const char* name : kWritten) fs::remove(folder / name, ignored);
+}
+
+/// The folder, without what an earlier run left in it.
 void prepare(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw InputError({folder.string()}, "cannot make this folder: " + error.message());
-  for (const char* name : kWritten) fs::remove(folder / name, error);
+  clear(folder);
 }
 
 /// Why there are no gains, in one line: the hidden mode, or what conflicts.
@@ -282,8 +288,10 @@ JobResult run_job(const std::filesystem::path& problem, const std::string& name,
   const auto start = std::chrono::steady_clock::now();
   JobResult result;
   result.name = name;
+  // What has not begun may be kept.
+  const bool begins = !is_stopping();
   try {
-    if (is_stopping()) throw Interrupted("interrupted before it began");
+    if (!begins) throw Interrupted("interrupted before it began");
     Job(problem, folder, options, result.gains_hash).run(result);
   } catch (const Interrupted& stop) {
     set_interrupted(stop.what(), result);
@@ -302,6 +310,7 @@ JobResult run_job(const std::filesystem::path& problem, const std::string& name,
   if (result.kept) return result;
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!result.interrupted) write_job(problem, folder, result);
+  if (result.interrupted && (begins || !options.resume)) clear(folder);
   return result;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 
 namespace gainsmith::app {
 
@@ -31,6 +32,15 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
+/// "NO: ...", where the words do not begin so.
+std::string with_mark(const std::string& mark, const std::string& words) {
+  const auto same = [](char a, char b) { return a == std::tolower(static_cast<unsigned char>(b)); };
+  const bool begins = words.size() > mark.size() && words[mark.size()] == ':' &&
+                      std::equal(mark.begin(), mark.end(), words.begin(),
+                                 [&](char a, char b) { return same(b, a); });
+  return mark + (begins ? words.substr(mark.size()) : ": " + words);
+}
+
 std::string test_case(const JobResult& result) {
   std::string text =
       fmt::format("    <testcase classname=\"gainsmith\" name=\"{}\" time=\"{:.3f}\"",
@@ -44,7 +54,7 @@ std::string test_case(const JobResult& result) {
   for (const std::string& one : result.causes) details += "\n" + one;
   for (const std::string& difference : result.differences) details += "\n" + difference;
   return text + fmt::format(">\n      <{0} message=\"{1}\">{2}</{0}>\n    </testcase>\n", element,
-                            escaped(mark_of(result.exit) + ": " + cause), escaped(details));
+                            escaped(with_mark(mark_of(result.exit), cause)), escaped(details));
 }
 
 }  // namespace

@@ -164,8 +164,10 @@ io::MethodLibrary built_in_methods() {
 }
 
 bool is_gain_file(const std::filesystem::path& path) {
-  std::error_code none;  // a pipe can be read once only
-  return std::filesystem::is_regular_file(path, none) && is_gain_text(read_text(path));
+  std::error_code none;
+  const bool is_text = path == "-" || (std::filesystem::exists(path, none) &&
+                                       !std::filesystem::is_directory(path, none));
+  return is_text && is_gain_text(read_text(path));
 }
 
 std::function<void(model::Problem&)> effort(const std::string& word) {

@@ -33,7 +33,8 @@ void make_folder_of(const std::filesystem::path& file) {
 void prepare_outputs(const std::string& input, const std::vector<std::string>& outputs) {
   std::error_code ignored;
   for (const std::string& path : outputs)
-    if (!path.empty() && std::filesystem::equivalent(path, input, ignored))
+    if (!path.empty() && path != "-" && input != "-" &&
+        std::filesystem::equivalent(path, input, ignored))
       throw InputError({path}, "this is the input file; choose another output");
   for (auto path = outputs.begin(); path != outputs.end(); ++path)
     if (!path->empty() && std::find(outputs.begin(), path, *path) != path)

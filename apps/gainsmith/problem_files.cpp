@@ -21,30 +21,11 @@ bool is_folder(const fs::path& path) {
   return fs::is_directory(path, none);
 }
 
-bool is_problem(const fs::directory_entry& entry) {
-  const fs::path ending = entry.path().extension();
-  return (ending == ".yaml" || ending == ".yml") && !is_folder(entry.path());
-}
+bool is_hidden(const fs::path& path) { return path.filename().string().starts_with('.'); }
 
-std::vector<ProblemFile> files_below(const fs::path& folder) {
-  const auto require = [&](const std::error_code& error) {
-    if (error)
-      throw InputError({folder.string()}, "cannot read all of this folder: " + error.message());
-  };
-  std::vector<ProblemFile> files;
-  std::error_code error;
-  fs::recursive_directory_iterator entry(folder, error);
-  require(error);
-  for (; entry != fs::recursive_directory_iterator(); entry.increment(error), require(error)) {
-    if (!is_problem(*entry)) continue;
-    fs::path relative = entry->path().lexically_relative(folder);
-    files.push_back({entry->path(), relative.replace_extension().string()});
-  }
-  require(error);
-  std::sort(files.begin(), files.end(),
-            [](const ProblemFile& a, const ProblemFile& b) { return a.path < b.path; });
-  if (files.empty()) throw InputError({folder.string()}, "this folder holds no .yaml file");
-  return files;
+bool is_problem(const fs::path& path) {
+  const fs::path ending = path.extension();
+  return (ending == ".yaml" || ending == ".yml") && !is_hidden(path) && !is_folder(path);
 }
 
 /// One path for all ways to a file; of one that does not exist its own.
@@ -62,6 +43,29 @@ std::string end_of(const fs::path& path, std::size_t folders) {
     above = above.parent_path();
   }
   return end.string();
+}
+
+std::vector<ProblemFile> files_below(const fs::path& folder) {
+  const auto require = [&](const std::error_code& error) {
+    if (error)
+      throw InputError({folder.string()}, "cannot read all of this folder: " + error.message());
+  };
+  std::vector<ProblemFile> files;
+  std::error_code error;
+  fs::recursive_directory_iterator entry(folder, error);
+  require(error);
+  for (; entry != fs::recursive_directory_iterator(); entry.increment(error), require(error)) {
+    if (is_folder(entry->path()) && is_hidden(entry->path())) entry.disable_recursion_pending();
+    if (!is_problem(entry->path())) continue;
+    fs::path relative = entry->path().lexically_relative(folder);
+    files.push_back({entry->path(), relative.replace_extension().string()});
+  }
+  require(error);
+  std::sort(files.begin(), files.end(),
+            [](const ProblemFile& a, const ProblemFile& b) { return a.path < b.path; });
+  // One that cannot be read, so that the others are run all the same.
+  if (files.empty()) files.push_back({folder / "*.yaml", end_of(identity(folder), 0)});
+  return files;
 }
 
 /// Whether any two are equal.

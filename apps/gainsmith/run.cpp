@@ -138,7 +138,16 @@ std::vector<ProblemFile> own_problems(const RunOptions& options) {
   return problems_of_shard(all, parse_shard(options.shard), options.times);
 }
 
+/// InputError for standard output, which has the lines of results, or their JSON.
+void refuse_standard_output(const RunOptions& options) {
+  if (options.output == "-")
+    throw InputError({"-o"}, "expected a folder for the results, not '-'");
+  if (options.junit == "-")
+    throw InputError({"--junit"}, "expected a file: standard output has the lines of the results");
+}
+
 ExitCode run(const RunOptions& options) {
+  refuse_standard_output(options);
   const std::vector<ProblemFile> items = own_problems(options);
   if (items.empty()) say(fmt::format("part {} has no problem\n", options.shard));
   const std::string page = options.report ? report_file(options) : "";
@@ -173,8 +182,9 @@ ExitCode run(const RunOptions& options) {
                                   [](const JobResult& result) { return result.interrupted; });
   if (open > 0)
     say(fmt::format("interrupted: {} of {} problems have no answer{}\n", open, results.size(),
-                    options.job.resume ? "; the same command goes on with them"
-                                       : "; with --resume the same command goes on with them"));
+                    options.job.resume
+                        ? "; the same command keeps the others and begins these again"
+                        : "; with --resume the same command keeps the others"));
   return worst;
 }
 

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <map>
+#include <mutex>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -86,9 +88,7 @@ bool is_special(const std::filesystem::path& path) {
          std::filesystem::is_socket(status);
 }
 
-}  // namespace
-
-std::string read_text(const std::filesystem::path& path) {
+std::string read_bytes(const std::filesystem::path& path) {
   const bool standard_input = path == "-";
   const Descriptor file(standard_input ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (file.get() < 0 && errno == ENOENT)
@@ -107,6 +107,17 @@ std::string read_text(const std::filesystem::path& path) {
     if (count == 0) return text;
     text.append(chunk, 0, static_cast<std::size_t>(count));
   }
+}
+
+}  // namespace
+
+std::string read_text(const std::filesystem::path& path) {
+  if (path != "-" && !is_special(path)) return read_bytes(path);
+  static std::mutex mutex;
+  static std::map<std::filesystem::path, std::string> known;
+  const std::scoped_lock lock(mutex);
+  const auto found = known.find(path);
+  return found != known.end() ? found->second : known.emplace(path, read_bytes(path)).first->second;
 }
 
 void write_atomically(const std::filesystem::path& path, std::string_view text) {

@@ -144,9 +144,13 @@ void bind_expectation(Binding& binding) {
   bound.place = expect.place;
   for (const model::ExpectedValue& each : expect.values) {
     model::Formula what = formula(each.what, binding.names->results);
-    model::Formula wanted = value(each.value, binding.names->known, what.program.shape());
-    bound.values.push_back(
-        {each.name, std::move(what), std::move(wanted), each.relative, each.absolute, each.place});
+    const auto of = [&](const std::optional<model::Value>& wanted) -> std::optional<model::Formula> {
+      if (!wanted) return std::nullopt;
+      return value(*wanted, binding.names->known, what.program.shape());
+    };
+    auto wanted = of(each.value), below = of(each.below), above = of(each.above);
+    bound.values.push_back({each.name, std::move(what), std::move(wanted), std::move(below),
+                            std::move(above), each.relative, each.absolute, each.place});
   }
   for (const model::ExpectedFigureText& text : expect.run) {
     model::ExpectedFigure figure{only(figures(binding, text.figure)), std::nullopt, text.ending,

@@ -46,19 +46,9 @@ class Comparison {
   void value(const model::Design::ExpectedValue& expected) {
     const auto value = results_.value(expected.what);
     if (!value) return add(expected.place, expected.name, "a value", "none");
-    const numbers::Matrix& found = *value;
-    const numbers::Matrix wanted = results_.value(expected.value).value();
-    double allowed = expected.absolute.value_or(0);
-    if (expected.relative)
-      allowed = std::max(allowed, *expected.relative * wanted.cwiseAbs().maxCoeff());
-    Eigen::Index row = 0, column = 0;
-    const double difference = (found - wanted).cwiseAbs().maxCoeff(&row, &column);
-    if (difference <= allowed) return;
-    const std::string most = found.size() == 1 ? ""
-                                               : ", most different at (" + std::to_string(row + 1) +
-                                                     ", " + std::to_string(column + 1) + ")";
-    add(expected.place, expected.name, text_of(wanted) + " within " + brief(allowed),
-        text_of(found) + most);
+    if (expected.value) near(expected, *value);
+    if (expected.below) within(expected, *expected.below, "at most ", 1, *value);
+    if (expected.above) within(expected, *expected.above, "at least ", -1, *value);
   }
 
   void bounds(const std::vector<std::string>& expected, const Place& place) {
@@ -72,6 +62,37 @@ class Comparison {
   std::vector<std::string> take() { return std::move(differences_); }
 
  private:
+  using Expected = model::Design::ExpectedValue;
+
+  void near(const Expected& expected, const numbers::Matrix& found) {
+    const numbers::Matrix wanted = results_.value(*expected.value).value();
+    double allowed = expected.absolute.value_or(0);
+    if (expected.relative)
+      allowed = std::max(allowed, *expected.relative * wanted.cwiseAbs().maxCoeff());
+    Eigen::Index row = 0, column = 0;
+    const double difference = (found - wanted).cwiseAbs().maxCoeff(&row, &column);
+    if (difference <= allowed) return;
+    add(expected.place, expected.name, text_of(wanted) + " within " + brief(allowed),
+        text_of(found) + most_at(found, ", most different at ", row, column));
+  }
+
+  /// Of each element sign*found <= sign*bound.
+  void within(const Expected& expected, const model::Formula& bound, const std::string& word,
+              double sign, const numbers::Matrix& found) {
+    const numbers::Matrix limit = results_.value(bound).value();
+    Eigen::Index row = 0, column = 0;
+    if ((sign * (found - limit)).maxCoeff(&row, &column) <= 0) return;
+    add(expected.place, expected.name, word + text_of(limit),
+        text_of(found) + most_at(found, ", farthest from it at ", row, column));
+  }
+
+  /// Empty of a number.
+  static std::string most_at(const numbers::Matrix& found, const std::string& words,
+                             Eigen::Index row, Eigen::Index column) {
+    if (found.size() == 1) return "";
+    return words + "(" + std::to_string(row + 1) + ", " + std::to_string(column + 1) + ")";
+  }
+
   void add(const Place& place, const std::string& what, const std::string& expected,
            const std::string& found) {
     differences_.push_back(to_string(place) + ": " + what + ": expected " + expected + ", found " +

@@ -198,15 +198,55 @@ std::optional<HiddenMode> hidden_mode(const numbers::Matrix& A, const numbers::M
   return hidden_among(modes_of(A, C, row_sizes(C), modes), kRank);
 }
 
+namespace {
+
+/// The data A and `name`, with as many columns or rows; none where one is missing.
+std::optional<std::pair<numbers::Matrix, numbers::Matrix>> pair_of(const model::Instance& instance,
+                                                                   const std::string& name) {
+  const auto A = instance.values.find("A");
+  const auto other = instance.values.find(name);
+  if (A == instance.values.end() || other == instance.values.end()) return std::nullopt;
+  if (!is_declared(*instance.design, "A", true) || !is_declared(*instance.design, name, false))
+    return std::nullopt;
+  return std::pair(A->second, other->second);
+}
+
+/// Whether the plant's state flows by a gain through `input`.
+bool is_driven(const model::Design& design, const std::string& input) {
+  if (!design.dynamics || design.states.empty()) return false;
+  const auto uses = [&](const expr::Program& flow) {
+    return flow.uses(input) && std::any_of(design.gains.begin(), design.gains.end(),
+                                           [&](const auto& gain) { return flow.uses(gain.name); });
+  };
+  const auto& flow = design.dynamics->flow;
+  return std::any_of(flow.begin(), flow.end(), [&](const auto& each) {
+    return design.dynamics->variables[each.variable].name == design.states.front().name &&
+           uses(each.value.program);
+  });
+}
+
+/// A mode that no input reaches, of a plant that gains drive.
+std::string unreached_mode_text(const model::Instance& instance) {
+  for (const char* name : {"B", "B2"}) {
+    const auto pair = is_driven(*instance.design, name) ? pair_of(instance, name) : std::nullopt;
+    if (!pair || pair->second.rows() != pair->first.rows()) continue;
+    if (const auto mode = hidden_mode(pair->first.transpose(), pair->second.transpose()))
+      return "the input does not reach a mode of the plant that does not decay: eigenvalue " +
+             eigenvalue_text(*mode) + " in the combination " + direction_text(*mode) +
+             " of the states, where [A - lambda*I, " + name +
+             "] loses rank (Hautus); no gain changes it, so another input is needed";
+  }
+  return "";
+}
+
+}  // namespace
+
 std::string hidden_mode_text(const model::Instance& instance) {
   const model::Design& design = *instance.design;
-  if (!is_declared(design, "A", true) || !is_declared(design, "C", false)) return "";
-  const auto A = instance.values.find("A");
-  const auto C = instance.values.find("C");
-  if (A == instance.values.end() || C == instance.values.end() ||
-      A->second.cols() != C->second.cols() || design.states.empty())
-    return "";
-  const auto mode = hidden_mode(A->second, C->second);
+  if (std::string unreached = unreached_mode_text(instance); !unreached.empty()) return unreached;
+  const auto pair = pair_of(instance, "C");
+  if (!pair || pair->first.cols() != pair->second.cols() || design.states.empty()) return "";
+  const auto mode = hidden_mode(pair->first, pair->second);
   if (!mode) return "";
   return "the output does not show a mode of the plant that does not decay: eigenvalue " +
          eigenvalue_text(*mode) + " in the direction " + direction_text(*mode) +

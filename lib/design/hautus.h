@@ -1,4 +1,5 @@
-// Why no observer can be found: a mode of the plant that its output does not show.
+// Why no gains can be found: a mode of the plant that its output does not show, or that its input
+// does not reach.
 #pragma once
 
 #include <complex>
@@ -29,7 +30,7 @@ std::optional<HiddenMode> hidden_mode(const numbers::Matrix& A, const numbers::M
                                       Modes modes = Modes::not_decaying);
 
 /// The same for the data A (n x n) and C (p x n) of a design that declares them so, as a sentence;
-/// empty without one.
+/// or of (A', B') for the data B, B2 (n x m) through which gains drive the plant. Empty without one.
 std::string hidden_mode_text(const model::Instance& instance);
 
 /// The same of the plant's linearisation by its state x, where its output y = h(x) is one of the

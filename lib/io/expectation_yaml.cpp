@@ -25,13 +25,24 @@ model::ExpectedValue expected_value(const YamlFile& file, const YamlItem& item) 
   model::ExpectedValue result;
   result.name = item.key;
   result.what = expr::parse(item.key_text);
-  result.value = value_of(file, map.require("value"));
+  const auto read = [&](const char* key, std::optional<model::Value>& to) {
+    if (const auto found = map.find(key)) to = value_of(file, *found);
+  };
+  read("value", result.value);
+  read("below", result.below);
+  read("above", result.above);
   result.relative = tolerance(file, map.find("relative"));
   result.absolute = tolerance(file, map.find("absolute"));
   result.place = item.place;
   map.finish();
-  if (!result.relative && !result.absolute)
+  if (!result.value && !result.below && !result.above)
+    throw InputError(item.place, item.key + ": expected a 'value' with its tolerance, 'relative' or "
+                                            "'absolute'; or a bound, 'below' or 'above'");
+  const bool tolerated = result.relative || result.absolute;
+  if (result.value && !tolerated)
     throw InputError(item.place, item.key + ": expected a tolerance, 'relative' or 'absolute'");
+  if (!result.value && tolerated)
+    throw InputError(item.place, item.key + ": a tolerance is of a 'value'; bounds have none");
   return result;
 }
 

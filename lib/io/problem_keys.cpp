@@ -93,10 +93,12 @@ constexpr std::array kExpectation = {
     Key{"values", "{expected value}?", "expressions with their values"},
     Key{"run", "[expected figure]", "figures of one run"}};
 
-constexpr std::array kExpectedValue = {Key{"value", "matrix", "", kRequired},
+constexpr std::array kExpectedValue = {Key{"value", "matrix"},
                                        Key{"relative", "number", "tolerance"},
-                                       Key{"absolute", "number", "tolerance"}};
-constexpr std::array kExpectedValueRules = {Rule::some("relative,absolute")};
+                                       Key{"absolute", "number", "tolerance"},
+                                       Key{"below", "matrix", "each element is at most this"},
+                                       Key{"above", "matrix", "each element is at least this"}};
+constexpr std::array kExpectedValueRules = {Rule::some("value,below,above")};
 
 constexpr std::array kFigure = {
     Key{"observer", "text", "of which observer"},
@@ -184,7 +186,7 @@ const Level accuracy = {"accuracy", "Accuracy of the integration", kAccuracy};
 const Level start = {"start", "Where a state starts", kStart, kStartRules};
 const Level ellipsoid = {"ellipsoid", "Starts in an ellipsoid", kEllipsoid};
 const Level expectation = {"expectation", "What results are compared with", kExpectation};
-const Level expected_value = {"expected value", "A value with its tolerance", kExpectedValue,
+const Level expected_value = {"expected value", "A value with its tolerance, or bounds", kExpectedValue,
                               kExpectedValueRules};
 const Level expected_figure = {"expected figure", "A figure with its value", kExpectedFigure,
                                kExpectedFigureRules};

@@ -217,7 +217,7 @@ struct Design {
   struct ExpectedValue {
     std::string name;
     Formula what;
-    Formula value;
+    std::optional<Formula> value, below, above;
     std::optional<double> relative;
     std::optional<double> absolute;
     Place place;

@@ -72,11 +72,11 @@ struct Campaign {
   Place place;
 };
 
-/// An expected number or matrix, with a tolerance.
+/// An expected number or matrix, with a tolerance or with bounds of each element.
 struct ExpectedValue {
   std::string name;  ///< the expression as written, such as trace(P1)
   expr::Expression what;
-  Value value;
+  std::optional<Value> value, below, above;
   std::optional<double> relative;  ///< |found - value| <= relative * max |value|
   std::optional<double> absolute;  ///< |found - value| <= absolute, element by element
   Place place;
