@@ -56,6 +56,8 @@ std::string better_lines(const model::Instance& instance, const design::Explanat
     text += fmt::format("{:<12}{}\n", "plant", fixed);
   if (explanation.limits) return text + matrices_line(*instance.design);
   if (!explanation.reaches.empty()) return text;
+  if (explanation.gains.objective)
+    return text + "limited by  not known: the least objective was not found\n";
   const std::vector<std::string> scalars = design::scalars_in_use(*instance.design);
   text +=
       "limited by  nothing is minimised, so one solution is as good as another; state what is to "

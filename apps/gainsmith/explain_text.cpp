@@ -116,8 +116,10 @@ std::string relaxations_text(const std::vector<design::Relaxation>& relaxations)
   for (const auto& relaxation : relaxations)
     text += fmt::format(
         "{:<{}}  {:>14}  {:>14}  {:>10}  {:>14}  {:>14}\n", relaxation.name, width,
-        number(relaxation.alone, relaxation.alone_at_most,
-               relaxation.alone_undecided ? "undecided" : "does not help"),
+        relaxation.alone == 0.0
+            ? "any above 0"
+            : number(relaxation.alone, relaxation.alone_at_most,
+                     relaxation.alone_undecided ? "undecided" : "does not help"),
         number(relaxation.together, relaxation.together_at_most, "undecided"),
         brief(relaxation.scale, 3),
         number(in_units(relaxation.alone, relaxation), relaxation.alone_at_most, "-"),

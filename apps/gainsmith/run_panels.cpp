@@ -219,12 +219,12 @@ class Planner {
         }));
   }
 
-  /// One panel an input.
+  /// One panel an input; u and z are an input and what is to stay small, by custom.
   void add_inputs() {
     std::vector<std::string> stems;
     for (const std::size_t k : columns([&](const Column& one) {
            return (one.kind == Kind::signal || one.kind == Kind::other) && one.observer.empty() &&
-                  view_.inputs.contains(one.stem);
+                  (view_.inputs.contains(one.stem) || one.stem == "u" || one.stem == "z");
          }))
       if (stems.empty() || stems.back() != column(k).stem) stems.push_back(column(k).stem);
     for (const std::string& stem : stems) {

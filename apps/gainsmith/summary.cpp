@@ -187,17 +187,18 @@ std::string verdict_line(const model::Gains& gains) {
 }
 
 std::string margins_note(const model::Gains& gains) {
-  const bool is_minimum = gains.objective_lower_bound.has_value();
+  // A minimum lies on the boundary of its constraints: its margins are small.
+  if (gains.objective_lower_bound) return "";
   std::string below;
   for (const model::Margin& margin : gains.margins) {
-    if (margin.is_far_below() && !is_minimum) return "";  // the message says so
+    if (margin.is_far_below()) return "";  // the message says so
     if (margin.is_below())
       below += fmt::format("{}{} {} of {}", below.empty() ? "" : ", ", margin.name,
                            brief(margin.reached, 2), brief(margin.required, 2));
   }
   if (below.empty()) return "";
-  return "margins     less than asked for (" + below + ")" +
-         (is_minimum ? ": an optimum lies on the boundary of its constraints" : "") +
+  return "margins     less than asked for (" + below +
+         ")"
          "\n            the check decides, which shows each inequality at the printed decimals\n";
 }
 

@@ -30,16 +30,22 @@ void refuse_unknown_names(const Binding& binding) {
                           const char* key, const char* other) {
     for (const model::Value& value : values) {
       if (std::find(known.begin(), known.end(), value.name) != known.end()) continue;
+      // What is given already is no misspelling of this one.
+      std::vector<std::string> missing;
+      for (const std::string& one : known)
+        if (std::none_of(values.begin(), values.end(),
+                         [&](const model::Value& other) { return other.name == one; }))
+          missing.push_back(one);
       const bool misplaced =
           std::find(elsewhere.begin(), elsewhere.end(), value.name) != elsewhere.end();
-      throw InputError(value.place,
-                       "the method " + binding.method().name + " has no " + what + " '" +
-                           value.name + "'" +
-                           (misplaced       ? "; write it under '" + std::string(other) + "'"
-                            : known.empty() ? "; declare it under '" + std::string(key) +
-                                                  "' of the method with its shape, such as " +
-                                                  value.name + ": scalar or n x p"
-                                            : suggestion(value.name, known)));
+      throw InputError(
+          value.place,
+          "the method " + binding.method().name + " has no " + what + " '" + value.name + "'" +
+              (misplaced       ? "; write it under '" + std::string(other) + "'"
+               : known.empty() ? "; declare it under '" + std::string(key) +
+                                     "' of the method with its shape, such as " + value.name +
+                                     ": scalar or n x p"
+                               : suggestion(value.name, missing.empty() ? known : missing)));
     }
   };
   refuse(binding.problem().data, data, parameters, "datum", "data", "parameters");

@@ -286,9 +286,11 @@ Attempt attempt(const Posed& posed, Question question, const Solve& solve) {
   return result;
 }
 
-std::optional<Attempt> blended(const Posed& posed, const Attempt& minimum, const Attempt& inside) {
-  const std::vector<double> least =
-      lmi::read_back(posed.lmi, minimum.formulation, minimum.solution);
+namespace {
+
+/// From `least` on towards the point inside, as far as it takes; by the records of `minimum`.
+std::optional<Attempt> blended_from(const Posed& posed, const Attempt& minimum,
+                                    const std::vector<double>& least, const Attempt& inside) {
   if (!is_finite(least)) return std::nullopt;
   std::optional<Attempt> result;
   const auto holds_at = [&](double fraction) {
@@ -317,6 +319,47 @@ std::optional<Attempt> blended(const Posed& posed, const Attempt& minimum, const
     break;
   }
   return result;
+}
+
+/// 1 + x_i/r_i >= 0 and 1 - x_i/r_i >= 0 beside the bounds, with r_i = kReach times the largest unknown of
+/// the point inside, in balanced units.
+lmi::GainBounds within_reach(const Attempt& minimum, const Attempt& inside) {
+  constexpr double kReach = 1e3;
+  lmi::GainBounds bounds = minimum.question.bounds;
+  const lmi::Balance& balance = minimum.formulation.balance;
+  double largest = 0;
+  for (std::size_t i = 0; i < inside.x.size(); ++i)
+    largest = std::max(largest, std::abs(inside.x[i]) / balance.unit(static_cast<int>(i) + 1));
+  const auto number = [](double value) {
+    lmi::Sparse matrix(1, 1);
+    matrix.insert(0, 0) = value;
+    return matrix;
+  };
+  for (int i = 1; i <= std::ssize(inside.x); ++i)
+    for (const double sign : {1.0, -1.0}) {
+      lmi::AffineForm form{{1, 1}, {}};
+      form.terms.emplace(std::pair(0, 0), number(1));
+      form.terms.emplace(std::pair(0, i), number(sign / (kReach * largest * balance.unit(i))));
+      bounds.blocks.push_back(lmi::block_of(form, "reach", "", false, {}));
+    }
+  return bounds;
+}
+
+}  // namespace
+
+std::optional<Attempt> blended(const Posed& posed, const Attempt& minimum, const Attempt& inside,
+                               const Solve& solve) {
+  const auto point_of = [&](const Attempt& solved) {
+    return lmi::read_back(posed.lmi, solved.formulation, solved.solution);
+  };
+  if (auto found = blended_from(posed, minimum, point_of(minimum), inside)) return found;
+  Question question = minimum.question;
+  question.bounds = within_reach(minimum, inside);
+  const Attempt near = attempt(posed, std::move(question), solve);
+  if (!near.is_near_optimal()) return std::nullopt;
+  auto found = blended_from(posed, minimum, point_of(near), inside);
+  if (found) found->approached = true;
+  return found;
 }
 
 }  // namespace gainsmith::design

@@ -31,9 +31,9 @@ struct Posed {
   const lmi::Inequalities& inequalities;
   const forall::Plan& plan;
   const lmi::Lmi& lmi;
-  bool wide = true;   ///< whether 31 and 100 digits may be tried where double does not decide
+  bool wide = true;    ///< whether 31 and 100 digits may be tried where double does not decide
   verdict::Look look;  ///< without `describe` nothing but the verdict is asked for
-  bool thin = false;  ///< an exchange may be given more points before more digits are tried
+  bool thin = false;   ///< an exchange may be given more points before more digits are tried
 
   const model::SynthesisOptions& choices() const { return inequalities.design().synthesis; }
 };
@@ -57,7 +57,7 @@ struct Attempt {
   sdp::Solution solution;
   /// Every block is positive definite at x, as evaluated in double, and the bounds asked are kept.
   bool point = false;
-  std::vector<double> x;  ///< the unknowns
+  std::vector<double> x;     ///< the unknowns
   verdict::Margins margins;  ///< at x, of a point
   /// Of an interior question without bounds and without a point.
   std::optional<verdict::Refutation> refutation;
@@ -73,6 +73,8 @@ struct Attempt {
   std::string chain;
   /// Of those that lead to a face, but to no point on it: what is known.
   std::string left_open;
+  /// Of a minimum that is only approached, as unknowns grow without end (blended()).
+  bool approached = false;
   /// Of a minimum on a face: no solution has an objective below it.
   std::optional<double> least;
   std::vector<numbers::Matrix> multipliers;
@@ -96,7 +98,9 @@ Attempt attempt(const Posed& posed, Question question, const Solve& solve);
 
 /// A point between the minimum and a point inside: x(e) = x* + e (x_f - x*) with the smallest e =
 /// 1e-12, 1e-11, ... for which every inequality holds:  B(x(e)) >= e B(x_f) + (1 - e) B(x*).  The
-/// attempt of the minimum with that point; none when there is no such e below 1.
-std::optional<Attempt> blended(const Posed& posed, const Attempt& minimum, const Attempt& inside);
+/// attempt of the minimum with that point. Where there is no such e below 1, x* is the minimum over
+/// unknowns up to 1000 times those of x_f: the infimum is only approached, as they grow without end.
+std::optional<Attempt> blended(const Posed& posed, const Attempt& minimum, const Attempt& inside,
+                               const Solve& solve);
 
 }  // namespace gainsmith::design

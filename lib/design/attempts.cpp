@@ -145,7 +145,8 @@ struct Attempts {
     return ask(climb, std::move(question));
   }
   static std::optional<Attempt> blended(const Climb& climb) {
-    return design::blended(climb.posed_, *last_minimum(climb), *climb.find(AttemptKind::inside));
+    return design::blended(climb.posed_, *last_minimum(climb), *climb.find(AttemptKind::inside),
+                           climb.solve_);
   }
   static std::optional<Attempt> free_minimum(const Climb& climb) {
     return ask(climb, objective(climb, {}));

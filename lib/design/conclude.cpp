@@ -131,6 +131,10 @@ void note_objective(const Climb& climb, const Attempt& point, model::Gains& gain
                                                           point.formulation, point.solution);
     gains.objective_lower_bound = std::min(*gains.objective, least);
     if (!point.on_face) gains.multipliers = multipliers_of(climb, point);
+    if (point.approached)
+      gains.solver.add_message(
+          "the least value of the objective is only approached, as unknowns and gains grow without "
+          "end; this one is near it");
     return;
   }
   const Attempt* minimum = climb.find(AttemptKind::minimum);

@@ -71,6 +71,22 @@ numbers::Vector row_sizes(const numbers::Matrix& C) {
                        : numbers::Vector(C.cwiseAbs().rowwise().maxCoeff());
 }
 
+double hautus_residual(const numbers::Matrix& A, const numbers::Matrix& C,
+                       std::complex<double> lambda) {
+  const numbers::Vector s = numbers::singular_values(hautus_matrix(A, C, lambda));
+  return s.tail(1)(0) / s(0);
+}
+
+/// An eigenvalue of a Jordan block is known to the root of rounding: a part that may be 0 is 0, where
+/// the rank is lost there too.
+std::complex<double> snapped(const numbers::Matrix& A, const numbers::Matrix& C,
+                             std::complex<double> lambda) {
+  constexpr double kRoot = 1e-6;  // of |A|
+  const std::complex<double> axis(std::abs(lambda.real()) < kRoot ? 0 : lambda.real(),
+                                  std::abs(lambda.imag()) < kRoot ? 0 : lambda.imag());
+  return axis != lambda && hautus_residual(A, C, axis) <= kRank ? axis : lambda;
+}
+
 /// All eigenvalues of A in the upper half plane, or those of Re lambda >= 0 alone, with what the
 /// output shows of them; the rows of C in units of `sizes`.
 std::vector<HiddenMode> modes_of(const numbers::Matrix& A, const numbers::Matrix& C,
@@ -85,8 +101,9 @@ std::vector<HiddenMode> modes_of(const numbers::Matrix& A, const numbers::Matrix
     if (sizes(i) > 0) rows.row(i) /= sizes(i);
   std::vector<HiddenMode> modes;
   const numbers::ComplexVector eigenvalues = numbers::eigenvalues(A / size);
-  for (const std::complex<double>& lambda : eigenvalues) {
-    if (lambda.imag() < 0) continue;
+  for (const std::complex<double>& found : eigenvalues) {
+    if (found.imag() < 0) continue;
+    const std::complex<double> lambda = snapped(A / size, rows, found);
     if (which == Modes::not_decaying && lambda.real() < -kStable) continue;
     const numbers::Svd svd = numbers::full_svd(hautus_matrix(A / size, rows, lambda));
     numbers::Vector v = svd.V.col(2 * n - 1).head(n);
@@ -225,6 +242,23 @@ bool is_driven(const model::Design& design, const std::string& input) {
   });
 }
 
+/// Whether the output y shows the state through C; C2 may be a matrix of something else.
+bool is_shown(const model::Design& design, const std::string& name) {
+  if (name == "C") return true;
+  if (!design.dynamics) return false;
+  const auto& signals = design.dynamics->signals;
+  return std::any_of(signals.begin(), signals.end(), [&](const auto& signal) {
+    return signal.name == "y" && signal.value.program.uses(name);
+  });
+}
+
+std::string unseen_mode_text(const HiddenMode& mode, const std::string& output) {
+  return "the output does not show a mode of the plant that does not decay: eigenvalue " +
+         eigenvalue_text(mode) + " in the direction " + direction_text(mode) +
+         ", where [A - lambda*I; " + output +
+         "] loses rank (Hautus); no gain changes it, so another output is needed";
+}
+
 /// A mode that no input reaches, of a plant that gains drive.
 std::string unreached_mode_text(const model::Instance& instance) {
   for (const char* name : {"B", "B2"}) {
@@ -244,14 +278,14 @@ std::string unreached_mode_text(const model::Instance& instance) {
 std::string hidden_mode_text(const model::Instance& instance) {
   const model::Design& design = *instance.design;
   if (std::string unreached = unreached_mode_text(instance); !unreached.empty()) return unreached;
-  const auto pair = pair_of(instance, "C");
-  if (!pair || pair->first.cols() != pair->second.cols() || design.states.empty()) return "";
-  const auto mode = hidden_mode(pair->first, pair->second);
-  if (!mode) return "";
-  return "the output does not show a mode of the plant that does not decay: eigenvalue " +
-         eigenvalue_text(*mode) + " in the direction " + direction_text(*mode) +
-         ", where [A - lambda*I; C] loses rank (Hautus); no gain changes it, so another "
-         "output is needed";
+  if (design.states.empty()) return "";
+  for (const std::string name : {"C", "C2"}) {
+    const auto pair = is_shown(design, name) ? pair_of(instance, name) : std::nullopt;
+    if (!pair || pair->first.cols() != pair->second.cols()) continue;
+    if (const auto mode = hidden_mode(pair->first, pair->second))
+      return unseen_mode_text(*mode, name);
+  }
+  return "";
 }
 
 std::string hidden_mode_text(const model::Instance& instance, const forall::Domain& domain) {

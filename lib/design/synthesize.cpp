@@ -15,8 +15,10 @@
 #include "design/exchange.h"
 #include "design/gain_values.h"
 #include "design/hautus.h"
+#include "design/limits.h"
 #include "design/quotient.h"
 #include "forall/faults.h"
+#include "model/names.h"
 #include "numbers/dense.h"
 
 namespace gainsmith::design {
@@ -108,18 +110,25 @@ verdict::Look look_of(Depth depth) {
 
 /// Names the gains that are larger than a bound that the problem states: a bound is imposed on products
 /// with an inverse, and only where these are affine otherwise.
-void note_larger_gains(const model::SynthesisOptions& asked, model::Gains& gains) {
+void note_larger_gains(const model::Design& design, const model::SynthesisOptions& asked,
+                       model::Gains& gains) {
   if (!asked.gain_bound_stated || !asked.gain_bound) return;
+  std::string larger;
   for (const auto& [name, gain] : gains.gains) {
     const auto share = asked.share_of_bound(name);
     if (!share || gain.size() == 0) continue;
-    const double bound = *share * *asked.gain_bound;
     const double norm = numbers::singular_values(gain)[0];
-    if (norm > bound)
-      gains.solver.add_message("the gain " + name + " has the norm " + brief(norm, 3) +
-                               ", beyond the gain bound " + brief(bound) +
-                               ": the bound cannot be imposed on all of its formula");
+    if (norm > *share * *asked.gain_bound)
+      larger += (larger.empty() ? "" : ", ") + name + " has the norm " + brief(norm, 3);
   }
+  if (larger.empty()) return;
+  std::string parameters;
+  for (const std::string& name : scalars_in_use(design))
+    if (name != model::kGainBound) parameters += (parameters.empty() ? "" : ", ") + name;
+  gains.solver.add_message("beyond the gain bound " + brief(*asked.gain_bound) + ": " + larger +
+                           ". The bound cannot be imposed on all of a formula of two unknown "
+                           "factors; what limits such gains is in the inequalities" +
+                           (parameters.empty() ? "" : ", as may be " + parameters));
 }
 
 /// Gains whose formulas use nothing but data are known in any case, the others when the verdict is
@@ -132,7 +141,7 @@ void add_gains(const lmi::Inequalities& inequalities, model::Gains& gains) {
     gains.functions.push_back({function.signature(), function.text(), function.body().program});
   try {
     add_gain_values(inequalities, values, gains);
-    note_larger_gains(inequalities.design().synthesis, gains);
+    note_larger_gains(inequalities.design(), inequalities.design().synthesis, gains);
     add_report(inequalities.instance, gains);
   } catch (const expr::EvaluationError& error) {
     // A point that holds and whose gains have no value in double is of no use.

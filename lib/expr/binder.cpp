@@ -119,7 +119,10 @@ Bound Binder::bind_kind(const Expression& expression, const Node& node) {
     case NodeKind::mirror:
       fail(expression, node, "'*' alone is allowed only in a block");
     case NodeKind::compare:
-      fail(expression, node, "a comparison is allowed only on its own or in where(...)");
+      fail(expression, node,
+           "a comparison is allowed only on its own or in where(...): where(t > 5 and t < 6, 1, 0) "
+           "is 1 "
+           "from 5 to 6");
     case NodeKind::conjunction:
     case NodeKind::disjunction:
     case NodeKind::negation:

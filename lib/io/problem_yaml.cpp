@@ -1,6 +1,7 @@
 #include "io/problem_yaml.h"
 
 #include <algorithm>
+#include <map>
 #include <memory>
 
 #include "base/nearest.h"
@@ -301,6 +302,24 @@ std::map<std::string, std::string> advice_on_keys(const model::Method& method) {
 }  // namespace
 
 std::string unknown_method(const std::string& name, const std::vector<std::string>& names) {
+  // What other programs call some of the methods.
+  static const std::map<std::string, std::string> kElsewhere = {
+      {"hinfsyn", "output-feedback"},
+      {"mixsyn", "output-feedback"},
+      {"h2syn", "h2-state-feedback"},
+      {"hinfnorm", "hinf-norm"},
+      {"norm", "hinf-norm"},
+      {"dlqr", "discrete-lqr"},
+      {"lqe", "kalman"},
+      {"dlqe", "discrete-kalman"},
+      {"lqg", "kalman"},
+      {"ekf", "nonlinear-observer"},
+      {"place", "observer"},
+      {"luenberger", "observer"},
+      {"quadstab", "quadratic-stability"}};
+  if (const auto found = kElsewhere.find(name); found != kElsewhere.end())
+    return "unknown method '" + name + "'; did you mean '" + found->second +
+           "'? ('gainsmith methods' lists them by task)";
   return "unknown method '" + name + "'" +
          suggestion(name, names, "; 'gainsmith methods' lists them by task");
 }

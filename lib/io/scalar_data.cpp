@@ -61,11 +61,10 @@ void declare_scalars(model::Problem& problem) {
     method->data.insert(method->data.begin() + (&scalar - scalars.data()), scalar);
     try {
       model::check_names(*method);
-    } catch (const InputError&) {
+    } catch (const InputError& error) {
       throw InputError(scalar.place, "the method " + method->name + " has no datum '" +
-                                         scalar.name +
-                                         "', and uses this name for something else: "
-                                         "give the number another name");
+                                         scalar.name + "', and has this name already (" +
+                                         error.message() + "): give the number another name");
     }
   }
   problem.method = std::move(method);

@@ -79,6 +79,9 @@ void set_gain_bound(const YamlFile& file, const YamlItem& item, model::Synthesis
   if (!item.value.IsScalar())
     throw InputError(file.place(item.value),
                      "gain_bound: expected a number, {gain: number, ...} or none");
+  for (const char* word : {"inf", ".inf", "Inf", "infinity"})
+    if (item.value.Scalar() == word)
+      throw InputError(file.place(item.value), "gain_bound: write none, for gains of any size");
   if (item.value.Scalar() != "none") options.gain_bound = file.positive(item.value, "gain_bound");
 }
 

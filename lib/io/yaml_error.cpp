@@ -149,6 +149,8 @@ YamlError explained(const std::string& text, YamlError error) {
       return {
           at, *list,
           said + "; a formula that begins with '[' must be quoted, such as \"[P, Y; *, I] > 0\""};
+    if (const auto quote = line.find("]'"); list && quote != std::string_view::npos)
+      return {at, quote + 1, said + "; a formula must be quoted, such as \"[0, 1]'\""};
     if (list && line[*list] == '{' && line.find('[', *list) != std::string_view::npos)
       return {at, *list,
               said +
