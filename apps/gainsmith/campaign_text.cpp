@@ -42,9 +42,9 @@ model::ClaimRecord claim_record(const verify::CheckReport& check) {
   return record;
 }
 
+/// `gains_file`: as a word of the command, with its settings.
 std::string replay_command(const std::string& gains_file, std::uint64_t run, std::uint64_t seed) {
-  return fmt::format("gainsmith simulate {} --run {} --seed {} -o run.csv",
-                     model::quoted(gains_file), run, seed);
+  return fmt::format("gainsmith simulate {} --run {} --seed {} -o run.csv", gains_file, run, seed);
 }
 
 std::string runs_text(std::uint64_t runs) {
@@ -60,7 +60,8 @@ bool has_parted(const claims::Finding& finding) {
 std::pair<std::string, std::string> told_apart(double value, double bound) {
   constexpr int kUsual = 6, kMost = 17;
   for (int digits = kUsual; digits < kMost; ++digits)
-    if (auto one = brief(value, digits), other = brief(bound, digits); one != other || value == bound)
+    if (auto one = brief(value, digits), other = brief(bound, digits);
+        one != other || value == bound)
       return {one, other};
   return {brief(value, kMost), brief(bound, kMost)};
 }
@@ -316,8 +317,7 @@ std::string campaign_summary(const verify::Report& report, const std::string& ga
   if (report.violation_probability < 1)
     text += fmt::format("  with {} % confidence at most {} of such runs violate\n",
                         brief(100 * report.confidence), brief(report.violation_probability, 3));
-  return text +
-         "  replay      " + replay_command(gains_file, report.worst_run, report.seed) + "\n";
+  return text + "  replay      " + replay_command(gains_file, report.worst_run, report.seed) + "\n";
 }
 
 }  // namespace gainsmith::app

@@ -140,9 +140,10 @@ bool hold(const ExportOptions& options, const LoadedGains& loaded) {
   const design::GainCheck check = check_gains(loaded);
   if (check.verdict != model::Verdict::no) return true;
   const std::string which = not_shown_text(check);
-  say(fmt::format("gainsmith: {}: the inequalities do not hold at these gains{}{}; nothing is "
-                  "written ('gainsmith check {}' has the margins)\n",
-                  loaded.gains.file, which.empty() ? "" : ": ", which, model::quoted(options.gains)));
+  say(fmt::format(
+      "gainsmith: {}: the inequalities do not hold at these gains{}{}; nothing is "
+      "written ('gainsmith check {}' has the margins)\n",
+      loaded.gains.file, which.empty() ? "" : ": ", which, model::quoted(options.gains)));
   return false;
 }
 

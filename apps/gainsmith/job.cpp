@@ -26,6 +26,7 @@
 #include "io/campaign_json.h"
 #include "io/gains_json.h"
 #include "io/result_json.h"
+#include "model/stated_file.h"
 #include "verify/campaign.h"
 #include "verify/expected_run.h"
 #include "verify/replay.h"
@@ -165,6 +166,9 @@ class Job {
     return campaign;
   }
 
+  /// The gain file as a word of a command.
+  std::string gains_words() const { return model::quoted((folder_ / "gains.json").string()); }
+
   /// What is not as expected, or not as usual, of the verdict and of the campaign.
   std::vector<std::string> causes(const model::Gains& gains,
                                   const std::optional<verify::Report>& campaign) const {
@@ -172,7 +176,7 @@ class Job {
     const auto& expect = instance_.design->expect;
     const std::string wanted = expect && expect->campaign ? *expect->campaign : "held";
     if (!campaign || to_string(campaign->verdict) == wanted) return {};
-    return campaign_causes(*campaign, (folder_ / "gains.json").string());
+    return campaign_causes(*campaign, gains_words());
   }
 
   /// Empty when the method can be simulated and every gain has a value.
@@ -226,7 +230,7 @@ class Job {
     // Otherwise the message above says it.
     if (design::lacks_gains(*instance_.design, gains) && gains.solver.message.empty())
       text += "why         " + result.causes.front() + "\n";
-    if (campaign) text += campaign_summary(*campaign, (folder_ / "gains.json").string());
+    if (campaign) text += campaign_summary(*campaign, gains_words());
     if (instance_.design->expect || !result.differences.empty())
       text +=
           result.differences.empty() ? "expected    all as expected\n" : "expected    DIFFERENT:\n";

@@ -140,8 +140,7 @@ std::vector<ProblemFile> own_problems(const RunOptions& options) {
 
 /// InputError for standard output, which has the lines of results, or their JSON.
 void refuse_standard_output(const RunOptions& options) {
-  if (options.output == "-")
-    throw InputError({"-o"}, "expected a folder for the results, not '-'");
+  if (options.output == "-") throw InputError({"-o"}, "expected a folder for the results, not '-'");
   if (options.junit == "-")
     throw InputError({"--junit"}, "expected a file: standard output has the lines of the results");
 }

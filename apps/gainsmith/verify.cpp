@@ -58,7 +58,7 @@ std::optional<std::uint64_t> runs_of(const VerifyOptions& options) {
 /// How the gains are called on a command line. A gain file holds what was set.
 std::string source_of(const VerifyOptions& options, const LoadedGains& loaded) {
   return options.set.empty()
-             ? options.gains
+             ? model::quoted(options.gains)
              : model::problem_words(options.gains, loaded.stated.design->statement.settings);
 }
 

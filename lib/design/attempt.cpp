@@ -353,6 +353,7 @@ std::optional<Attempt> blended(const Posed& posed, const Attempt& minimum, const
     return lmi::read_back(posed.lmi, solved.formulation, solved.solution);
   };
   if (auto found = blended_from(posed, minimum, point_of(minimum), inside)) return found;
+  if (!minimum.is_optimal()) return std::nullopt;
   Question question = minimum.question;
   question.bounds = within_reach(minimum, inside);
   const Attempt near = attempt(posed, std::move(question), solve);

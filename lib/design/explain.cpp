@@ -211,8 +211,7 @@ std::optional<Reach> sufficient_gain_bound(const model::Instance& instance,
   const double bound = instance.design->synthesis.gain_bound.value();
   const double largest = needed && std::isfinite(*needed) ? kRoom * *needed : kMost * bound;
   if (!(bound < largest)) return std::nullopt;
-  Reach found =
-      reach(instance, {"gain_bound", search::axis(bound, largest)}, bound, false, solver);
+  Reach found = reach(instance, {"gain_bound", search::axis(bound, largest)}, bound, false, solver);
   if (!found.feasible) return std::nullopt;
   return found;
 }

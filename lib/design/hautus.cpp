@@ -16,7 +16,8 @@ namespace gainsmith::design {
 
 namespace {
 
-constexpr double kRank = 1e-11;  // relative, of [A - lambda I; C] with rows of size 1
+constexpr double kRank = 1e-11;    // relative, of [A - lambda I; C] with rows of size 1
+constexpr double kStable = 1e-12;  // of |A|: an eigenvalue on the axis is known to that
 
 /// 2n x 2n or 2(n+p) x 2n: the complex matrix X + iY as [X, -Y; Y, X].
 numbers::Matrix real_form(const numbers::Matrix& X, const numbers::Matrix& Y) {
@@ -82,8 +83,8 @@ double hautus_residual(const numbers::Matrix& A, const numbers::Matrix& C,
 std::complex<double> snapped(const numbers::Matrix& A, const numbers::Matrix& C,
                              std::complex<double> lambda) {
   constexpr double kRoot = 1e-6;  // of |A|
-  const std::complex<double> axis(std::abs(lambda.real()) < kRoot ? 0 : lambda.real(),
-                                  std::abs(lambda.imag()) < kRoot ? 0 : lambda.imag());
+  const auto part = [](double x) { return kStable < std::abs(x) && std::abs(x) < kRoot ? 0 : x; };
+  const std::complex<double> axis(part(lambda.real()), part(lambda.imag()));
   return axis != lambda && hautus_residual(A, C, axis) <= kRank ? axis : lambda;
 }
 
@@ -91,7 +92,6 @@ std::complex<double> snapped(const numbers::Matrix& A, const numbers::Matrix& C,
 /// output shows of them; the rows of C in units of `sizes`.
 std::vector<HiddenMode> modes_of(const numbers::Matrix& A, const numbers::Matrix& C,
                                  const numbers::Vector& sizes, Modes which) {
-  constexpr double kStable = 1e-12;  // of |A|: an eigenvalue on the axis is known to that
   const Eigen::Index n = A.rows();
   if (n == 0 || !A.allFinite() || !C.allFinite()) return {};
   const double size = A.cwiseAbs().rowwise().sum().maxCoeff();

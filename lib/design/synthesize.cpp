@@ -18,7 +18,6 @@
 #include "design/limits.h"
 #include "design/quotient.h"
 #include "forall/faults.h"
-#include "model/names.h"
 #include "numbers/dense.h"
 
 namespace gainsmith::design {
@@ -124,7 +123,7 @@ void note_larger_gains(const model::Design& design, const model::SynthesisOption
   if (larger.empty()) return;
   std::string parameters;
   for (const std::string& name : scalars_in_use(design))
-    if (name != model::kGainBound) parameters += (parameters.empty() ? "" : ", ") + name;
+    parameters += (parameters.empty() ? "" : ", ") + name;
   gains.solver.add_message("beyond the gain bound " + brief(*asked.gain_bound) + ": " + larger +
                            ". The bound cannot be imposed on all of a formula of two unknown "
                            "factors; what limits such gains is in the inequalities" +

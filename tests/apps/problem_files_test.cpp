@@ -75,9 +75,10 @@ TEST_F(ProblemFiles, OfOneNameAreToldApartByTheirFolders) {
             (Names{"one/deep/x", "two/deep/x", "three/x"}));
 }
 
-TEST_F(ProblemFiles, AFolderWithoutThemIsRefused) {
+TEST_F(ProblemFiles, AFolderWithoutThemIsOneThatCannotBeRead) {
   fs::create_directories(root_ / "empty");
-  EXPECT_THROW(problem_files({path("empty")}), InputError);
+  EXPECT_EQ(names({path("empty")}), (Names{"empty"}));
+  EXPECT_EQ(problem_files({path("empty")})[0].path, path("empty/*.yaml"));
 }
 
 }  // namespace

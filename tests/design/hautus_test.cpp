@@ -18,6 +18,10 @@ std::string text_for(const std::string& A, const std::string& C) {
   return hidden_mode_text(yaml.instance);
 }
 
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
 std::string eigenvalue_in(const std::string& text) {
   std::smatch found;
   std::regex_search(text, found, std::regex("eigenvalue (.*) in the direction"));
@@ -36,6 +40,30 @@ TEST(Hautus, EigenvaluesAreNamedWithTheDigitsThatAreKnown) {
   EXPECT_EQ(eigenvalue_in(text_for(rotation("3e-13", "1"), C)), "0 (to 1e-12) +- 1i");
   EXPECT_EQ(eigenvalue_in(text_for(rotation("0", "1"), C)), "0 +- 1i");
   EXPECT_EQ(eigenvalue_in(text_for("[[2e-10, 0, 0], [0, -1, 0], [0, 0, -1]]", C)), "2e-10");
+}
+
+/// A design of the method on two masses and a spring, of which B and C are given.
+std::string text_of_masses(const std::string& method, const std::string& data) {
+  const tests::YamlProblem yaml(
+      "problem: p\nmethod: " + method +
+      "\ndata: {A: \"[0, 0, 1, 0; 0, 0, 0, 1; -2, 2, 0, 0; 4, -4, 0, 0]\", " + data +
+      "}\nno campaign: static\n");
+  return hidden_mode_text(yaml.instance);
+}
+
+TEST(Hautus, WhatAnInputDoesNotReachIsNamedWhereGainsUseIt) {
+  const std::string lqr = text_of_masses("lqr", "B: \"[0; 0; 2; -4]\"");
+  EXPECT_TRUE(has(lqr, "the input does not reach a mode")) << lqr;
+  EXPECT_TRUE(has(lqr, "eigenvalue 0 in the combination [0; 0; 1; 0.5]")) << lqr;
+  EXPECT_EQ(text_of_masses("lqr", "B: \"[0; 0; 1; 0]\""), "");
+  const std::string rest = ", B1: \"[0; 0; 0; 1]\", C1: \"[0, 1, 0, 0]\"";
+  EXPECT_TRUE(has(text_of_masses("hinf-state-feedback", "B2: \"zeros(4, 1)\"" + rest),
+                  "[A - lambda*I, B2] loses rank"));
+  // The input of an analysis may reach what it likes; C2 of a state feedback is not measured.
+  EXPECT_EQ(text_of_masses("h2-norm", "B: \"zeros(4, 1)\", C: \"eye(4)\""), "");
+  EXPECT_TRUE(
+      has(text_of_masses("output-feedback", "B2: \"[0; 0; 1; 0]\", C2: \"[1, -1, 0, 0]\"" + rest),
+          "in the direction [1; 1; 0; 0], where [A - lambda*I; C2]"));
 }
 
 TEST(Hautus, NothingIsSaidWithoutAPlantOrWhereAllIsSeen) {

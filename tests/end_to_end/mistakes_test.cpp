@@ -226,7 +226,7 @@ TEST(WrongCommandLines, AreNamedWithWhatWasExpected) {
            {{"verify", file, "--plot", "a.svg"},
             "unknown option '--plot'; it is an option of bisect, scan, merge, simulate"},
            {{"simulate", file, "--horizon", "5"}, "'--set NAME=VALUE' changes a value"},
-           {{"init", "hinfsyn"}, "did you mean one of these: discrete-hinf-norm"},
+           {{"init", "hinfsyn"}, "did you mean 'output-feedback'?"},
            {{"methods", "h-infinity"}, "'gainsmith methods' lists them by task"},
            {{"plot", file}, "unknown command 'plot'; known: synth"},
            {{"scan", file, "--over", "a=1,2,5"}, "expected NAME=LOW:HIGH, NAME=LOW:HIGH:COUNT"},

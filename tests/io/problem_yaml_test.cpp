@@ -77,7 +77,7 @@ TEST(Problem, ANumberOfItsOwnHasAFreeName) {
         replaced(kProblem, "A: [[0.2, -1.01], [1, 0]]", "A: [[n, -1.01], [1, 0]]\n  n: 1"));
   });
   EXPECT_EQ(error.place(), (Place{"p.yaml", 5, 3}));
-  EXPECT_NE(error.message().find("'n', and uses this name for something else"), std::string::npos)
+  EXPECT_NE(error.message().find("'n', and has this name already ("), std::string::npos)
       << error.message();
 }
 
@@ -185,7 +185,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Mistake{"relative: 1e-3", "relative: .nan", 27, 39, "expected a number"},
                     Mistake{"relative: 1e-3", "relative: small", 27, 39, "expected a number"},
                     Mistake{", relative: 1e-3", "", 27, 5, "expected a tolerance"},
-                    Mistake{"value: 1.5, ", "", 27, 16, "the key 'value' is missing"},
+                    Mistake{"value: 1.5, ", "", 27, 5, "expected a 'value' with its tolerance"},
                     Mistake{"objective:", "\"trace(\":", 27, 12, "expected"},
                     Mistake{"{value: 1.5, relative: 1e-3}", "1.5", 27, 16, "expected a mapping"}));
 

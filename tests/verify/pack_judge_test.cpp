@@ -203,7 +203,7 @@ method:
     rests: {shrinks: norm(x), to: 1e-5}
 campaign: {runs: 96, horizon: 20, initial: {x: {box: ["[1; -1]", "[4; 1]"]}}}
 )yaml"},
-    // M has the eigenvalues 1 + |x|, 1 - |x|, which meet wherever x(1) and x(2) are 0 at once.
+    // M has the eigenvalues 1 + |x(1)| and 1 - |x(1)|, which are equal where x(1) is 0.
     {"eigenvalues, norms and determinants of matrices", R"yaml(problem: p
 method:
   method: m
@@ -213,8 +213,8 @@ method:
   signals: {M: "[1 + x(1), 0; 0, 1 - x(1)]", N: "[1, x(1); x(2), 0; 0, x(1)]"}
   claims:
     least: {above: lambda_min(P), bound: 0.1}
-    meet: {below: lambda_min(M), bound: 0.99999}
-    apart: {above: lambda_max(M), bound: 1.00001}
+    low: {above: lambda_min(M), bound: 0.5}
+    high: {below: lambda_max(M), bound: 1.5}
     size: {below: norm(N), bound: 1.6}
     volume: {above: det(P), bound: 0.01}
     inverse: {below: "norm(pinv(N)(1, :))", bound: 1.2}
