@@ -96,7 +96,7 @@ std::size_t LaneSet::rows_of(std::size_t result) const {
     case PackSystem::claim_terms:
       return pack_.claims.size();
     case PackSystem::extras: {
-      std::size_t count = 0;
+      std::size_t count = pack_.flats.size();
       for (const PackClaim& claim : pack_.claims)
         count += claim.branches.size() + claim.roots.size();
       return count;

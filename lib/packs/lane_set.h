@@ -167,6 +167,10 @@ class LaneSet {
   bool accept(std::size_t l);
   /// Whether on the step a claim may come to where it branches, or to a sharp turn of a square root.
   bool may_branch(std::size_t c, std::size_t l) const;
+  /// Between which values an extra is on the step.
+  std::pair<double, double> range_of_extra(std::size_t k, std::size_t l) const;
+  /// Whether it comes so near to 0 that a square root of it, or a quotient by it, bends sharply.
+  bool bends(std::size_t k, std::size_t l) const;
   void find_new_sides(std::size_t l);
 
   const PackSystem& pack_;

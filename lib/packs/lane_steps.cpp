@@ -105,6 +105,9 @@ bool LaneSet::judge_step(std::size_t l, bool fault) {
   const double error = errors_.at(0, l);
   if (fault || !std::isfinite(error)) return shorten(lane, 0.25);
   if (error > 1) return shorten(lane, std::min(step_factor(error), 0.9));
+  if (std::any_of(pack_.flats.begin(), pack_.flats.end(),
+                  [&](std::size_t k) { return bends(k, l); }))
+    return shorten(lane, 0.5);
   int target = -1;
   double share = 2;
   if (!find_root(l, target, share)) {
@@ -228,32 +231,34 @@ bool LaneSet::accept(std::size_t l) {
   return !at_stop || arrive_at_stop(l);
 }
 
+std::pair<double, double> LaneSet::range_of_extra(std::size_t k, std::size_t l) const {
+  const double first = start_.at(PackSystem::extras, k, l);
+  const double middle = middle_.at(PackSystem::extras, k, l);
+  const double last = end_.at(PackSystem::extras, k, l);
+  const double points[] = {first,
+                           middle,
+                           last,
+                           2 * middle - (first + last) / 2,
+                           quarter_.at(PackSystem::extras, k, l),
+                           three_quarters_.at(PackSystem::extras, k, l)};
+  const auto [least, largest] = std::minmax_element(std::begin(points), std::end(points));
+  return {*least, *largest};
+}
+
+bool LaneSet::bends(std::size_t k, std::size_t l) const {
+  const auto [least, largest] = range_of_extra(k, l);
+  return !(least > kFlatRoot * largest);
+}
+
 bool LaneSet::may_branch(std::size_t c, std::size_t l) const {
-  const auto range_of = [&](std::size_t k) {
-    const double first = start_.at(PackSystem::extras, k, l);
-    const double middle = middle_.at(PackSystem::extras, k, l);
-    const double last = end_.at(PackSystem::extras, k, l);
-    const double points[] = {first,
-                             middle,
-                             last,
-                             2 * middle - (first + last) / 2,
-                             quarter_.at(PackSystem::extras, k, l),
-                             three_quarters_.at(PackSystem::extras, k, l)};
-    const auto [least, largest] = std::minmax_element(std::begin(points), std::end(points));
-    return std::pair(*least, *largest);
-  };
   const PackClaim& claim = pack_.claims[c];
   const auto comes_to_0 = [&](std::size_t k) {
-    const auto [least, largest] = range_of(k);
+    const auto [least, largest] = range_of_extra(k, l);
     return !(least > 0) && !(largest < 0);
   };
-  // A square root bends the more the nearer to 0 it comes.
-  const auto bends = [&](std::size_t k) {
-    const auto [least, largest] = range_of(k);
-    return !(least > kFlatRoot * largest);
-  };
   return std::any_of(claim.branches.begin(), claim.branches.end(), comes_to_0) ||
-         std::any_of(claim.roots.begin(), claim.roots.end(), bends);
+         std::any_of(claim.roots.begin(), claim.roots.end(),
+                     [&](std::size_t k) { return bends(k, l); });
 }
 
 void LaneSet::find_new_sides(std::size_t l) {

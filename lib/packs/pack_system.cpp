@@ -1,13 +1,13 @@
 #include "packs/pack_system.h"
 
 #include <algorithm>
-#include <set>
 
 #include "expr/branches.h"
 #include "hybrid/breaks.h"
 #include "numbers/scalar_rules.h"
 #include "packs/dormand_prince.h"
 #include "packs/jump_code.h"
+#include "packs/sharp_parts.h"
 #include "packs/tolerances.h"
 
 namespace gainsmith::packs {
@@ -139,19 +139,12 @@ class StepCode {
 
 class LookCode {
  public:
-  explicit LookCode(PackSystem& pack) : pack_(pack), texts_(*pack.system, pack.costs) {
+  explicit LookCode(PackSystem& pack)
+      : pack_(pack), texts_(*pack.system, pack.costs), sharp_(*pack.system, texts_.graph()) {
     x_ = texts_.inputs();
     rates_ = texts_.rates(x_);
     for (const int row : pack.rows) results_[PackSystem::rates].push_back(rates_[index(row)]);
-    is_state_.assign(pack.whole, false);
-    for (std::size_t i = 0; i < pack.system->layout.slots.size(); ++i) {
-      if (pack.system->moves[i] != hybrid::Moves::flows) continue;
-      const hybrid::Slot& slot = pack.system->layout.slots[i];
-      std::fill_n(is_state_.begin() + slot.offset, slot.shape.size(), true);
-    }
   }
-  /// Whether something that is looked at may have peaks.
-  bool has_peaks() const { return peaks_; }
 
   void add(const claims::Claim& claim) {
     PackClaim& made = pack_.claims.emplace_back();
@@ -162,7 +155,7 @@ class LookCode {
     if (claim.kind == model::ClaimKind::cost) return add_cost(claim);
     const numbers::TracedMatrix value = texts_.moving(claim.value, x_, rates_);
     push(PackSystem::claim_values, value.value[0]);
-    peaks_ = peaks_ || has_peaks(value.value[0]);
+    watch_peaks(value.value[0]);
     push(PackSystem::claim_rates, value.slopes[0][0]);
     push(PackSystem::claim_terms, texts_.value(hybrid::absolute_terms(claim.value), x_).value[0]);
     const auto moves = [&](const std::string& name) { return pack_.system->is_moving(name); };
@@ -171,9 +164,7 @@ class LookCode {
         made.branches.push_back(results_[PackSystem::extras].size());
         push(PackSystem::extras, node);
       }
-    std::vector<int> roots = roots_in(value.value[0]);
-    for (const int tie : ties_in(value.value[0])) roots.push_back(tie);
-    for (const int node : roots) {
+    for (const int node : sharp_.roots(value.value[0])) {
       made.roots.push_back(results_[PackSystem::extras].size());
       push(PackSystem::extras, node);
     }
@@ -210,7 +201,7 @@ class LookCode {
         continue;
       }
       made.push_back({pack_.watches.size(), 1});
-      peaks_ = peaks_ || has_peaks(node);
+      watch_peaks(node);
       push(PackSystem::watch_values, node);
       push(PackSystem::watch_rates, value.slopes[0][e]);
       push(PackSystem::watch_terms, terms[e]);
@@ -242,81 +233,15 @@ class LookCode {
     push(PackSystem::claim_terms, texts_.graph().apply(ScalarOp::abs, x_[element]));
   }
 
-  /// What is 0 where singular values of which a node is made are equal, or are 0: the squares of
-  /// their differences, which are smooth.
-  std::vector<int> ties_in(int node) {
-    using Difference = std::pair<int, int>;  // of nodes; the second may be -1
-    std::set<Difference> differences;
-    visit(node, [&](const ScalarGraph::Node& one, int at) {
-      if (one.op != ScalarOp::element) return;
-      const ScalarGraph::Block& block = texts_.graph().blocks()[index(one.a)];
-      if (block.instruction.op != expr::Op::singular_values || block.is_slope) return;
-      const int last = block.first + block.instruction.shape.size() - 1;
-      if (at > block.first) differences.insert({at - 1, at});
-      differences.insert({at, at < last ? at + 1 : -1});
-    });
-    std::vector<int> ties;
-    for (const auto& [one, other] : differences) {
-      ScalarGraph& graph = texts_.graph();
-      const int gap = other < 0 ? one : graph.subtract(one, other);
-      ties.push_back(graph.multiply(gap, gap));
+  void watch_peaks(int node) {
+    for (const int flat : sharp_.flats(node)) {
+      auto& extras = results_[PackSystem::extras];
+      const bool known = std::any_of(pack_.flats.begin(), pack_.flats.end(),
+                                     [&](std::size_t k) { return extras[k] == flat; });
+      if (known) continue;
+      pack_.flats.push_back(extras.size());
+      push(PackSystem::extras, flat);
     }
-    return ties;
-  }
-
-  /// Visits all that a node is made of, itself first.
-  template <class Visit>
-  void visit(int node, const Visit& seen_by) {
-    std::set<int> seen;
-    std::vector<int> waiting{node};
-    while (!waiting.empty()) {
-      const int at = waiting.back();
-      waiting.pop_back();
-      if (at < 0 || !seen.insert(at).second) continue;
-      const ScalarGraph::Node one = texts_.graph().nodes()[index(at)];
-      seen_by(one, at);
-      if (one.op == ScalarOp::input || one.op == ScalarOp::constant) continue;
-      if (one.op != ScalarOp::element) {
-        waiting.insert(waiting.end(), {one.a, one.b, one.c});
-        continue;
-      }
-      for (const auto& operand : texts_.graph().blocks()[index(one.a)].operands)
-        waiting.insert(waiting.end(), operand.begin(), operand.end());
-    }
-  }
-
-  /// The operands of all square roots that a node is made of.
-  std::vector<int> roots_in(int node) {
-    std::vector<int> found;
-    visit(node, [&](const ScalarGraph::Node& one, int) {
-      if (one.op == ScalarOp::sqrt) found.push_back(one.a);
-    });
-    return found;
-  }
-
-  /// Whether a node changes along flows with more than clocks.
-  bool depends_on_states(int node) {
-    bool depends = false;
-    visit(node, [&](const ScalarGraph::Node& one, int) {
-      depends = depends || (one.op == ScalarOp::input && is_state_[index(one.a)]);
-    });
-    return depends;
-  }
-
-  /// Whether it may have peaks that are narrow beside a step: quotients, exponentials and the like
-  /// of states.
-  bool has_peaks(int node) {
-    bool peaks = false;
-    std::vector<int> operands;
-    visit(node, [&](const ScalarGraph::Node& one, int) {
-      if (one.op == ScalarOp::divide) operands.push_back(one.b);
-      if (one.op == ScalarOp::exp || one.op == ScalarOp::tanh || one.op == ScalarOp::log ||
-          one.op == ScalarOp::power || one.op == ScalarOp::angle)
-        operands.insert(operands.end(), {one.a, one.b});
-    });
-    for (const int operand : operands)
-      peaks = peaks || (operand >= 0 && depends_on_states(operand));
-    return peaks;
   }
 
   std::optional<std::size_t> known(int node) const {
@@ -337,8 +262,7 @@ class LookCode {
   PackSystem& pack_;
   PackGraph texts_;
   Nodes x_, rates_;
-  std::vector<bool> is_state_;  ///< by value: whether it flows, and is no clock
-  bool peaks_ = false;
+  SharpParts sharp_;
   std::vector<std::vector<int>> results_{PackSystem::extras + 1};
 };
 
@@ -412,7 +336,6 @@ std::unique_ptr<const PackSystem> make_pack_system(const hybrid::System& system,
       for (const auto& set : component.flow_sets)
         if (!look.add(set.where, pack->flow_sets.emplace_back())) return nullptr;
     add_switches(look, *pack);
-    if (look.has_peaks()) return nullptr;
     look.make();
     pack->start.emplace(start_code(*pack, claims));
   } catch (const numbers::NoFormula&) {

@@ -10,8 +10,7 @@
 // The cost of a claim so far is one more value that flows and jumps.
 //
 // What packs do not run: loops of jumps, measured data, claims and conditions that have no formula
-// for their rates or that may have narrow peaks. Such campaigns are left to
-// the careful run.
+// for their rates. Such campaigns are left to the careful run.
 #pragma once
 
 #include <cstddef>
@@ -85,6 +84,7 @@ struct PackSystem {
   std::vector<Watch> watches;
   std::vector<PackClaim> claims;
   std::vector<RunningCost> costs;
+  std::vector<std::size_t> flats;  ///< extras that must not change much on a step
   std::optional<lanes::LaneCode> step, start;
   /// At the points of steps; at the end of the coarser run, without rates and terms of claims; and
   /// between the points, values alone.

@@ -1,0 +1,112 @@
+#include "packs/sharp_parts.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "packs/pack_graph.h"
+
+namespace gainsmith::packs {
+
+using numbers::ScalarGraph;
+using numbers::ScalarOp;
+
+SharpParts::SharpParts(const hybrid::System& system, ScalarGraph& graph) : graph_(graph) {
+  is_state_.assign(static_cast<std::size_t>(system.whole), false);
+  for (std::size_t i = 0; i < system.layout.slots.size(); ++i) {
+    if (system.moves[i] != hybrid::Moves::flows) continue;
+    const hybrid::Slot& slot = system.layout.slots[i];
+    std::fill_n(is_state_.begin() + slot.offset, slot.shape.size(), true);
+  }
+}
+
+/// Visits all that a node is made of, itself first.
+template <class Visit>
+void SharpParts::visit(int node, const Visit& seen_by) const {
+  std::set<int> seen;
+  std::vector<int> waiting{node};
+  while (!waiting.empty()) {
+    const int at = waiting.back();
+    waiting.pop_back();
+    if (at < 0 || !seen.insert(at).second) continue;
+    const ScalarGraph::Node one = graph_.nodes()[index(at)];
+    seen_by(one, at);
+    if (one.op == ScalarOp::input || one.op == ScalarOp::constant) continue;
+    if (one.op != ScalarOp::element) {
+      waiting.insert(waiting.end(), {one.a, one.b, one.c});
+      continue;
+    }
+    for (const auto& operand : graph_.blocks()[index(one.a)].operands)
+      waiting.insert(waiting.end(), operand.begin(), operand.end());
+  }
+}
+
+std::vector<int> SharpParts::roots(int node) {
+  std::vector<int> found;
+  visit(node, [&](const ScalarGraph::Node& one, int) {
+    if (one.op == ScalarOp::sqrt) found.push_back(one.a);
+  });
+  for (const int tie : ties(node)) found.push_back(tie);
+  return found;
+}
+
+/// 0 where singular values of which a node is made are equal, or are 0.
+std::vector<int> SharpParts::ties(int node) {
+  std::set<std::pair<int, int>> differences;  // of nodes; the second may be -1
+  visit(node, [&](const ScalarGraph::Node& one, int at) {
+    if (one.op != ScalarOp::element) return;
+    const ScalarGraph::Block& block = graph_.blocks()[index(one.a)];
+    if (block.instruction.op != expr::Op::singular_values || block.is_slope) return;
+    const int last = block.first + block.instruction.shape.size() - 1;
+    if (at > block.first) differences.insert({at - 1, at});
+    differences.insert({at, at < last ? at + 1 : -1});
+  });
+  std::vector<int> ties;
+  for (const auto& [one, other] : differences)
+    ties.push_back(square(other < 0 ? one : graph_.subtract(one, other)));
+  return ties;
+}
+
+/// Whether a node changes along flows with more than clocks.
+bool SharpParts::depends_on_states(int node) const {
+  if (node < 0) return false;
+  bool depends = false;
+  visit(node, [&](const ScalarGraph::Node& one, int) {
+    depends = depends || (one.op == ScalarOp::input && is_state_[index(one.a)]);
+  });
+  return depends;
+}
+
+std::vector<int> SharpParts::flats(int node) {
+  std::vector<std::pair<ScalarGraph::Node, int>> found;
+  visit(node, [&](const ScalarGraph::Node& one, int at) {
+    const bool bends = one.op == ScalarOp::exp || one.op == ScalarOp::tanh ||
+                       one.op == ScalarOp::log || one.op == ScalarOp::power ||
+                       one.op == ScalarOp::angle;
+    const bool divides = one.op == ScalarOp::divide;
+    if ((bends && depends_on_states(one.a)) || ((bends || divides) && depends_on_states(one.b)))
+      found.emplace_back(one, at);
+  });
+  std::vector<int> flats;
+  for (const auto& [one, at] : found) flats.push_back(flat_beside(one, at));
+  return flats;
+}
+
+int SharpParts::flat_beside(const ScalarGraph::Node& one, int at) {
+  switch (one.op) {
+    case ScalarOp::divide:
+      return square(one.b);
+    case ScalarOp::angle:
+      return graph_.add(square(one.a), square(one.b));
+    case ScalarOp::log:
+      return one.a;
+    case ScalarOp::power:
+      return depends_on_states(one.b) ? at : one.a;
+    case ScalarOp::tanh:
+      return graph_.apply(ScalarOp::exp, one.a);
+    default:
+      return at;
+  }
+}
+
+}  // namespace gainsmith::packs
