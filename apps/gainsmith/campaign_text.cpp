@@ -258,11 +258,14 @@ std::string interruption_text(const verify::Report& report) {
   text += fmt::format(": {} held", report.runs - report.violations - report.undecided);
   if (report.violations > 0) text += fmt::format(", {} violated", report.violations);
   if (report.undecided > 0) text += fmt::format(", {} undecided", report.undecided);
+  if (report.verdict == model::CampaignVerdict::violated) return text;
   return text + fmt::format("; --runs {} gives a verdict in the time that was spent", report.runs);
 }
 
 std::string campaign_line(const model::CampaignRecord& record) {
-  if (record.runs < record.runs_asked) return "undecided: " + record.message;
+  if (record.runs < record.runs_asked)
+    return (record.verdict == model::CampaignVerdict::violated ? "violated: " : "undecided: ") +
+           record.message;
   const std::string worst = record.runs > 1 ? fmt::format(", worst run {}", record.worst_run) : "";
   if (record.verdict == model::CampaignVerdict::held)
     return fmt::format("held in {}{}{}", runs_text(record.runs),

@@ -88,17 +88,12 @@ RunView view_of(const PictureOptions& options, const model::Design& design) {
 }
 
 std::vector<std::uint64_t> runs_of(const PictureOptions& options, bool compared,
-                                   std::uint64_t otherwise, std::uint64_t runs) {
+                                   std::uint64_t otherwise) {
   if (options.runs.empty()) return {otherwise};
   std::vector<std::uint64_t> chosen;
   for (const std::string& part : parts_of(options.runs, ','))
     add_runs(part, options.runs, compared, chosen);
   require_different(chosen);
-  for (const std::uint64_t run : chosen)
-    if (run >= runs)
-      throw InputError({"--runs"},
-                       "there is no run " + std::to_string(run) + ": the campaign has " +
-                           (runs == 1 ? "run 0 alone" : "runs 0 to " + std::to_string(runs - 1)));
   return chosen;
 }
 

@@ -24,10 +24,9 @@ struct PictureOptions {
 /// texts of another form, and for a name twice. That the names are quantities is checked with the run.
 RunView view_of(const PictureOptions& options, const model::Design& design);
 
-/// The runs of --runs, or `otherwise` without it. InputError for texts of another form, a run twice,
-/// more than a picture shows, or a comparison takes, and runs that a campaign of `runs` does not
-/// have.
+/// The runs of --runs, or `otherwise` without it. InputError for texts of another form, a run twice
+/// and more than a picture shows, or a comparison takes. A campaign with more runs has each of them.
 std::vector<std::uint64_t> runs_of(const PictureOptions& options, bool compared,
-                                   std::uint64_t otherwise, std::uint64_t runs);
+                                   std::uint64_t otherwise);
 
 }  // namespace gainsmith::app

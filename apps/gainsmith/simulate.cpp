@@ -247,8 +247,8 @@ ExitCode simulate(const SimulateOptions& options) {
   const LoadedGains loaded = load_run(options.gains, options.set);
   const model::Design& design = *loaded.stated.design;
   const std::uint64_t seed = options.seed.value_or(design.campaign.seed);
-  const std::vector<std::uint64_t> runs = runs_of(
-      options.picture, options.compare || options.envelope, options.run, design.campaign.runs);
+  const std::vector<std::uint64_t> runs =
+      runs_of(options.picture, options.compare || options.envelope, options.run);
   if (options.compare) return compare(options, loaded, seed, runs);
   std::vector<hybrid::GivenRun> given;
   if (!options.given.empty())

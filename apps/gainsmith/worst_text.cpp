@@ -29,7 +29,7 @@ std::string verdict_word(const verify::WorstReport& report) {
 
 /// A violation that was not repeated yet is none.
 std::string claim_word(const verify::WorstReport& report, const claims::Finding& finding) {
-  if (report.interrupted) return "not confirmed";
+  if (report.interrupted) return finding.violated() ? "not confirmed" : "held so far";
   return finding.violated() ? "violated" : finding.undecided() ? "undecided" : "not violated";
 }
 

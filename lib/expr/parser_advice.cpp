@@ -53,7 +53,8 @@ std::string in_base_units(const std::string& number, const std::string& unit) {
 std::string missing_between(std::span<const Token> tokens, std::size_t at) {
   if (at == 0) return {};
   if (tokens[at].kind == TokenKind::end && is_open(tokens, at))
-    return "; inside of { } and [ ] of YAML a text with a comma must be quoted";
+    return "; inside of { } and [ ] of YAML a text with a comma must be quoted, a name such "
+           "as f(x, u) too";
   const Token& left = tokens[at - 1];
   const Token& right = tokens[at];
   if (right.kind == TokenKind::semicolon && !is_open(tokens, at))

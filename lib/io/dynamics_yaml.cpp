@@ -104,8 +104,6 @@ model::NoiseText noise(const YamlFile& file, const YamlItem& item) {
 
 void read_observers(const YamlFile& file, const std::optional<YamlItem>& one,
                     const std::optional<YamlItem>& several, model::Method& method) {
-  if (one && several)
-    throw InputError(several->place, "either 'observer' or 'observers', not both");
   if (one) method.observers.push_back(component(file, *one, {}));
   if (!several) return;
   for (const YamlItem& item : items_of(file, several, "observers"))

@@ -35,7 +35,6 @@ constexpr std::array kMethod = {
     Key{"no campaign", "text", "why nothing is simulated"}};
 constexpr std::string_view kDynamics = "plant,observer,observers,timer,events,order,inputs,noise";
 constexpr std::array kMethodRules = {
-    Rule::at_most_one("observer,observers"),
     Rule::some("require,minimize,report,plant,observer,observers,timer,events,order,inputs,noise"),
     Rule::excludes("no campaign", kDynamics)};
 

@@ -273,12 +273,9 @@ void Campaign::make_runs(RunRange range, CampaignPart& part, const Save& save) c
 
 void Campaign::repeat_worst(CampaignPart& part) const {
   if (part.tally.runs == 0) return;
-  if (packs_) {
-    // A command that is stopped tells what it knows within a second.
-    const Concluding concluding(0.5);
-    repeat_carefully(*setup_, part);
-  }
-  check_stop();
+  // A command that is stopped tells what it knows within a second.
+  const Concluding concluding(0.5);
+  if (packs_) repeat_carefully(*setup_, part);
   confirm_violations(*setup_, part);
 }
 

@@ -164,7 +164,8 @@ Report conclude(const CampaignPart& part) {
   report.first_undecided = tally.first_undecided;
   if (report.first_undecided)
     report.first_undecided->check = place_of(report.checks, report.first_undecided->check);
-  if (report.interrupted()) return report;
+  // More runs take no violation back.
+  if (report.interrupted() && report.violations == 0) return report;
   const std::optional<bool> confirmed =
       report.violations > 0 ? confirm_worst(part, report) : std::optional(false);
   if (!confirmed) return report;
@@ -173,7 +174,8 @@ Report conclude(const CampaignPart& part) {
     report.undecided += std::exchange(report.violations, 0);
     report.first_undecided = unconfirmed_run(report);
   }
-  if (report.violations + report.undecided == 0) report.verdict = model::CampaignVerdict::held;
+  if (report.violations + report.undecided == 0 && !report.interrupted())
+    report.verdict = model::CampaignVerdict::held;
   return report;
 }
 

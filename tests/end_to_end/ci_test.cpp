@@ -103,5 +103,16 @@ TEST(Ci, APathWithABlankIsQuotedInCommands) {
   EXPECT_TRUE(has(outcome.out, "-o run.csv")) << outcome.out;
 }
 
+TEST(Ci, AViolationStaysOneWhenACampaignIsStopped) {
+  const Folder folder;
+  const std::string text =
+      with(text_of(problem("own-systems/pendulum-ekf.yaml")),
+           "{small: {shrinks: norm(e), to: 0.3}}", "{small: {below: norm(e), bound: 1e-3}}");
+  const Outcome outcome =
+      gainsmith({"verify", folder.file("p.yaml", text), "--runs", "1000000000", "--time", "1"});
+  EXPECT_EQ(outcome.exit, 1) << outcome.out << outcome.err;
+  EXPECT_TRUE(has(outcome.out, "violated: interrupted after ")) << outcome.out;
+}
+
 }  // namespace
 }  // namespace gainsmith::tests

@@ -86,5 +86,34 @@ TEST(NonlinearObserver, ARunThatLeavesTheBoxIsOpenForThatReasonAlone) {
   EXPECT_FALSE(says(outcome.out, "nothing is certain")) << outcome.out;
 }
 
+TEST(NonlinearObserver, OtherObserversRunBesideIt) {
+  const Folder folder;
+  const std::string file = folder.file("p.yaml", R"yaml(problem: pendulum
+method:
+  like: nonlinear-observer
+  observers:
+    slow: {like: observer, let: {L: "[1; 1]"}}
+    ekf:
+      state: {xh: {shape: 2, start: 0}, S: {shape: symmetric 2, start: I}}
+      let:   {C: "jacobian(h(xh), xh)", K: S*C'/0.01}
+      flow:  {xh: "f(xh) + K*(y - h(xh))", S: "He(jacobian(f(xh), xh)*S) + 0.1*I - K*C*S"}
+data:
+  f(x): "[x(2); -9.81*sin(x(1)) - 0.5*x(2)]"
+  h(x): x(1)
+  low:  [-1, -3]
+  high: [1, 3]
+parameters: {alpha: 1}
+compare: [{peak: norm(x - xh)}]
+campaign: {runs: 4, horizon: 3, initial: {x: [0.5, 0]}}
+)yaml");
+  const std::string gains = folder.path("g.json");
+  const Outcome synth = gainsmith({"synth", file, "-o", gains});
+  ASSERT_EQ(synth.exit, 0) << synth.out << synth.err;
+  const Outcome outcome = gainsmith({"simulate", gains, "--compare"});
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+  for (const char* name : {"observer", "slow", "ekf"})
+    EXPECT_TRUE(has(outcome.out, name)) << outcome.out;
+}
+
 }  // namespace
 }  // namespace gainsmith::tests

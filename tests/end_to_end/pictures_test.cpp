@@ -219,7 +219,6 @@ TEST(Pictures, WrongRequestsSayWhatWasExpected) {
       {{"--band", "xh"}, "--band: expected an estimate and its covariance, such as xh:P"},
       {{"--band", "xh:Q"}, "--band: no quantity of the run is named 'Q'"},
       {{"--band", "xh:u"}, "--band: 'u' is no covariance of 'xh'"},
-      {{"--runs", "20"}, "--runs: there is no run 20: the campaign has runs 0 to 19"},
       {{"--runs", "1,x"}, "--runs: expected numbers of runs, such as 0,3,17 or 0:9, not '1,x'"},
       {{"--runs", "5:2"}, "--runs: expected numbers of runs"},
       {{"--runs=-1"}, "--runs: expected numbers of runs"},
