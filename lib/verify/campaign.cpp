@@ -274,8 +274,15 @@ void Campaign::make_runs(RunRange range, CampaignPart& part, const Save& save) c
 void Campaign::repeat_worst(CampaignPart& part) const {
   if (part.tally.runs == 0) return;
   // A command that is stopped tells what it knows within a second.
-  const Concluding concluding(0.5);
-  if (packs_) repeat_carefully(*setup_, part);
+  if (is_stopping()) {
+    const Concluding concluding(0.5);
+    confirm_violations(*setup_, part);
+  }
+  {
+    const Concluding concluding(0.5);
+    if (packs_) repeat_carefully(*setup_, part);
+  }
+  check_stop();
   confirm_violations(*setup_, part);
 }
 
