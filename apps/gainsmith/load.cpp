@@ -225,7 +225,7 @@ LoadedGains load_run(const std::filesystem::path& path, const std::vector<std::s
   if (!instance.design->inequalities.empty() || !instance.design->unknowns.empty() ||
       !instance.design->open.empty())
     throw InputError({path.string()},
-                     "this is a problem whose gains or parameters are searched: 'gainsmith synth " +
+                     "the gains of this problem are not known yet: 'gainsmith synth " +
                          model::problem_words(path.string(), instance.design->statement.settings) +
                          " -o gains.json' first, then simulate or verify gains.json");
   refuse_without_campaign(*instance.design, path.string());

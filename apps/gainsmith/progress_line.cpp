@@ -20,6 +20,12 @@ std::string terminal_text(double seconds) {
   return fmt::format("\r\033[K{:.0f} s  {}", seconds, to_text(Doing::now()));
 }
 
+/// Empty where nothing is counted.
+std::string log_text(double seconds) {
+  if (Doing::now().what.empty()) return "";
+  return fmt::format("gainsmith: after {:.0f} s: {}\n", seconds, to_text(Doing::now()));
+}
+
 /// For programs that wait. The names of what is done need no quotation.
 std::string json_line(double seconds) {
   const Progress progress = Doing::now();
@@ -34,7 +40,7 @@ std::string json_line(double seconds) {
 
 class Reporter {
  public:
-  explicit Reporter(bool terminal) : terminal_(terminal), thread_([this] { report(); }) {}
+  explicit Reporter(ProgressKind kind) : kind_(kind), thread_([this] { report(); }) {}
 
   ~Reporter() {
     {
@@ -63,20 +69,44 @@ class Reporter {
 
   void report() {
     const auto start = Clock::now();
-    const std::chrono::milliseconds pause(terminal_ ? 500 : 10'000);
+    std::chrono::milliseconds pause = first_pause();
     std::unique_lock lock(mutex_);
     for (auto next = start + pause; !ends_.wait_until(lock, next, [&] { return ending_; });
          next += pause) {
+      if (kind_ == ProgressKind::lines)
+        pause = std::chrono::duration_cast<std::chrono::milliseconds>(next - start);
       if (hidden_) continue;
       const std::chrono::duration<double> seconds = Clock::now() - start;
-      const std::string text =
-          terminal_ ? terminal_text(seconds.count()) : json_line(seconds.count());
-      std::fputs(text.c_str(), stderr);
-      shown_ = terminal_;
+      std::fputs(text(seconds.count()).c_str(), stderr);
+      shown_ = kind_ == ProgressKind::updated;
     }
   }
 
-  const bool terminal_;
+  std::chrono::milliseconds first_pause() const {
+    switch (kind_) {
+      case ProgressKind::updated:
+        return std::chrono::milliseconds(500);
+      case ProgressKind::lines:
+        return std::chrono::seconds(30);
+      case ProgressKind::json:
+        break;
+    }
+    return std::chrono::seconds(10);
+  }
+
+  std::string text(double seconds) const {
+    switch (kind_) {
+      case ProgressKind::updated:
+        return terminal_text(seconds);
+      case ProgressKind::lines:
+        return log_text(seconds);
+      case ProgressKind::json:
+        break;
+    }
+    return json_line(seconds);
+  }
+
+  const ProgressKind kind_;
   std::mutex mutex_;
   std::condition_variable ends_;
   bool ending_ = false;
@@ -89,7 +119,7 @@ std::unique_ptr<Reporter> reporter;
 
 }  // namespace
 
-void show_progress(bool terminal) { reporter = std::make_unique<Reporter>(terminal); }
+void show_progress(ProgressKind kind) { reporter = std::make_unique<Reporter>(kind); }
 
 void clear_progress() {
   if (reporter) reporter->clear();

@@ -3,8 +3,13 @@
 
 namespace gainsmith::app {
 
-/// On a terminal one line that is updated; elsewhere a line every 10 s.
-void show_progress(bool terminal);
+enum class ProgressKind {
+  updated,  ///< one line that changes, for a terminal
+  lines,    ///< a line of text after 30 s, and after twice the time each, for a log
+  json      ///< a line of JSON every 10 s, for a program
+};
+
+void show_progress(ProgressKind kind);
 /// The line of a terminal goes, and comes again when it is next due.
 void clear_progress();
 /// Whether it is hidden for a while.

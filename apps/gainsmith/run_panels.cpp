@@ -219,21 +219,28 @@ class Planner {
         }));
   }
 
-  /// One panel an input; u and z are an input and what is to stay small, by custom.
+  /// One panel an input. What is called u or z is an input, or what is to stay small, by
+  /// custom: a signal, or a state of an observer such as an input that it holds.
   void add_inputs() {
+    const auto is_shown = [&](const Column& one) {
+      const bool is_own =
+          one.kind == Kind::signal || (one.kind == Kind::state && !one.observer.empty());
+      if (is_own && (one.stem == "u" || one.stem == "z")) return true;
+      return (one.kind == Kind::signal || one.kind == Kind::other) && one.observer.empty() &&
+             view_.inputs.contains(one.stem);
+    };
     std::vector<std::string> stems;
-    for (const std::size_t k : columns([&](const Column& one) {
-           return (one.kind == Kind::signal || one.kind == Kind::other) && one.observer.empty() &&
-                  (view_.inputs.contains(one.stem) || one.stem == "u" || one.stem == "z");
-         }))
-      if (stems.empty() || stems.back() != column(k).stem) stems.push_back(column(k).stem);
+    for (const std::size_t k : columns(is_shown))
+      if (std::find(stems.begin(), stems.end(), column(k).stem) == stems.end())
+        stems.push_back(column(k).stem);
     for (const std::string& stem : stems) {
       PlannedPanel panel{stem, "", false, {}};
       for (const std::size_t k :
-           columns([&](const Column& one) { return one.stem == stem && one.observer.empty(); })) {
+           columns([&](const Column& one) { return is_shown(one) && one.stem == stem; })) {
         panel.unit = unit_of(view_, column(k));
         panel.lines.push_back(line(k));
-        panel.lines.back().colour = static_cast<int>(panel.lines.size()) - 1;
+        if (column(k).observer.empty())
+          panel.lines.back().colour = static_cast<int>(panel.lines.size()) - 1;
       }
       add(std::move(panel));
     }

@@ -115,7 +115,9 @@ void begin_work(const Patience& patience) {
   handle(SIGALRM, on_timer);
   patience_seconds = patience.seconds.value_or(0);
   if (patience.seconds) set_timer(*patience.seconds);
-  if (patience.progress || is_terminal()) show_progress(is_terminal());
+  show_progress(is_terminal()       ? ProgressKind::updated
+                : patience.progress ? ProgressKind::json
+                                    : ProgressKind::lines);
 }
 
 Telling::Telling() {

@@ -108,11 +108,13 @@ class Setter {
                                       "file; --runs and --seed are options of run and verify");
     if (std::any_of(method.unknowns.begin(), method.unknowns.end(),
                     [&](const auto& unknown) { return unknown.name == name_; }))
-      throw InputError({option_},
-                       "'" + name_ +
-                           "' is an unknown, which the solver finds; an inequality in the "
-                           "problem asks for less or more of it, such as 'require: {enough: " +
-                           name_ + " <= " + setting_.value + "}'");
+      throw InputError(
+          {option_},
+          "'" + name_ +
+              "' is an unknown, which the solver finds; an inequality in the problem asks "
+              "for less or more of it, such as 'method: {" +
+              (is_in_problem(method) ? "" : "like: " + method.name + ", ") +
+              "require: {enough: " + name_ + " <= " + setting_.value + "}}'");
     std::vector<std::string> known;
     for (const auto& datum : method.data) known.push_back(datum.name);
     for (const auto& parameter : method.parameters) known.push_back(parameter.name);
