@@ -189,10 +189,17 @@ class Search {
   }
 
   /// Where nothing is known over the piece: the variable of which one value alone leaves least
-  /// unknown, of equal ones the widest.
+  /// unknown, of equal ones the widest. At a kink, as that of |x|, halving it teaches nothing once
+  /// the piece is thin there: then what is left is known by the other variables.
   std::size_t most_telling(const Piece& piece) {
-    std::size_t along = widest(piece);
-    if (piece.low.size() == 1) return along;
+    constexpr double kThin = 0x1p-10;  // of the widest
+    const std::size_t most = widest(piece);
+    if (piece.low.size() == 1) return most;
+    const std::size_t telling = least_unknown(piece, most);
+    return width(piece, telling) < kThin * width(piece, most) ? most : telling;
+  }
+
+  std::size_t least_unknown(const Piece& piece, std::size_t along) {
     const auto unknown = [&](std::size_t i) {
       Piece part = piece;
       part.low[i] = part.high[i] = piece.low[i] + (piece.high[i] - piece.low[i]) / 2;

@@ -115,5 +115,22 @@ campaign: {runs: 4, horizon: 3, initial: {x: [0.5, 0]}}
     EXPECT_TRUE(has(outcome.out, name)) << outcome.out;
 }
 
+/// The jacobian of x |x| has a kink at 0, where no second derivative is known.
+TEST(NonlinearObserver, ADampingByTheSquareOfTheRateIsShown) {
+  const Folder folder;
+  const Outcome outcome = gainsmith({"synth", folder.file("p.yaml", R"yaml(problem: ship
+method: nonlinear-observer
+data:
+  f(x): "[x(2); -0.2*x(2) - 0.4*x(2)*abs(x(2)) - x(1) + 0.6*x(1)^3 + x(3); -0.05*x(3)]"
+  h(x): x(1)
+  low:  [-1, -0.8, -0.25]
+  high: [1, 0.8, 0.25]
+parameters: {alpha: 0.5, gain: 20}
+no campaign: gains alone
+)yaml")});
+  EXPECT_EQ(outcome.exit, 0) << outcome.out << outcome.err;
+  EXPECT_TRUE(has(outcome.out, "checked between them")) << outcome.out;
+}
+
 }  // namespace
 }  // namespace gainsmith::tests
