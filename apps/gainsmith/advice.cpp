@@ -46,8 +46,9 @@ std::vector<std::string> next_commands(const model::Instance& instance, const mo
   if (gains.verdict == model::Verdict::yes) return commands;
   if (gains.verdict == model::Verdict::undecided && gains.solver.out_of_allowance)
     commands.push_back("gainsmith synth " + problem + " --effort full");
+  // What is undecided takes long, again and again.
   if (gains.verdict == model::Verdict::undecided)
-    commands.push_back("gainsmith explain " + problem);
+    commands.push_back("gainsmith explain " + problem + " --time 60");
   if (gains.bound_only)
     commands.push_back("gainsmith bisect " + problem + " --smallest gain_bound");
   // What the output does not show no interval shows.

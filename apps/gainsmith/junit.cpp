@@ -26,7 +26,11 @@ std::string escaped(const std::string& text) {
         result += "&quot;";
         break;
       default:
-        result += c;
+        // XML has no control characters but these.
+        if (static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t')
+          result += c;
+        else
+          result += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
     }
   }
   return result;

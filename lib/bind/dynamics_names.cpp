@@ -45,10 +45,9 @@ std::set<std::string> names_of_method(const model::Method& method) {
 }  // namespace
 
 DynamicsNames::DynamicsNames(const model::Method& method, std::set<std::string> varied)
-    : method_(&method), varied_(std::move(varied)) {
-  const std::set<std::string> of_method = names_of_method(method);
+    : method_(&method), varied_(std::move(varied)), of_method_(names_of_method(method)) {
   for (const std::string& name : names_of(method.plant))
-    if (of_method.contains(name)) shared_.insert(name);
+    if (of_method_.contains(name)) shared_.insert(name);
   for (const model::Component& observer : method.observers)
     own_[observer.name] = names_of(observer);
   anywhere_ = names_of(method.plant);
@@ -168,9 +167,32 @@ Reading DynamicsNames::reading(const std::string& observer, const std::set<std::
   return result;
 }
 
+/// InputError for a name of the method that some of the observers which are meant have too: the text
+/// would leave the others out.
+void DynamicsNames::refuse_captured(const std::set<std::string>& bare, const Place& place) const {
+  std::vector<std::string> meant;
+  for (const model::Component& observer : method_->observers)
+    if (std::all_of(bare.begin(), bare.end(), [&](const std::string& name) {
+          return of_method_.contains(name) || has(observer.name, name);
+        }))
+      meant.push_back(observer.name);
+  for (const std::string& name : bare) {
+    if (!of_method_.contains(name)) continue;
+    const auto owns = [&](const std::string& observer) { return has(observer, name); };
+    const auto owner = std::find_if(meant.begin(), meant.end(), owns);
+    const auto other = std::find_if_not(meant.begin(), meant.end(), owns);
+    if (owner == meant.end() || other == meant.end()) continue;
+    throw InputError(place, "'" + name + "' is of the observer '" + *owner +
+                                "' and of the method, which is meant for '" + *other +
+                                "': give that of '" + *owner + "' another name, or write " +
+                                *owner + "." + name);
+  }
+}
+
 std::vector<Reading> DynamicsNames::outside(const std::vector<expr::Expression>& texts) const {
   const std::set<std::string> bare = bare_names(texts);
   if (bare.empty()) return {reading("", bare, texts)};
+  refuse_captured(bare, texts.front().place(*texts.front().root));
   std::vector<Reading> readings;
   for (const model::Component& observer : method_->observers)
     if (std::all_of(bare.begin(), bare.end(),

@@ -73,11 +73,13 @@ class DynamicsNames {
   bool is_output_of_plant(const std::string& name) const;
   std::set<std::string> bare_names(const std::vector<expr::Expression>& texts) const;
   bool has(const std::string& observer, const std::string& name) const;
+  void refuse_captured(const std::set<std::string>& bare, const Place& place) const;
   Reading reading(const std::string& observer, const std::set<std::string>& bare,
                   const std::vector<expr::Expression>& texts) const;
 
   const model::Method* method_;
   std::set<std::string> varied_;
+  std::set<std::string> of_method_;                        ///< data, unknowns, gains and the like
   std::set<std::string> shared_;                           ///< by plant and method
   std::map<std::string, std::set<std::string>> own_;       ///< by observer
   std::map<std::string, std::set<std::string>> readings_;  ///< signals, by observer

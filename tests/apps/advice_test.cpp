@@ -24,10 +24,11 @@ const std::string kSampled =
     "    c: {forall: \"tau in [0, 3]\", that: x < 5}\ndata: {low: 0.25, T2: 1.5}\n";
 
 TEST(AdviceTest, TheEndOfAnIntervalIsAskedForOnce) {
-  const std::vector<std::string> both = {"gainsmith explain plant.yaml",
-                                         "gainsmith bisect plant.yaml --largest T2 --in 0.25 1.5"};
-  EXPECT_EQ(commands(kSampled, Verdict::no), both);
-  EXPECT_EQ(commands(kSampled, Verdict::undecided), both);
+  const std::string bisect = "gainsmith bisect plant.yaml --largest T2 --in 0.25 1.5";
+  EXPECT_EQ(commands(kSampled, Verdict::no),
+            (std::vector<std::string>{"gainsmith explain plant.yaml", bisect}));
+  EXPECT_EQ(commands(kSampled, Verdict::undecided),
+            (std::vector<std::string>{"gainsmith explain plant.yaml --time 60", bisect}));
   EXPECT_TRUE(commands(kSampled, Verdict::yes).empty());
 }
 
@@ -54,7 +55,7 @@ TEST(AdviceTest, ScalarsThatOnlySynthSearchesAreSaid) {
 
 TEST(AdviceTest, NamesThatAShellWouldSplitAreQuoted) {
   EXPECT_EQ(commands(kSampled, Verdict::undecided, "my plant's.yaml")[0],
-            "gainsmith explain 'my plant'\\''s.yaml'");
+            "gainsmith explain 'my plant'\\''s.yaml' --time 60");
 }
 
 TEST(AdviceTest, WhatWasSetIsSetAgain) {
@@ -66,7 +67,7 @@ TEST(AdviceTest, WhatWasSetIsSetAgain) {
   gains.verdict = Verdict::undecided;
   EXPECT_EQ(next_commands(yaml.instance, gains, "plant.yaml"),
             (std::vector<std::string>{
-                "gainsmith explain plant.yaml --set T2=1.5 --set 'low=1 / 4'",
+                "gainsmith explain plant.yaml --set T2=1.5 --set 'low=1 / 4' --time 60",
                 "gainsmith bisect plant.yaml --set T2=1.5 --set 'low=1 / 4' --largest T2 --in 0.25 "
                 "1.5"}));
 }

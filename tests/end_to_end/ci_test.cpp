@@ -115,5 +115,15 @@ TEST(Ci, AViolationStaysOneWhenACampaignIsStopped) {
   EXPECT_TRUE(has(outcome.out, "violated: interrupted after ")) << outcome.out;
 }
 
+TEST(Ci, ControlCharactersDoNotBreakTheReport) {
+  const Folder folder;
+  const std::string junit = folder.path("j.xml");
+  gainsmith({"run", folder.file("p.yaml", kLqr + "let: {a: \"\\e1\"}\n"), "-o", folder.path("out"),
+             "--junit", junit});
+  const std::string text = text_of(junit);
+  EXPECT_TRUE(has(text, "\\x1b")) << text;
+  EXPECT_FALSE(has(text, "\x1b")) << text;
+}
+
 }  // namespace
 }  // namespace gainsmith::tests

@@ -132,5 +132,24 @@ no campaign: gains alone
   EXPECT_TRUE(has(outcome.out, "checked between them")) << outcome.out;
 }
 
+/// P is the Lyapunov matrix of the method: its claim would be about the other observer alone.
+TEST(NonlinearObserver, ANameOfTheMethodIsNotTakenByAnotherObserver) {
+  const Folder folder;
+  const Outcome outcome = gainsmith({"check", folder.file("p.yaml", R"yaml(problem: p
+method:
+  like: nonlinear-observer
+  observers:
+    ekf:
+      state: {xh: {shape: 2, start: 0}, P: {shape: symmetric 2, start: I}}
+      flow:  {xh: f(xh), P: He(P)}
+data: {f(x): "[x(2); -sin(x(1)) - x(2)]", h(x): x(1), low: [-1, -1], high: [1, 1]}
+campaign: {runs: 4, horizon: 3, initial: {x: [0.5, 0]}}
+)yaml")});
+  EXPECT_EQ(outcome.exit, 2) << outcome.out;
+  EXPECT_TRUE(has(outcome.err,
+                  "'P' is of the observer 'ekf' and of the method, which is meant for 'observer'"))
+      << outcome.err;
+}
+
 }  // namespace
 }  // namespace gainsmith::tests
