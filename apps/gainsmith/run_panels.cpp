@@ -219,13 +219,13 @@ class Planner {
         }));
   }
 
-  /// One panel an input. What is called u or z is an input, or what is to stay small, by
-  /// custom: a signal, or a state of an observer such as an input that it holds.
+  /// One panel an input. By custom u is an input, a signal or a state that an observer
+  /// holds, and the signal z is to stay small.
   void add_inputs() {
     const auto is_shown = [&](const Column& one) {
-      const bool is_own =
-          one.kind == Kind::signal || (one.kind == Kind::state && !one.observer.empty());
-      if (is_own && (one.stem == "u" || one.stem == "z")) return true;
+      const bool held = one.kind == Kind::state && !one.observer.empty();
+      if (one.stem == "u" && (held || one.kind == Kind::signal)) return true;
+      if (one.stem == "z" && one.kind == Kind::signal) return true;
       return (one.kind == Kind::signal || one.kind == Kind::other) && one.observer.empty() &&
              view_.inputs.contains(one.stem);
     };
