@@ -150,7 +150,7 @@ TEST(Better, TheSmallestGainBoundThatIsEnoughIsFound) {
   EXPECT_FALSE(has(synth.out, "objective")) << synth.out;
   EXPECT_FALSE(has(synth.out, "solver: optimal")) << synth.out;
   const Outcome set = gainsmith({"synth", file, "--set", "gain_bound=1"});
-  EXPECT_TRUE(has(set.out, "explain " + file + " --set gain_bound=1\n")) << set.out;
+  EXPECT_TRUE(has(set.out, "explain " + file + " --set gain_bound=1 --time 60\n")) << set.out;
   EXPECT_TRUE(has(set.out, file + " --set gain_bound=1 --smallest gain_bound\n")) << set.out;
   const Outcome outcome = gainsmith({"explain", file});
   EXPECT_TRUE(has(outcome.out, "gain_bound at least 4.0")) << outcome.out;
