@@ -46,7 +46,7 @@ std::vector<std::string> next_commands(const model::Instance& instance, const mo
   if (gains.verdict == model::Verdict::yes) return commands;
   if (gains.verdict == model::Verdict::undecided && gains.solver.out_of_allowance)
     commands.push_back("gainsmith synth " + problem + " --effort full");
-  // What is undecided takes long, again and again.
+  // Each attempt at an undecided problem takes as long as the first.
   if (gains.verdict == model::Verdict::undecided)
     commands.push_back("gainsmith explain " + problem + " --time 60");
   if (gains.bound_only)

@@ -38,10 +38,10 @@ std::string escaped(const std::string& text) {
 
 /// "NO: ...", where the words do not begin so.
 std::string with_mark(const std::string& mark, const std::string& words) {
-  const auto same = [](char a, char b) { return a == std::tolower(static_cast<unsigned char>(b)); };
-  const bool begins = words.size() > mark.size() && words[mark.size()] == ':' &&
-                      std::equal(mark.begin(), mark.end(), words.begin(),
-                                 [&](char a, char b) { return same(b, a); });
+  const bool begins =
+      words.size() > mark.size() && words[mark.size()] == ':' &&
+      std::equal(mark.begin(), mark.end(), words.begin(),
+                 [](unsigned char upper, char lower) { return std::tolower(upper) == lower; });
   return mark + (begins ? words.substr(mark.size()) : ": " + words);
 }
 

@@ -182,10 +182,10 @@ void DynamicsNames::refuse_captured(const std::set<std::string>& bare, const Pla
     const auto owner = std::find_if(meant.begin(), meant.end(), owns);
     const auto other = std::find_if_not(meant.begin(), meant.end(), owns);
     if (owner == meant.end() || other == meant.end()) continue;
-    throw InputError(place, "'" + name + "' is of the observer '" + *owner +
-                                "' and of the method, which is meant for '" + *other +
-                                "': give that of '" + *owner + "' another name, or write " +
-                                *owner + "." + name);
+    throw InputError(place, "'" + name + "' is a name of the observer '" + *owner +
+                                "' and of the method, so the others, such as '" + *other +
+                                "', would be left out: give that of '" + *owner +
+                                "' another name, or write " + *owner + "." + name);
   }
 }
 

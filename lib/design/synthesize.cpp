@@ -121,13 +121,15 @@ void note_larger_gains(const model::Design& design, const model::SynthesisOption
       larger += (larger.empty() ? "" : ", ") + name + " has the norm " + brief(norm, 3);
   }
   if (larger.empty()) return;
+  const std::vector<std::string> used = scalars_in_use(design);
   std::string parameters;
-  for (const std::string& name : scalars_in_use(design))
-    parameters += (parameters.empty() ? "" : ", ") + name;
-  gains.solver.add_message("beyond the gain bound " + brief(*asked.gain_bound) + ": " + larger +
-                           ". The bound cannot be imposed on all of a formula of two unknown "
-                           "factors; what limits such gains is in the inequalities" +
-                           (parameters.empty() ? "" : ", as may be " + parameters));
+  for (const model::Design::Datum& parameter : design.parameters)
+    if (std::find(used.begin(), used.end(), parameter.name) != used.end())
+      parameters += (parameters.empty() ? "" : ", ") + parameter.name;
+  gains.solver.add_message(
+      "the gain bound " + brief(*asked.gain_bound) + " is not kept: " + larger +
+      ", and no condition imposes it on all of such a formula" +
+      (parameters.empty() ? "" : "; a parameter of the inequalities may: " + parameters));
 }
 
 /// Gains whose formulas use nothing but data are known in any case, the others when the verdict is

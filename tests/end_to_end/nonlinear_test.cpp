@@ -146,8 +146,7 @@ data: {f(x): "[x(2); -sin(x(1)) - x(2)]", h(x): x(1), low: [-1, -1], high: [1, 1
 campaign: {runs: 4, horizon: 3, initial: {x: [0.5, 0]}}
 )yaml")});
   EXPECT_EQ(outcome.exit, 2) << outcome.out;
-  EXPECT_TRUE(has(outcome.err,
-                  "'P' is of the observer 'ekf' and of the method, which is meant for 'observer'"))
+  EXPECT_TRUE(has(outcome.err, "'P' is a name of the observer 'ekf' and of the method"))
       << outcome.err;
 }
 
