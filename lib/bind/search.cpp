@@ -144,7 +144,8 @@ void bind_expectation(Binding& binding) {
   bound.place = expect.place;
   for (const model::ExpectedValue& each : expect.values) {
     model::Formula what = formula(each.what, binding.names->results);
-    const auto of = [&](const std::optional<model::Value>& wanted) -> std::optional<model::Formula> {
+    const auto of =
+        [&](const std::optional<model::Value>& wanted) -> std::optional<model::Formula> {
       if (!wanted) return std::nullopt;
       return value(*wanted, binding.names->known, what.program.shape());
     };
@@ -153,9 +154,16 @@ void bind_expectation(Binding& binding) {
                             std::move(above), each.relative, each.absolute, each.place});
   }
   for (const model::ExpectedFigureText& text : expect.run) {
-    model::ExpectedFigure figure{only(figures(binding, text.figure)), std::nullopt, text.ending,
-                                 text.relative, text.absolute};
-    if (text.is) figure.is = scalar(*text.is, binding.names->known);
+    const auto known = [&](const std::optional<expr::Expression>& wanted) {
+      return wanted ? std::optional(scalar(*wanted, binding.names->known)) : std::nullopt;
+    };
+    model::ExpectedFigure figure{only(figures(binding, text.figure)),
+                                 known(text.is),
+                                 known(text.below),
+                                 known(text.above),
+                                 text.ending,
+                                 text.relative,
+                                 text.absolute};
     bound.run.push_back(std::move(figure));
   }
   binding.design->expect = std::move(bound);

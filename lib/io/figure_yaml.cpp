@@ -159,6 +159,20 @@ FigureText figure(const YamlFile& file, YamlMap& map, std::string* ending) {
   return result;
 }
 
+/// {below: at most this, above: at least this}
+void set_limits(const YamlFile& file, const YamlItem& is, model::ExpectedFigureText& result) {
+  YamlMap map(file, is.value, "is", keys::limits);
+  const auto limit = [&](const char* key) {
+    const auto found = map.find(key);
+    return found ? std::optional(file.expression(found->value, key)) : std::nullopt;
+  };
+  result.below = limit("below");
+  result.above = limit("above");
+  map.finish();
+  if (!result.below && !result.above)
+    throw InputError(is.place, "is: expected a value, or {below: limit, above: limit}");
+}
+
 model::ExpectedFigureText expected(const YamlFile& file, const YAML::Node& node) {
   YamlMap map(file, node, "run", keys::expected_figure);
   model::ExpectedFigureText result;
@@ -171,7 +185,13 @@ model::ExpectedFigureText expected(const YamlFile& file, const YAML::Node& node)
   const bool bounded = result.relative || result.absolute;
   if (kind == FigureKind::ended && (is || bounded))
     throw InputError(map.place(), "ended: the word is all");
-  if (kind != FigureKind::ended && !is) throw InputError(map.place(), "expected 'is: value'");
+  if (kind != FigureKind::ended && !is)
+    throw InputError(map.place(), "expected 'is: value', or 'is: {below: limit}'");
+  if (is && is->value.IsMap()) {
+    set_limits(file, *is, result);
+    if (bounded) throw InputError(is->place, "is: a tolerance is of a value; limits have none");
+    return result;
+  }
   const bool is_whole = kind == FigureKind::count || kind == FigureKind::passes;
   if (is && !bounded && !is_whole)
     throw InputError(is->place, "expected a tolerance, 'relative' or 'absolute'");

@@ -70,7 +70,7 @@ struct NamedForm {
 /// The levels of problem and method files.
 namespace keys {
 extern const Level problem, data, data_file, synthesis, way, campaign, law, accuracy, start,
-    ellipsoid, expectation, expected_value, expected_figure, figure, moment, search, uncertain;
+    ellipsoid, expectation, expected_value, expected_figure, limits, figure, moment, search, uncertain;
 extern const Level method, declaration, parameter, unknown, requirement, claim, cost;
 extern const Level component, map, loop, output, flow_set, state, log_plant, log, log_output,
     measured_input, measured_times, event, lost, noise, sinusoid, timer;

@@ -93,11 +93,10 @@ constexpr std::array kExpectation = {
     Key{"values", "{expected value}?", "expressions with their values"},
     Key{"run", "[expected figure]", "figures of one run"}};
 
-constexpr std::array kExpectedValue = {Key{"value", "matrix"},
-                                       Key{"relative", "number", "tolerance"},
-                                       Key{"absolute", "number", "tolerance"},
-                                       Key{"below", "matrix", "each element is at most this"},
-                                       Key{"above", "matrix", "each element is at least this"}};
+constexpr std::array kExpectedValue = {
+    Key{"value", "matrix"}, Key{"relative", "number", "tolerance"},
+    Key{"absolute", "number", "tolerance"}, Key{"below", "matrix", "each element is at most this"},
+    Key{"above", "matrix", "each element is at least this"}};
 constexpr std::array kExpectedValueRules = {Rule::some("value,below,above")};
 
 constexpr std::array kFigure = {
@@ -135,13 +134,16 @@ constexpr auto kExpectedFigure = joined(
             "'horizon' | 'escaped' | 'undefined' | 'left' | 'stuck' | 'zeno' | 'chattering' | "
             "'sliding' | 'passes' | 'full' | 'interrupted' | 'lost'",
             "why the run ended"},
-        Key{"is", "text", "the wanted value"}, Key{"relative", "number", "tolerance"},
-        Key{"absolute", "number", "tolerance"}});
+        Key{"is", "text | limits", "the wanted value, or its limits"},
+        Key{"relative", "number", "tolerance"}, Key{"absolute", "number", "tolerance"}});
 constexpr auto kExpectedFigureRules = joined(
     kFigureParts,
     std::array{
         Rule::exactly_one("value,peak,least,settles,rms,integral,nees,nis,count,passes,lost,ended"),
         Rule::exactly_one("is,ended"), Rule::excludes("ended", "is,relative,absolute")});
+
+constexpr std::array kLimits = {Key{"below", "text", "at most"}, Key{"above", "text", "at least"}};
+constexpr std::array kLimitRules = {Rule::some("below,above")};
 
 constexpr std::array kMoment = {Key{"event", "text"}, Key{"t", "text", "a time"},
                                 Key{"count", "whole", "which one of the event"},
@@ -186,10 +188,11 @@ const Level accuracy = {"accuracy", "Accuracy of the integration", kAccuracy};
 const Level start = {"start", "Where a state starts", kStart, kStartRules};
 const Level ellipsoid = {"ellipsoid", "Starts in an ellipsoid", kEllipsoid};
 const Level expectation = {"expectation", "What results are compared with", kExpectation};
-const Level expected_value = {"expected value", "A value with its tolerance, or bounds", kExpectedValue,
-                              kExpectedValueRules};
+const Level expected_value = {"expected value", "A value with its tolerance, or bounds",
+                              kExpectedValue, kExpectedValueRules};
 const Level expected_figure = {"expected figure", "A figure with its value", kExpectedFigure,
                                kExpectedFigureRules};
+const Level limits = {"limits", "What a figure is at most, and at least", kLimits, kLimitRules};
 const Level figure = {"figure", "A figure of a run", kFigure, kFigureRules};
 const Level moment = {"moment", "A time, or an event", kMoment, kMomentRules};
 const Level search = {"search", "Scalars that are searched", kSearch, kSearchRules};
@@ -209,6 +212,7 @@ constexpr std::array kProblemLevels = {&problem,
                                        &expectation,
                                        &expected_value,
                                        &expected_figure,
+                                       &limits,
                                        &figure,
                                        &moment,
                                        &search,

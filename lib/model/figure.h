@@ -56,7 +56,7 @@ struct FigureText {
 /// What a figure must be.
 struct ExpectedFigureText {
   FigureText figure;
-  std::optional<expr::Expression> is;
+  std::optional<expr::Expression> is, below, above;
   std::string ending;  ///< of `ended`
   std::optional<double> relative;
   std::optional<double> absolute;
@@ -78,6 +78,7 @@ struct Figure {
 struct ExpectedFigure {
   Figure figure;
   std::optional<Formula> is;
+  std::optional<Formula> below, above;  ///< at most, at least
   std::string ending;
   std::optional<double> relative;
   std::optional<double> absolute;

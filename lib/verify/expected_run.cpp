@@ -60,6 +60,8 @@ class TwoRuns {
   hybrid::Trajectory sharper_;
 };
 
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
 std::string said(const std::optional<double>& value) { return value ? brief(*value, 9) : "none"; }
 
 }  // namespace
@@ -83,6 +85,18 @@ RunDifferences run_differences(const model::Instance& instance, const model::Gai
       continue;
     }
     const FoundFigure found = runs.find(figure);
+    const auto within = [&](const model::Formula& formula, const char* words, double sign) {
+      const double limit = numbers::evaluate(formula.program, instance.values)(0, 0);
+      const std::string text = what + words + brief(limit, 9) + ", found " + said(found.value);
+      const double over = found.value ? sign * (*found.value - limit) : kNone;
+      if (!(over <= found.difference))
+        result.different.push_back(text);
+      else if (over > 0 || !(over + found.difference <= 0))
+        result.undecided.push_back(text + " +- " + brief(found.difference));
+    };
+    if (expected.below) within(*expected.below, "at most ", 1);
+    if (expected.above) within(*expected.above, "at least ", -1);
+    if (!expected.is) continue;
     const double wanted = numbers::evaluate(expected.is->program, instance.values)(0, 0);
     const double allowed =
         std::max(expected.absolute.value_or(0), expected.relative.value_or(0) * std::abs(wanted));

@@ -186,6 +186,12 @@ TEST(Dynamics, FiguresAreBoundToObserversAndEvents) {
       message("expect: {run: [{observer: careful, peak: norm(e), is: 1}]}\n").find("tolerance"),
       std::string::npos);
   EXPECT_NO_THROW(bound(kPendulum + "expect: {run: [{count: sample, is: 3}]}\n"));
+  EXPECT_NO_THROW(bound(kPendulum + "expect: {run: [{count: sample, is: {below: 3}}]}\n"));
+  EXPECT_NE(message("expect: {run: [{count: sample, is: {}}]}\n").find("{below: limit"),
+            std::string::npos);
+  EXPECT_NE(message("expect: {run: [{count: sample, is: {above: 1}, absolute: 1}]}\n")
+                .find("limits have none"),
+            std::string::npos);
   EXPECT_NE(message("compare: [{ended: horizon}]\n").find("all observers end with the run"),
             std::string::npos);
 }
