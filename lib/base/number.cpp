@@ -1,13 +1,17 @@
 #include "base/number.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 
 namespace gainsmith {
 
 namespace {
+
+constexpr int kDigits = std::numeric_limits<double>::digits10;
 
 std::string general(double value, int digits) {
   std::array<char, 64> buffer{};
@@ -19,6 +23,26 @@ std::string general(double value, int digits) {
 }  // namespace
 
 std::string decimal17(double value) { return general(value, 17); }
+
+std::string shortest(double value) {
+  std::array<char, 32> buffer{};
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
+                                 std::chars_format::scientific);
+  const std::string text(buffer.data(), end.ptr);  // "-1.25e+03"
+  const std::size_t e = text.find('e');
+  if (e == std::string::npos || value == 0) return general(value, kDigits);
+  const bool negative = text[0] == '-';
+  std::string digits = text.substr(negative, e - negative);
+  std::erase(digits, '.');
+  const int exponent = std::atoi(text.c_str() + e + 1);
+  const int count = static_cast<int>(digits.size());
+  if (exponent < -4 || exponent >= std::max(count, kDigits)) return text;
+  if (exponent < 0) digits.insert(0, std::string(static_cast<std::size_t>(-exponent), '0'));
+  const std::size_t whole = static_cast<std::size_t>(std::max(exponent, 0)) + 1;
+  if (digits.size() < whole) digits.append(whole - digits.size(), '0');
+  if (digits.size() > whole) digits.insert(whole, ".");
+  return (negative ? "-" : "") + digits;
+}
 
 std::string brief(double value, int digits) { return general(value, digits); }
 

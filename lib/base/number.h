@@ -11,6 +11,10 @@ namespace gainsmith {
 /// writing that again gives the same text. Infinity and NaN print as "inf", "-inf", "nan".
 std::string decimal17(double value);
 
+/// The shortest decimal that is read back as the same double: 0.3, not 0.29999999999999999. In the
+/// style of "%.15g", or of as many digits as it has.
+std::string shortest(double value);
+
 /// For people: `digits` significant digits, no trailing zeros ("%.*g").
 std::string brief(double value, int digits = 6);
 

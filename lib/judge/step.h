@@ -44,6 +44,8 @@ class StepAgain {
   std::optional<Quarters> straight();
   std::optional<Eigen::VectorXd> gauss(double t, const Eigen::VectorXd& y, double h);
   void rate(double t, const Eigen::VectorXd& y, Eigen::VectorXd& out);
+  /// Whether compiled programs say what the texts say at both ends of the step.
+  bool is_compiled_right();
   Quarters recorded_quarters() const;
   Eigen::VectorXd recorded(double t) const { return (*step_)(t)(moving_->active); }
 
@@ -53,6 +55,7 @@ class StepAgain {
   const Eigen::VectorXd* x_;
   const Eigen::VectorXd* allowed_;
   double h_;
+  bool compiled_ = false;  ///< rates are those of compiled programs
   Eigen::VectorXd all_, rates_;
   ode::GaussIntegrator gauss_;
 };

@@ -242,12 +242,21 @@ std::vector<bool> Texts::flowing(const Eigen::VectorXd& x) {
 }
 
 void Texts::rate(const Eigen::VectorXd& x, Eigen::VectorXd& out) {
+  set_rate(x, out, [&](Text& text) -> const numbers::Matrix& { return text(x); });
+}
+
+void Texts::compiled_rate(const Eigen::VectorXd& x, Eigen::VectorXd& out) {
+  set_rate(x, out, [&](Text& text) -> const numbers::Matrix& { return text.compiled(x); });
+}
+
+template <class Value>
+void Texts::set_rate(const Eigen::VectorXd& x, Eigen::VectorXd& out, const Value& value_of) {
   using V = Dynamics::VariableKind;
   out.setZero(layout.size);
   const std::vector<bool> flows = flowing(x);
   for (auto& [variable, text] : flow_) {
     if (!flows[variable]) continue;
-    numbers::Matrix value = text(x);
+    numbers::Matrix value = value_of(text);
     if (dynamics.variables[variable].structure == model::Structure::symmetric)
       make_symmetric(value);
     part(out, variable) = value.reshaped();

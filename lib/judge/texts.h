@@ -26,6 +26,8 @@ class Text {
 
   /// The value, valid until the next call. EvaluationError when it has no value.
   const numbers::Matrix& operator()(const Eigen::VectorXd& x) { return value_.at(0, x); }
+  /// The same by the compiled program, as the judged run has it: faster, and no second opinion.
+  const numbers::Matrix& compiled(const Eigen::VectorXd& x) { return value_(x); }
   /// How much each element moves, at most and to first order, when each x_i does by rounding_i.
   numbers::Matrix spread(const Eigen::VectorXd& x, const Eigen::VectorXd& rounding);
 
@@ -113,6 +115,8 @@ class Texts {
   }
   /// The rates of all elements at x: flows, clocks, 0 for what rests.
   void rate(const Eigen::VectorXd& x, Eigen::VectorXd& out);
+  /// The same by compiled programs (Text::compiled).
+  void compiled_rate(const Eigen::VectorXd& x, Eigen::VectorXd& out);
   /// Whether the states of each variable flow with the modes of x.
   std::vector<bool> flowing(const Eigen::VectorXd& x);
   /// Gives what rests in a flow from `start` the bits that it has there: a sum of polynomials has
@@ -156,6 +160,8 @@ class Texts {
   std::vector<FlowSetText> flow_sets;
 
  private:
+  template <class Value>
+  void set_rate(const Eigen::VectorXd& x, Eigen::VectorXd& out, const Value& value_of);
   double scalar(const model::Formula& formula) const;
   EventTexts event_texts(const model::Dynamics::Event& event) const;
   MapText map_text(const model::Dynamics::Assignment& entry) const;

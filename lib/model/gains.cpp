@@ -56,10 +56,7 @@ std::string coefficient_key(const std::string& gain, std::size_t k) {
 }
 
 std::string printed(double value) {
-  if (value == 0 && std::signbit(value)) return "-0.0";
-  for (const int digits : {kDoubleDigits, kDoubleDigits + 1})
-    if (std::string text = brief(value, digits); parse_decimal(text) == value) return text;
-  return decimal17(value);
+  return value == 0 && std::signbit(value) ? "-0.0" : shortest(value);
 }
 
 Decimals decimals_at(const Gains& gains, const std::string& key, const numbers::Matrix& matrix) {

@@ -142,9 +142,8 @@ struct StatedFunction {
   std::optional<expr::Program> body;
 };
 
-/// The decimal that is printed for a double: 15 or 16 digits where they are read back as the same
-/// double (0.3, not 0.29999999999999999), otherwise 17. Zero keeps its sign as "-0.0", since JSON
-/// reads "-0" as a whole number, which has none.
+/// The shortest decimal of a double. Zero keeps its sign as "-0.0", since JSON reads "-0" as a whole
+/// number, which has none.
 std::string printed(double value);
 
 /// A matrix as a gain file prints it. What the file states are these decimals; doubles are their

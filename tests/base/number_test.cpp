@@ -37,6 +37,34 @@ TEST(Decimal17, ReadsBackToTheSameBitsAtTheEdges) {
   }
 }
 
+/// In 15 or 16 digits where they are read back as the same double, otherwise in 17.
+std::string tried_in_turn(double value) {
+  for (const int digits : {15, 16})
+    if (std::string text = brief(value, digits); parse_decimal(text) == value) return text;
+  return decimal17(value);
+}
+
+TEST(Shortest, IsTheFirstThatReadsBack) {
+  std::mt19937_64 random(2);
+  std::uniform_int_distribution<int> tenth(-30, 30);
+  std::uniform_real_distribution<double> inside(-10, 10);
+  for (int k = 0; k < 100000; ++k) {
+    const auto bits = std::bit_cast<double>(random());
+    const double values[] = {bits, inside(random), std::round(1e4 * inside(random)) / 1e4,
+                             std::round(inside(random)) * std::pow(10.0, tenth(random))};
+    for (const double value : values)
+      if (std::isnormal(value)) ASSERT_EQ(shortest(value), tried_in_turn(value));
+  }
+  EXPECT_EQ(shortest(0), "0");
+  EXPECT_EQ(shortest(0.3), "0.3");
+  EXPECT_EQ(shortest(-0.001), "-0.001");
+  EXPECT_EQ(shortest(1e15), "1e+15");
+  EXPECT_EQ(shortest(123456789012345678), "1.2345678901234568e+17");
+  EXPECT_EQ(shortest(std::numeric_limits<double>::denorm_min()), "5e-324");
+  EXPECT_EQ(shortest(std::numeric_limits<double>::infinity()), "inf");
+  EXPECT_EQ(shortest(std::numeric_limits<double>::quiet_NaN()), "nan");
+}
+
 TEST(Decimal17, WritesAsPrintfDoes) {
   EXPECT_EQ(decimal17(0.1), "0.10000000000000001");
   EXPECT_EQ(decimal17(-2), "-2");

@@ -37,7 +37,7 @@ STRUCTURE = re.compile(
 OTHER_VALUES = [None, 7, "a word", [], [1, 2], ["a", "b", "c"], [[1, 2], [3, 4]], [[[1]]], {}, {"zz": 1}, {"zz": {"zz": [1]}}]
 
 
-class Core(yaml.SafeLoader):
+class Core(getattr(yaml, "CSafeLoader", yaml.SafeLoader)):
     """YAML 1.2: yes and 1:20 are texts, 1e-3 is a number."""
 
 
