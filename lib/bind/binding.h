@@ -1,7 +1,9 @@
 // Internal to bind: one binding, and what is made of it so far.
 #pragma once
 
+#include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "bind/bind.h"
@@ -47,7 +49,8 @@ struct Binding {
   std::shared_ptr<model::Design> design;
   std::shared_ptr<Names> names;
   std::shared_ptr<Recorder> recorder;
-  std::unique_ptr<DynamicsNames> dynamics_names;  ///< from bind_components() on
+  std::map<std::string, expr::Expression> data_texts;  ///< of data and parameters, by name
+  std::unique_ptr<DynamicsNames> dynamics_names;       ///< from bind_components() on
 };
 
 /// Binds the texts of a design anew for values that change its shapes. Ranges and the campaign were

@@ -186,6 +186,7 @@ void add_datum(Binding& binding, const Given& given) {
   bound.place = value.place;
   bound.value =
       formula(turned.value, binding.names->known, has_free_size(value) ? expected : std::nullopt);
+  binding.data_texts.insert_or_assign(datum.name, turned.value);
   bound.shape = bound.value->program.shape();
   if (!learn(datum.shape, bound.shape, dimensions))
     throw InputError(value.place, "the datum " + datum.name + " is declared " +
@@ -222,7 +223,9 @@ void add_parameter(Binding& binding, const model::Parameter& parameter) {
   const model::ScalarRange* searched = find_searched(binding, parameter.name);
   if (searched == nullptr && parameter.search) searched = &*parameter.search;
   if (given != nullptr || parameter.fallback) {
-    bound.value = scalar(given ? given->value : *parameter.fallback, binding.names->known);
+    const expr::Expression& text = given ? given->value : *parameter.fallback;
+    bound.value = scalar(text, binding.names->known);
+    binding.data_texts.insert_or_assign(parameter.name, text);
     bound.place = given ? given->place : parameter.place;
   } else if (searched != nullptr) {
     start_at_end(binding, *searched, bound);

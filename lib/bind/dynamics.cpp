@@ -28,11 +28,13 @@ std::vector<std::string> state_names(const model::Component& component) {
 DynamicsBinding::DynamicsBinding(const model::Method& method, const model::Dimensions& dimensions,
                                  const DynamicsNames& names,
                                  const std::vector<model::UncertainText>& uncertain,
+                                 const std::map<std::string, expr::Expression>& data_texts,
                                  expr::Scope& scope)
     : method_(&method),
       dimensions_(&dimensions),
       names_(&names),
       uncertain_(&uncertain),
+      data_texts_(&data_texts),
       scope_(&scope) {}
 
 model::Formula DynamicsBinding::formula(const expr::Expression& text, const expr::Scope& scope,
@@ -143,7 +145,8 @@ std::string DynamicsBinding::no_datum(const std::string& name) const {
   return "no datum and no parameter" + suggestion(name, data);
 }
 
-/// Uncertain data as the plant has them, chosen once a run, and the definitions that use them.
+/// Uncertain data as the plant has them, chosen once a run, and what uses them: definitions, and
+/// other data, which are definitions of the plant then.
 void DynamicsBinding::add_varied() {
   for (const model::UncertainText& text : *uncertain_) {
     const auto datum = scope_->symbols.find(text.name);
@@ -153,10 +156,14 @@ void DynamicsBinding::add_varied() {
       throw InputError(text.place, "uncertain: '" + text.name + "' also names a part of the plant");
     add_noise(varied_noise(text, datum->second.shape));
   }
-  for (const std::string& name : names_->varied())
+  for (const std::string& name : names_->varied()) {
     if (const auto found = scope_->definitions.find(name); found != scope_->definitions.end())
       scope_->definitions["plant." + name] = {
           found->second.parameters, names_->of_plant(found->second.body, found->second.parameters)};
+    else if (const auto text = data_texts_->find(name);
+             text != data_texts_->end() && !scope_->symbols.contains("plant." + name))
+      scope_->definitions["plant." + name] = {{}, names_->of_plant(text->second, {})};
+  }
 }
 
 void DynamicsBinding::add_inputs() {

@@ -20,7 +20,7 @@ class DynamicsBinding {
   /// and events are added to it.
   DynamicsBinding(const model::Method& method, const model::Dimensions& dimensions,
                   const DynamicsNames& names, const std::vector<model::UncertainText>& uncertain,
-                  expr::Scope& scope);
+                  const std::map<std::string, expr::Expression>& data_texts, expr::Scope& scope);
 
   model::Dynamics run();
   /// The event at which alone an output exists, by its full name.
@@ -91,6 +91,7 @@ class DynamicsBinding {
   const model::Dimensions* dimensions_;
   const DynamicsNames* names_;
   const std::vector<model::UncertainText>* uncertain_;
+  const std::map<std::string, expr::Expression>* data_texts_;
   expr::Scope* scope_;
   model::Dynamics result_;
   std::map<std::string, std::size_t> events_;         ///< by full name

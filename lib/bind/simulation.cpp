@@ -108,7 +108,8 @@ void bind_report(Binding& binding, const expr::Scope& scope) {
 void bind_dynamics(Binding& binding) {
   expr::Scope& scope = binding.names->running;
   DynamicsBinding dynamics_binding(binding.method(), binding.design->dimensions,
-                                   *binding.dynamics_names, binding.problem().uncertain, scope);
+                                   *binding.dynamics_names, binding.problem().uncertain,
+                                   binding.data_texts, scope);
   binding.design->dynamics = dynamics_binding.run();
   model::Dynamics& dynamics = *binding.design->dynamics;
   dynamics.has_timer = !timer_name(binding.method()).empty();
@@ -141,16 +142,20 @@ void bind_dynamics(Binding& binding) {
   binding.names->results.symbols["objective"] = {};
 }
 
-/// Uncertain data and the definitions that use them, by others too.
+/// Uncertain data, and the definitions and other data that use them, by others too.
 std::set<std::string> varied(const Binding& binding) {
   std::set<std::string> names;
   for (const model::UncertainText& text : binding.problem().uncertain) names.insert(text.name);
   if (names.empty()) return names;
+  const auto add = [&](const std::string& name, const expr::Expression& text) {
+    for (const std::string& used : names_in(text))
+      if (names.contains(used)) names.insert(name);
+  };
   for (std::size_t before = 0; before != names.size();) {
     before = names.size();
     for (const auto& [name, definition] : binding.names->running.definitions)
-      for (const std::string& used : names_in(definition.body))
-        if (names.contains(used)) names.insert(name);
+      add(name, definition.body);
+    for (const auto& [name, text] : binding.data_texts) add(name, text);
   }
   return names;
 }

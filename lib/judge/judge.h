@@ -4,6 +4,8 @@
 //   flows    each recorded step again by Gauss steps (gauss.h) from its start, at its quarters and
 //            at its end, to 100 times the accuracy of the run; the sum of the differences over a
 //            flow; what rests (modes, frozen components, noise) rests; clocks run at their rates
+//            Rates inside of a step are those of compiled programs where these agree with the texts
+//            at both of its ends; a step that differs is judged by the texts alone.
 //   jumps    recomputed from the texts: reactions, passes, counts; a component without a reaction
 //            keeps its bits, and observers do where the occurrence is lost
 //   events   at each instant the first that is due jumps, and a flow begins when none is; inside a

@@ -87,6 +87,22 @@ TEST(Dynamics, ThePlantMayHaveDataThatObserversDoNotKnow) {
   EXPECT_FALSE(reads("plain.xh"));
 }
 
+TEST(Dynamics, ThePlantHasWhatIsComputedFromUncertainData) {
+  const model::DesignPtr design = bind::bind(io::read_problem(
+      "problem: p\nmethod:\n  method: m\n  data: {A: n x n}\n  parameters: {c: {default: 3*k}}\n"
+      "  plant: {state: {x: {shape: n, start: 1}}, flow: {x: A*x + c}}\n"
+      "  observer: {state: {xh: {shape: n, start: 0}}, flow: {xh: A*xh + c}}\n"
+      "data: {k: 2, m: 2*k, A: [[0, 1], [-m, -1]]}\nuncertain: {k: {box: [4, 5]}}\n"
+      "campaign: {runs: 2, horizon: 1}\n")).design;
+  const Dynamics& dynamics = *design->dynamics;
+  for (const Dynamics::Assignment& entry : dynamics.flow) {
+    const bool of_plant = dynamics.variables[entry.variable].name == "x";
+    EXPECT_EQ(entry.value.program.uses("plant.k"), of_plant);
+    EXPECT_EQ(entry.value.program.uses("A"), !of_plant);
+    EXPECT_EQ(entry.value.program.uses("c"), !of_plant);
+  }
+}
+
 struct Mistake {
   std::string what;
   std::string by;
@@ -187,6 +203,12 @@ TEST(Dynamics, FiguresAreBoundToObserversAndEvents) {
       std::string::npos);
   EXPECT_NO_THROW(bound(kPendulum + "expect: {run: [{count: sample, is: 3}]}\n"));
   EXPECT_NO_THROW(bound(kPendulum + "expect: {run: [{count: sample, is: {below: 3}}]}\n"));
+  EXPECT_NE(message("expect: {run: [{observer: careful, peak: norm(e), below: 3}]}\n")
+                .find("is: {below: limit}"),
+            std::string::npos);
+  EXPECT_NE(message("expect: {run: [{observer: careful, settles: norm(e), is: {below: 3}}]}\n")
+                .find("settles: expected the level"),
+            std::string::npos);
   EXPECT_NE(message("expect: {run: [{count: sample, is: {}}]}\n").find("{below: limit"),
             std::string::npos);
   EXPECT_NE(message("expect: {run: [{count: sample, is: {above: 1}, absolute: 1}]}\n")
