@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "bind/stated.h"
+#include "design/gain_values.h"
 #include "design/synthesize.h"
 #include "expr/substitute.h"
 #include "verdict/printed_check.h"
@@ -171,7 +172,8 @@ class Fixing {
       if (given != nullptr)
         values[gain.variable] = numbers::Matrix::Constant(1, 1, k / (kPoints - 1.0));
       if (!model::has_values(formula, values)) return true;
-      const numbers::Matrix expected = numbers::evaluate(formula, values);
+      const numbers::Matrix expected =
+          given != nullptr ? numbers::evaluate(formula, values) : gain_value(formula, values);
       const numbers::Matrix found =
           given != nullptr ? numbers::evaluate(*given, values) : stated_.values.at(gain.name);
       if (expected.size() == 0) continue;

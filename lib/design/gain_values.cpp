@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/scalars.h"
 #include "bind/stated.h"
 #include "lmi/affine.h"
 #include "model/stated.h"
@@ -55,6 +56,21 @@ bool calls(const lmi::Inequalities& inequalities, const expr::Program& formula,
 
 }  // namespace
 
+numbers::Matrix gain_value(const expr::Program& formula, const numbers::Values& values) {
+  // A basis is one of many: the gains have that of the file.
+  if (!model::chooses_basis(formula)) try {
+      numbers::ValuesOf<Decimal100> wide;
+      for (const expr::Input& input : formula.inputs)
+        if (const auto value = values.find(input.name); value != values.end())
+          wide[input.name] = value->second.cast<Decimal100>();
+      return numbers::evaluate<Decimal100>(formula, wide).unaryExpr([](const Decimal100& v) {
+        return as<double>(v);
+      });
+    } catch (const expr::EvaluationError&) {
+    }
+  return numbers::evaluate(formula, values);
+}
+
 void add_gain_values(const lmi::Inequalities& inequalities, const numbers::Values& values,
                      model::Gains& gains) {
   using Kind = model::GainFunction::Kind;
@@ -62,7 +78,7 @@ void add_gain_values(const lmi::Inequalities& inequalities, const numbers::Value
     const expr::Program program = inequalities.bodies.link(gain.formula.program);
     if (!model::has_values(program, values, gain.variable)) continue;
     if (gain.variable.empty() || !program.uses(gain.variable)) {
-      gains.gains.emplace_back(gain.name, numbers::evaluate(program, values));
+      gains.gains.emplace_back(gain.name, gain_value(program, values));
       continue;
     }
     using Basis = model::Basis::Kind;

@@ -144,8 +144,9 @@ FigureText figure(const YamlFile& file, YamlMap& map, std::string* ending) {
   }
   if (found != 1 || (covariance && !nees && !nis)) throw InputError(map.place(), kForms);
   if (below && ending != nullptr && result.kind != FigureKind::settles)
-    throw InputError(below->place, "below: 'below' alone is the level of 'settles'; what a figure is at "
-                                   "most is written is: {below: limit}");
+    throw InputError(below->place,
+                     "below: 'below' alone is the level of 'settles'; what a figure is at "
+                     "most is written is: {below: limit}");
   if (result.kind == FigureKind::settles && !below)
     throw InputError(map.place(), "settles: expected the level too, {settles: v, below: b}");
   if ((result.kind == FigureKind::settles) != below.has_value() ||

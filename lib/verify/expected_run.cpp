@@ -38,6 +38,16 @@ class TwoRuns {
   hybrid::Ending ending() const { return sharper_.ending; }
   const std::string& message() const { return sharper_.message; }
 
+  /// What is not known of a figure, however well the runs agree: numbers of events are whole.
+  double accuracy_of(const model::Figure& figure, std::optional<double> value) const {
+    using Kind = model::FigureKind;
+    if (figure.kind == Kind::count || figure.kind == Kind::passes || figure.kind == Kind::lost)
+      return 0;
+    if (!value || !std::isfinite(*value)) return 0;
+    const simulate::Accuracy accuracy = setup_->accuracy(kAccuracyOfOne);
+    return accuracy.relative * std::abs(*value) + accuracy.absolute;
+  }
+
   FoundFigure find(const model::Figure& figure) {
     FoundFigure found;
     const auto [usual, sharper] = numbers(figure);
@@ -89,10 +99,11 @@ RunDifferences run_differences(const model::Instance& instance, const model::Gai
       const double limit = numbers::evaluate(formula.program, instance.values)(0, 0);
       const std::string text = what + words + brief(limit, 9) + ", found " + said(found.value);
       const double over = found.value ? sign * (*found.value - limit) : kNone;
-      if (!(over <= found.difference))
+      const double known = std::max(found.difference, runs.accuracy_of(figure, found.value));
+      if (!(over <= known))
         result.different.push_back(text);
       else if (over > 0 || !(over + found.difference <= 0))
-        result.undecided.push_back(text + " +- " + brief(found.difference));
+        result.undecided.push_back(text + " +- " + brief(known));
     };
     if (expected.below) within(*expected.below, "at most ", 1);
     if (expected.above) within(*expected.above, "at least ", -1);

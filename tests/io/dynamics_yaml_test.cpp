@@ -88,12 +88,15 @@ TEST(Dynamics, ThePlantMayHaveDataThatObserversDoNotKnow) {
 }
 
 TEST(Dynamics, ThePlantHasWhatIsComputedFromUncertainData) {
-  const model::DesignPtr design = bind::bind(io::read_problem(
-      "problem: p\nmethod:\n  method: m\n  data: {A: n x n}\n  parameters: {c: {default: 3*k}}\n"
-      "  plant: {state: {x: {shape: n, start: 1}}, flow: {x: A*x + c}}\n"
-      "  observer: {state: {xh: {shape: n, start: 0}}, flow: {xh: A*xh + c}}\n"
-      "data: {k: 2, m: 2*k, A: [[0, 1], [-m, -1]]}\nuncertain: {k: {box: [4, 5]}}\n"
-      "campaign: {runs: 2, horizon: 1}\n")).design;
+  const model::DesignPtr design =
+      bind::bind(io::read_problem(
+                     "problem: p\nmethod:\n  method: m\n  data: {A: n x n}\n  parameters: {c: "
+                     "{default: 3*k}}\n"
+                     "  plant: {state: {x: {shape: n, start: 0}}, flow: {x: c*A*x}}\n"
+                     "  observer: {state: {xh: {shape: n, start: 0}}, flow: {xh: c*A*xh}}\n"
+                     "data: {k: 2, m: 2*k, A: [[0, 1], [-m, -1]]}\nuncertain: {k: {box: [4, 5]}}\n"
+                     "campaign: {runs: 2, horizon: 1}\n"))
+          .design;
   const Dynamics& dynamics = *design->dynamics;
   for (const Dynamics::Assignment& entry : dynamics.flow) {
     const bool of_plant = dynamics.variables[entry.variable].name == "x";
