@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
+#include <cmath>
 #include <string>
 
 #include "support/linear_algebra.h"
@@ -94,6 +95,21 @@ TEST(GainValues, WithoutAPointOnlyWhatFollowsFromDataIsKnown) {
   EXPECT_EQ(gains.gain_functions[0].name, "M");
   ASSERT_EQ(gains.gains.size(), 1U);
   EXPECT_EQ(gains.gains[0].first, "N");
+}
+
+TEST(GainValues, AreRoundedOnce) {
+  const auto yaml = tests::YamlProblem(
+      "problem: p\nmethod:\n  method: m\n  unknowns: {X: scalar, Y: scalar}\n"
+      "  require: {positive: X > 0}\n  gains: {K: inv(X - inv(Y))}\n");
+  numbers::Values values = yaml.instance.values;
+  const double x = 0.333333333333;
+  values["X"] = numbers::Matrix{{x}};
+  values["Y"] = numbers::Matrix{{3}};
+  model::Gains gains;
+  add_gain_values(lmi::Inequalities(yaml.instance), values, gains);
+  const double exact = 3 / std::fma(3, x, -1);
+  EXPECT_NEAR(gains.gains.at(0).second(0, 0) / exact, 1, 4e-16);
+  EXPECT_GT(std::abs(1 / (x - 1.0 / 3) / exact - 1), 1e-6) << "in double";
 }
 
 TEST(Report, HoldsWhatHasAValue) {
