@@ -150,5 +150,20 @@ campaign: {runs: 4, horizon: 3, initial: {x: [0.5, 0]}}
       << outcome.err;
 }
 
+/// -0.1*3 + 0.3 is not 0 in double.
+TEST(NonlinearStateFeedback, ARestPointMayBeRounded) {
+  const Folder folder;
+  const std::string text = R"yaml(problem: p
+method: nonlinear-state-feedback
+data: {low: [-0.3], high: [0.3], start: [0.1], limit: [5], "f(x, u)": -0.1*(x + 3) + 0.3 + u}
+no campaign: gains alone
+)yaml";
+  EXPECT_EQ(gainsmith({"synth", folder.file("p.yaml", text)}).exit, 0);
+  const Outcome moved =
+      gainsmith({"synth", folder.file("q.yaml", with(text, "0.3 + u", "0.31 + u"))});
+  EXPECT_EQ(moved.exit, 2) << moved.out;
+  EXPECT_TRUE(has(moved.err, "the assumption 'rest'")) << moved.err;
+}
+
 }  // namespace
 }  // namespace gainsmith::tests
