@@ -1,17 +1,21 @@
 # One library a room, one test program a room.
 
-# gainsmith_compiled_together(TARGET)
-#   Compiles the sources of TARGET in groups: what they instantiate of Eigen is then compiled once, in half the
-#   time. Their names must not collide. GAINSMITH_GROUPS=OFF keeps them apart: one changed file is one file to
+# gainsmith_compiled_together(TARGET [SIZE])
+#   Compiles the sources of TARGET in groups of 32 or SIZE: what they instantiate of Eigen is then compiled once, in half
+#   the time. Their names must not collide. GAINSMITH_GROUPS=OFF keeps them apart: one changed file is one file to
 #   compile, and each is seen to include what it uses.
 function(gainsmith_compiled_together target)
+  set(size 32)
+  if(ARGC GREATER 1)
+    set(size ${ARGV1})
+  endif()
   if(GAINSMITH_GROUPS)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${size})
   endif()
 endfunction()
 
 # gainsmith_group(TARGET NAME a.cpp ...)
-#   Instead of groups of twelve: these sources of TARGET are one group, and those of no group stay apart.
+#   Instead of groups by number: these sources of TARGET are one group, and those of no group stay apart.
 function(gainsmith_group target name)
   set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
   set_source_files_properties(${ARGN} PROPERTIES UNITY_GROUP ${name})
@@ -39,7 +43,7 @@ function(gainsmith_test name)
   target_include_directories(${name}_test PRIVATE "${PROJECT_SOURCE_DIR}/tests")
   target_link_libraries(${name}_test PRIVATE ${T_LINK} GTest::gtest GTest::gmock GTest::gtest_main)
   gainsmith_precompiled(${name}_test tests)
-  gainsmith_compiled_together(${name}_test)
+  gainsmith_compiled_together(${name}_test 12)
   add_dependencies(tests ${name}_test)
   gtest_discover_tests(${name}_test TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
                        PROPERTIES TIMEOUT 600)

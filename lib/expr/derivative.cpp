@@ -128,6 +128,9 @@ class Direction {
         const int square = apply(Op::elementwise_power, {value}, shape, {2});
         return along(apply(Op::subtract, {ones(shape), square}, shape), d(0), shape);
       }
+      case Op::abs:
+        has_signs_ = true;
+        return along(apply(Op::sign, {x(0)}, shape), d(0), shape);
       case Op::atan2: {
         const Slope up = d(0).is_zero() ? d(0) : along(x(1), d(0), shape);
         const Slope down = d(1).is_zero() ? d(1) : along(x(0), d(1), shape);
@@ -189,7 +192,41 @@ class Direction {
     };
     if (is_one(a)) return {b.at};
     if (is_one(b) && op != Op::scale) return {a.at};
+    if (const int even = without_sign(op, a.at, b.at); even >= 0) return {even};
     return {apply(op, {a.at, b.at}, shape)};
+  }
+  /// sign(x) x = |x| in a product of numbers or element by element: the slope of |x| x does not jump. -1: there is none.
+  int without_sign(Op op, int a, int b) {
+    const Shape shape = assembly_.shape(a);
+    if (!has_signs_ || shape != assembly_.shape(b)) return -1;
+    if (op != Op::elementwise_product && !shape.is_scalar()) return -1;
+    for (const auto& [one, other] : {std::pair(a, b), std::pair(b, a)}) {
+      const int sign = apply(Op::sign, {other}, shape);
+      if (const int even = replaced(one, sign, apply(Op::abs, {other}, shape)); even >= 0)
+        return even;
+      if (assembly_[other].op != Op::sign) continue;
+      const int x = assembly_[other].operands[0];
+      if (const int even = replaced(one, x, apply(Op::abs, {x}, shape)); even >= 0) return even;
+    }
+    return -1;
+  }
+  /// A product with one of its factors replaced; -1: it is none of them.
+  int replaced(int product, int factor, int by) {
+    if (product == factor) return by;
+    const Instruction one = assembly_[product];
+    const bool multiplies =
+        one.op == Op::negate || one.op == Op::elementwise_product ||
+        (one.shape.is_scalar() && (one.op == Op::multiply || one.op == Op::scale));
+    if (!multiplies) return -1;
+    for (std::size_t k = 0; k < one.operands.size(); ++k) {
+      if (assembly_.shape(one.operands[k]) != one.shape) continue;
+      const int part = replaced(one.operands[k], factor, by);
+      if (part < 0) continue;
+      std::vector<int> operands = one.operands;
+      operands[k] = part;
+      return apply(one.op, std::move(operands), one.shape);
+    }
+    return -1;
   }
   Slope along(int factor, const Slope& slope, Shape shape) {
     return times(Op::elementwise_product, {factor}, slope, shape);
@@ -209,6 +246,7 @@ class Direction {
   const std::vector<int>& moved_;  ///< the instructions of the body
   const Instruction* like_ = nullptr;
   std::vector<Slope> slopes_;
+  bool has_signs_ = false;  ///< of the derivative of |x|
 };
 
 std::vector<int> add_instructions(Assembly& assembly, const Program& program,

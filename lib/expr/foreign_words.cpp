@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::string_view kByGain =
     "there is none; state it as a design: 'gainsmith methods' lists those that are ready";
-constexpr std::string_view kUnknown =
+constexpr std::string_view kByUnknowns =
     "declare it under 'unknowns', such as 'P: symmetric n' or 'Y: n x p'";
 constexpr std::string_view kInequality =
     "write each inequality under 'require', such as 'flow: He(P*A) < 0'";
@@ -127,7 +127,7 @@ constexpr auto kRows = std::to_array<Row>({
     {"dlqe", "write X*C'*inv(R + C*X*C') with X: dare(A', C', Q, R)"},
     {"place acker", kByGain},
     {"h2syn hinfsyn hinfnorm h2norm normhinf hinfstruct systune musyn hinfric ncfsyn", kByGain},
-    {"sdpvar lmivar Variable symvar intvar binvar Semidef HermitianSemidef", kUnknown},
+    {"sdpvar lmivar Variable symvar intvar binvar Semidef HermitianSemidef", kByUnknowns},
     {"semidefinite PSD isposdef", "write P > 0, or P >= 0 for positive semidefinite"},
     {"setlmis newlmi lmiterm getlmis lmiedit lmi set constraint", kInequality},
     {"feasp mincx solvesdp sdpsettings optimize optimise sedumi sdpt3 mosek scs Problem", kSolve},

@@ -14,13 +14,13 @@ namespace gainsmith::io {
 
 namespace {
 
-using Names = std::vector<std::string_view>;
+using Words = std::vector<std::string_view>;
 
 constexpr const char* kDraft = "http://json-schema.org/draft-07/schema#";
 
 /// "a,b" at commas.
-Names split(std::string_view list) {
-  Names names;
+Words split(std::string_view list) {
+  Words names;
   for (std::size_t begin = 0; begin <= list.size();) {
     const std::size_t end = std::min(list.find(',', begin), list.size());
     names.push_back(list.substr(begin, end - begin));
@@ -143,7 +143,7 @@ class SchemaWriter {
   static Json rule(const Rule& rule) {
     Json keys = Json::array();
     Json pairs = Json::array();
-    const Names others = split(rule.others);
+    const Words others = split(rule.others);
     for (std::size_t i = 0; i < others.size(); ++i) {
       keys.push_back(has(others[i]));
       for (std::size_t j = i + 1; j < others.size(); ++j)

@@ -46,7 +46,7 @@ using RowKey = std::array<std::uint32_t, 4>;
 constexpr std::uint32_t kFactorBits = 4;
 constexpr int kFactorZero = 3;
 
-Sum sum_of(const RowKey& key) {
+Sum sum_at(const RowKey& key) {
   Sum sum;
   for (const std::uint32_t part : key)
     if (part != 0)
@@ -152,7 +152,7 @@ class Solved {
   }
   bool follows(const RowKey& key) const {
     std::uint64_t sum = 0;
-    for (const auto& [row, factor] : sum_of(key))
+    for (const auto& [row, factor] : sum_at(key))
       sum += static_cast<std::uint64_t>(factor) * values_[static_cast<std::size_t>(row)];
     return sum == 0;
   }
@@ -223,7 +223,7 @@ std::optional<std::vector<int>> free_rows_early(const BalanceElements& elements)
   int open = 0;  // the first unknown of which not every equation follows
   for (int low = 0, high = 1; low < elements.rows(); low = std::exchange(high, 2 * high + 1)) {
     for (const RowKey& key : equations_from(elements, solved, low, high))
-      if (!solved.follows(key) && !solved.solve(sum_of(key), true)) return std::nullopt;
+      if (!solved.follows(key) && !solved.solve(sum_at(key), true)) return std::nullopt;
     bool all = true;
     for_each_equation(elements, open, [&](const Element& e, const Element* first, int i) {
       open = i;
@@ -239,7 +239,7 @@ std::optional<std::vector<int>> free_rows_early(const BalanceElements& elements)
 std::vector<int> free_rows_of_all(const BalanceElements& elements) {
   std::set<Sum> equations;
   for_each_equation(elements, 0, [&](const Element& e, const Element* first, int) {
-    if (Sum sum = sum_of(Equation(e, first, elements.objective()).key()); !sum.empty())
+    if (Sum sum = sum_at(Equation(e, first, elements.objective()).key()); !sum.empty())
       equations.insert(std::move(sum));
     return true;
   });

@@ -43,12 +43,12 @@ AffineForm with_symmetric(const AffineForm& form, const Unknowns& unknowns, cons
 }
 
 bool is_symmetric(const AffineForm& form) {
-  constexpr double kSymmetric = 1e-12;
+  constexpr double kAsymmetry = 1e-12;
   double size = 0;
   for (const auto& [key, matrix] : form.terms) size = std::max(size, largest_element(matrix));
   return std::all_of(form.terms.begin(), form.terms.end(), [&](const auto& term) {
     const Sparse mirrored = term.second.transpose();
-    return largest_element(sum_of(term.second, mirrored, -1)) <= kSymmetric * size;
+    return largest_element(sum_of(term.second, mirrored, -1)) <= kAsymmetry * size;
   });
 }
 

@@ -1,15 +1,14 @@
 // Norms, moduli, eigenvalues and their quotients as objectives and in requirements.
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
+#include <Eigen/Core>
 #include <algorithm>
 
 #include "design/semidefinite_program.h"
 #include "design/solve.h"
 #include "numbers/dense.h"
 #include "support/input_error.h"
+#include "support/linear_algebra.h"
 #include "support/stop.h"
 
 namespace gainsmith::design {
@@ -23,7 +22,7 @@ Matrix random_matrix(RandomStream& random, int rows, int cols) {
                              [&] { return std::round(128 * random.uniform() - 64) / 64; });
 }
 
-double norm(const Matrix& matrix) { return Eigen::JacobiSVD<Matrix>(matrix).singularValues()(0); }
+double norm(const Matrix& matrix) { return tests::singular_values(matrix)(0); }
 
 /// Parrott: with the best corner the norm is that of the known rows or columns.
 TEST(ConvexFunctions, TheLeastNormOfACompletion) {
@@ -146,7 +145,7 @@ TEST(Quotient, ScalingsReachThePerronEigenvalue) {
         "  data: {M: n x n}\n  unknowns: {P: diagonal n}\n  require: {positive: P > 0}\n"
         "  minimize: lambda_max(M'*P*M, P)\n",
         "data: {M: " + tests::matrix_yaml(M) + "}\n");
-    const double perron = Eigen::EigenSolver<Matrix>(M).eigenvalues().cwiseAbs().maxCoeff();
+    const double perron = tests::eigenvalues(M).cwiseAbs().maxCoeff();
     ASSERT_EQ(gains.verdict, model::Verdict::yes) << seed;
     EXPECT_NEAR(*gains.objective, perron * perron, 1e-6 * perron * perron) << seed;
     ASSERT_TRUE(gains.objective_lower_bound) << seed;
@@ -165,7 +164,7 @@ TEST(Quotient, TheDecayRateIsThatOfTheSlowestMode) {
           "  data: {A: n x n}\n  unknowns: {P: symmetric n}\n  require: {positive: P > 0}\n"
           "  minimize: lambda_max(He(P*A), 2*P)\n",
           "data: {A: " + tests::matrix_yaml(A) + "}\n");
-      const double slowest = Eigen::EigenSolver<Matrix>(A).eigenvalues().real().maxCoeff();
+      const double slowest = tests::spectral_abscissa(A);
       ASSERT_EQ(gains.verdict, model::Verdict::yes) << seed;
       EXPECT_NEAR(*gains.objective, slowest, 1e-6 * unit) << seed;
       EXPECT_LE(*gains.objective_lower_bound, slowest + 1e-12 * unit) << seed;

@@ -161,7 +161,10 @@ TEST_F(Jacobians, AreFormulasWhereThereAreRules) {
                                  "xh(2)*eye(2)",
                                  "sum(xh)*ones(2, 1)",
                                  "[xh(1), 0; 1, xh(2)]*[xh(2); 3]",
-                                 "tan(xh(1))"}) {
+                                 "tan(xh(1))",
+                                 "abs(xh)",
+                                 "0.1*abs(xh).*xh",
+                                 "-xh(2)*0.3*abs(xh(2))*sin(xh(1))"}) {
     const Program program = compile("jacobian(" + text + ", xh)");
     ASSERT_NE(jacobian_in(program), nullptr) << text;
     const Program formulas = with_derivatives(program);
@@ -178,8 +181,18 @@ TEST_F(Jacobians, AreFormulasWhereThereAreRules) {
             1e-14);
 }
 
+TEST_F(Jacobians, OfADragThatIsSmoothHaveNoJump) {
+  for (const std::string text :
+       {"abs(xh).*xh", "-0.1*abs(xh(1))*xh(1)", "xh(2)*0.1*abs(xh(2))*s", "2*xh(2)*s*abs(xh(2))/3"}) {
+    const Program formulas = with_derivatives(compile("jacobian(" + text + ", xh)"));
+    EXPECT_TRUE(std::ranges::none_of(
+        formulas.code, [](const Instruction& one) { return one.op == Op::sign; }))
+        << text;
+  }
+}
+
 TEST_F(Jacobians, StayWhereThereAreNone) {
-  for (const std::string text : {"abs(xh)", "max(xh, s)", "expm(s*xh*xh')", "norm(xh)", "2.^xh"}) {
+  for (const std::string text : {"max(xh, s)", "expm(s*xh*xh')", "norm(xh)", "2.^xh"}) {
     const Program formulas = with_derivatives(compile("2*jacobian(sin(" + text + "), xh)"));
     EXPECT_NE(jacobian_in(formulas), nullptr) << text;
   }

@@ -31,6 +31,8 @@ VectorXd solve(const MatrixXd& A, const VectorXd& b) { return A.fullPivLu().solv
 
 MatrixXd inverse(const MatrixXd& M) { return M.inverse(); }
 
+double determinant(const MatrixXd& M) { return M.determinant(); }
+
 MatrixXd exponential(const MatrixXd& A) { return A.exp(); }
 
 MatrixXd cholesky_factor(const MatrixXd& M) { return M.llt().matrixL(); }

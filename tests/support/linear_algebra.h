@@ -27,6 +27,8 @@ Eigen::VectorXd solve(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 
 Eigen::MatrixXd inverse(const Eigen::MatrixXd& M);
 
+double determinant(const Eigen::MatrixXd& M);
+
 /// e^A
 Eigen::MatrixXd exponential(const Eigen::MatrixXd& A);
 

@@ -1,7 +1,7 @@
 // What campaigns draw for methods with events: starts, sinusoids, vertices; and that runs replay.
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -11,6 +11,7 @@
 #include "bind/bind.h"
 #include "bind/stated.h"
 #include "io/problem_text.h"
+#include "support/linear_algebra.h"
 #include "verify/careful_runs.h"
 #include "verify/figure_survey.h"
 
@@ -71,7 +72,7 @@ TEST(EventDraws, AnEllipsoidIsFilledEvenly) {
   EXPECT_LT(farthest, 1.63 / std::sqrt(kRuns));  // Kolmogorov-Smirnov, 1 %
   EXPECT_LT(mean.norm(), 0.02);
   // Of the uniform distribution in {d: d'Q d <= r} in n dimensions: r inv(Q)/(n + 2).
-  const Eigen::Matrix3d expected = 2 * Q.inverse() / 5;
+  const Eigen::Matrix3d expected = 2 * tests::inverse(Q) / 5;
   EXPECT_LT((covariance - expected).cwiseAbs().maxCoeff(), 0.02 * expected.norm());
 }
 

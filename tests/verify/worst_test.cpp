@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -12,6 +12,7 @@
 #include "bind/bind.h"
 #include "bind/stated.h"
 #include "io/problem_text.h"
+#include "support/linear_algebra.h"
 #include "verify/campaign.h"
 #include "verify/draw_cube.h"
 #include "verify/judge.h"
@@ -266,11 +267,11 @@ TEST(Worst, TheLengthsThatGrowFastestAreThoseOfTheProduct) {
   const auto found = fastest_lengths(*setup);
   ASSERT_TRUE(found);
   const MatrixXd turn = step_of(1.1) * step_of(0.1);
-  EXPECT_NEAR(found->growth, std::sqrt(turn.eigenvalues().cwiseAbs().maxCoeff()), 1e-9);
+  EXPECT_NEAR(found->growth, std::sqrt(tests::eigenvalues(turn).cwiseAbs().maxCoeff()), 1e-9);
   EXPECT_EQ(found->lengths.size(), 2U);
   // Every constant length is stable.
   for (double s = 0.1; s < 1.1; s += 0.01)
-    EXPECT_LT(step_of(s).eigenvalues().cwiseAbs().maxCoeff(), 0.64);
+    EXPECT_LT(tests::eigenvalues(step_of(s)).cwiseAbs().maxCoeff(), 0.64);
 }
 
 TEST(Worst, TheReportDoesNotDependOnTheThreads) {
