@@ -129,8 +129,15 @@ class Direction {
         return along(apply(Op::subtract, {ones(shape), square}, shape), d(0), shape);
       }
       case Op::abs:
-        has_signs_ = true;
-        return along(apply(Op::sign, {x(0)}, shape), d(0), shape);
+        has_moduli_ = true;
+        return along(slope_of_modulus(x(0)), d(0), shape);
+      case Op::minimum:
+      case Op::maximum: {
+        const int first = one.op == Op::maximum ? x(0) : x(1);
+        const int second = one.op == Op::maximum ? x(1) : x(0);
+        const int by = apply(Op::subtract, {second, first}, shape);
+        return Slope{apply(Op::where, {by, filled(d(1), shape), filled(d(0), shape)}, shape, {1})};
+      }
       case Op::atan2: {
         const Slope up = d(0).is_zero() ? d(0) : along(x(1), d(0), shape);
         const Slope down = d(1).is_zero() ? d(1) : along(x(0), d(1), shape);
@@ -152,6 +159,12 @@ class Direction {
   }
   int number(const std::string& decimal) {
     return assembly_.add({Op::constant, {}, {1, 1}, {}, decimal, like_->origin, like_->offset});
+  }
+  /// 1 at x >= 0, -1 below.
+  int slope_of_modulus(int x) {
+    const Shape shape = assembly_.shape(x);
+    const int one = ones(shape);
+    return apply(Op::where, {x, one, apply(Op::negate, {one}, shape)}, shape);
   }
   int ones(Shape shape) {
     return shape.is_scalar() ? number("1") : apply(Op::fill, {number("1")}, shape);
@@ -195,17 +208,18 @@ class Direction {
     if (const int even = without_sign(op, a.at, b.at); even >= 0) return {even};
     return {apply(op, {a.at, b.at}, shape)};
   }
-  /// sign(x) x = |x| in a product of numbers or element by element: the slope of |x| x does not jump. -1: there is none.
+  /// |x|' x = |x| in a product of numbers or element by element: the slope of |x| x does not jump. -1: there is none.
   int without_sign(Op op, int a, int b) {
     const Shape shape = assembly_.shape(a);
-    if (!has_signs_ || shape != assembly_.shape(b)) return -1;
+    if (!has_moduli_ || shape != assembly_.shape(b)) return -1;
     if (op != Op::elementwise_product && !shape.is_scalar()) return -1;
     for (const auto& [one, other] : {std::pair(a, b), std::pair(b, a)}) {
-      const int sign = apply(Op::sign, {other}, shape);
+      const int sign = slope_of_modulus(other);
       if (const int even = replaced(one, sign, apply(Op::abs, {other}, shape)); even >= 0)
         return even;
-      if (assembly_[other].op != Op::sign) continue;
+      if (assembly_[other].op != Op::where) continue;
       const int x = assembly_[other].operands[0];
+      if (other != slope_of_modulus(x)) continue;
       if (const int even = replaced(one, x, apply(Op::abs, {x}, shape)); even >= 0) return even;
     }
     return -1;
@@ -246,7 +260,7 @@ class Direction {
   const std::vector<int>& moved_;  ///< the instructions of the body
   const Instruction* like_ = nullptr;
   std::vector<Slope> slopes_;
-  bool has_signs_ = false;  ///< of the derivative of |x|
+  bool has_moduli_ = false;  ///< of the derivative of |x|
 };
 
 std::vector<int> add_instructions(Assembly& assembly, const Program& program,

@@ -147,6 +147,17 @@ class Function {
     return spread;
   }
 
+  /// Over a piece; unknown where it has no bound.
+  Enclosed<double> value_over(const Piece& piece) {
+    for (std::size_t k = 0; k < axes_.size(); ++k)
+      variables_[0][k] = numbers::other_variable_jet(piece.low[k], piece.high[k]);
+    try {
+      return along_[0].run().value();
+    } catch (const expr::EvaluationError&) {
+      return {Matrix::Zero(1, 1), Matrix::Constant(1, 1, numbers::kNothingKnown)};
+    }
+  }
+
   bool strict() const { return strict_; }
 
  private:

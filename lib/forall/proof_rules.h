@@ -10,6 +10,7 @@
 #include "base/number.h"
 #include "expr/derivative.h"
 #include "forall/proof.h"
+#include "forall/proof_branches.h"
 #include "forall/proof_function.h"
 
 namespace gainsmith::forall::proof {
@@ -18,8 +19,8 @@ namespace gainsmith::forall::proof {
 template <class S>
 class Search {
  public:
-  Search(Function<S>& function, Piece whole, std::size_t budget)
-      : function_(function), whole_(whole), budget_(budget) {
+  Search(Function<S>& function, Branches<S>& branches, Piece whole, std::size_t budget)
+      : function_(function), branches_(branches), whole_(whole), budget_(budget) {
     stack_.push_back(std::move(whole));
   }
 
@@ -79,10 +80,8 @@ class Search {
     }
     const auto spread = function_.over(piece);
     if (!spread.fault.empty()) return halve(piece, most_telling(piece), spread.fault);
+    if (holds_between(corners, spread) || at_branches(piece)) return;
     const Matrix error = error_of(spread);
-    if (at_corners(corners, error) || above_sags(corners, spread) ||
-        (spread.value.is_known() && holds(spread.value, Matrix())))
-      return;
     if (piece.low.size() == 1 && error.allFinite()) return cut(piece, corners, spread, error);
     halve(piece, steepest(piece, spread, corners), kTooSteep);
   }
@@ -117,6 +116,26 @@ class Search {
     return error.allFinite() && std::all_of(corners.begin(), corners.end(), [&](const Corner* c) {
              return holds(c->value, error);
            });
+  }
+
+  bool at_branches(const Piece& piece) {
+    const auto all = branches_.over(piece);
+    return !all.empty() && std::ranges::all_of(all, [&](Function<S>* function) {
+      std::vector<const Corner*> corners;
+      double unused = 1;
+      for (std::size_t c = 0; c < piece.corners(); ++c) {
+        corners.push_back(&function->corner(piece.corner(c), unused));
+        if (corners.back()->sign != Sign::positive) return false;
+      }
+      const auto spread = function->over(piece);
+      return spread.fault.empty() && holds_between(corners, spread);
+    });
+  }
+
+  bool holds_between(const std::vector<const Corner*>& corners,
+                     const typename Function<S>::Spread& spread) const {
+    return at_corners(corners, error_of(spread)) || above_sags(corners, spread) ||
+           (spread.value.is_known() && holds(spread.value, Matrix()));
   }
 
   /// How often E is divided by four before B(c) + F > 0 at a corner c; with the sag, where it has
@@ -255,6 +274,7 @@ class Search {
       kTooMany = "more pieces than are examined";
 
   Function<S>& function_;
+  Branches<S>& branches_;
   Piece whole_;
   std::size_t budget_;
   std::vector<Piece> stack_;
@@ -324,7 +344,8 @@ DomainProof prove_on_domain(const expr::Program& difference, const Domain& domai
   }
   for (const auto& choice : proof::choices(domain, known, elements)) {
     proof::Function<S> function(program, choice.known, strict, axes);
-    proof::Search<S> search(function, whole, options.most_pieces - result.pieces);
+    proof::Branches<S> branches(program, choice.known, strict, axes);
+    proof::Search<S> search(function, branches, whole, options.most_pieces - result.pieces);
     search.run();
     result.pieces += search.pieces;
     result.margin = std::min(result.margin, search.margin);

@@ -16,6 +16,9 @@ struct Taylor {
 };
 constexpr Number kUnknown{0, kNothingKnown};
 
+/// It does not depend on t.
+inline bool is_still(const Taylor& x) { return x.first.is_zero() && x.second.is_zero(); }
+
 /// f(x): f' x', f'' x'^2 + f' x''.
 inline Taylor composed(const Taylor& f, const Taylor& x) {
   const Number square = x.first * x.first;

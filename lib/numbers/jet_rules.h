@@ -178,13 +178,14 @@ struct JetRules {
     each(out, {&at[0]}, at.shape(), [](const std::vector<Taylor>& x) {
       if (is_not_negative(x[0].value)) return x[0];
       if (is_not_negative(-x[0].value)) return Taylor{-x[0].value, -x[0].first, -x[0].second};
-      return Taylor{ball::abs(x[0].value), ball::either(x[0].first, -x[0].first), jets::kUnknown};
+      return Taylor{ball::abs(x[0].value), ball::either(x[0].first, -x[0].first),
+                    jets::is_still(x[0]) ? Number{} : jets::kUnknown};
     });
   }
   void operator()(Is<Op::sign>, const At& at, Jet& out) const {
     each(out, {&at[0]}, at.shape(), [](const std::vector<Taylor>& x) {
       const Number sign = ball::sign(x[0].value);
-      if (sign.is_exact()) return Taylor{sign, {}, {}};
+      if (sign.is_exact() || jets::is_still(x[0])) return Taylor{sign, {}, {}};
       return Taylor{sign, jets::kUnknown, jets::kUnknown};
     });
   }
@@ -209,7 +210,8 @@ struct JetRules {
       if (is_at_least(smaller.value, larger.value)) return x[1];
       const Number value = op == Op::maximum ? ball::maximum(x[0].value, x[1].value)
                                              : ball::minimum(x[0].value, x[1].value);
-      return Taylor{value, ball::either(x[0].first, x[1].first), jets::kUnknown};
+      const bool still = jets::is_still(x[0]) && jets::is_still(x[1]);
+      return Taylor{value, ball::either(x[0].first, x[1].first), still ? Number{} : jets::kUnknown};
     });
   }
   void operator()(Is<Op::where>, const At& at, Jet& out) const {
@@ -217,7 +219,12 @@ struct JetRules {
     each(out, {&at[0], &at[1], &at[2]}, at.shape(), [&](const std::vector<Taylor>& x) {
       const auto holds = ball::holds(x[0].value, strict);
       if (holds) return x[*holds ? 1 : 2];
-      return Taylor{ball::either(x[1].value, x[2].value), jets::kUnknown, jets::kUnknown};
+      const Number value = ball::either(x[1].value, x[2].value);
+      // Where t does not move the condition, it has one branch for all t.
+      if (jets::is_still(x[0]))
+        return Taylor{value, ball::either(x[1].first, x[2].first),
+                      ball::either(x[1].second, x[2].second)};
+      return Taylor{value, jets::kUnknown, jets::kUnknown};
     });
   }
 

@@ -90,6 +90,24 @@ TEST(ProofTest, Jacobians) {
   }
 }
 
+/// Kinks and jumps of the slope, beside variables that have neither: few pieces do.
+TEST(ProofTest, KinksInOneVariableOfSeveral) {
+  const Domain box = {interval("t", -1, 1.3), interval("u", -1, 1), interval("v", -1, 1)};
+  for (const std::string text :
+       {"jacobian(abs(t)*t, t) + cos(u)*cos(v) - 0.29",
+        "[3 - abs(t), sin(u); sin(u), 2 + v*abs(t)/2]",
+        "[3 + jacobian(clip(t, -0.4, 0.5), t), 2*sin(u); 2*sin(u), 2 - sin(u)*v*v/2]",
+        "1.9 + sin(u)*jacobian(abs(t), t) + cos(v)*jacobian(max(t, 0.2), t)"}) {
+    const DomainProof proof = prove(text, box);
+    EXPECT_EQ(proof.status, Status::holds) << text << ": " << proof.where << " " << proof.reason;
+    EXPECT_LE(proof.pieces, 2000U) << text;
+  }
+  expect_fails("jacobian(abs(t)*t, t) + cos(u)*cos(v) - 0.3", box);
+  expect_fails("1.8 + sin(u)*jacobian(abs(t), t) + cos(v)*jacobian(max(t, 0.2), t) - 1", box);
+  // The slope of |t| at 0 is 1, that of max(t, 0) is 1 as well.
+  expect_holds("jacobian(abs(t), t) + jacobian(max(t, 0), t) - 1.5", kUnit);
+}
+
 /// An arm of two links: a box of four variables, of which the jacobian is affine or quadratic in
 /// three, and its inverse has no bound until the fourth is cut.
 TEST(ProofTest, AJacobianWithAnInverse) {
