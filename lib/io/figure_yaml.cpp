@@ -190,7 +190,7 @@ model::ExpectedFigureText expected(const YamlFile& file, const YAML::Node& node)
   const FigureKind kind = result.figure.kind;
   const bool bounded = result.relative || result.absolute;
   if (kind == FigureKind::ended && (is || bounded))
-    throw InputError(map.place(), "ended: the word is all");
+    throw InputError(map.place(), "ended: says how the run ends; it has no 'is' and no tolerance");
   if (kind != FigureKind::ended && !is)
     throw InputError(map.place(), "expected 'is: value', or 'is: {below: limit}'");
   if (is && is->value.IsMap()) {

@@ -116,6 +116,20 @@ std::optional<Opened> find_open_bracket(const std::vector<std::string_view>& lin
   return open.empty() ? std::nullopt : std::optional(open.back());
 }
 
+/// The column of a function whose argument has a bracket, "diag([1, 0])", in no quotes.
+std::optional<std::size_t> find_call(std::string_view line) {
+  char quote = 0;
+  for (std::size_t at = 0; at < line.size(); ++at) {
+    const char c = line[at];
+    if (c == quote || (quote == 0 && (c == '"' || c == '\''))) quote = quote == 0 ? c : 0;
+    if (quote != 0 || line.substr(at, 2) != "([") continue;
+    std::size_t begin = at;
+    while (begin > 0 && kWordCharacters.find(line[begin - 1]) != std::string_view::npos) --begin;
+    if (begin < at) return begin;
+  }
+  return std::nullopt;
+}
+
 bool is_formula(std::string_view text) {
   return text.find_first_of("<>;*+/^") != std::string_view::npos;
 }
@@ -133,6 +147,10 @@ YamlError explained(const std::string& text, YamlError error) {
     const std::string_view line = lines[at];
     if (const auto tab = find_tab(line))
       return {at, *tab, "YAML takes no tab in the indentation: use spaces"};
+    if (const auto call = find_call(line); call && line.find_first_of("[{") < *call)
+      return {at, *call,
+              said + "; in { } and [ ] a formula with a bracket must be quoted, such as \"" +
+                  std::string(line.substr(*call, line.find('(', *call) - *call)) + "([1, 2])\""};
     const auto list = find_value(line, "[{");
     const bool in_list = list && line[*list] == '[' && is_formula(line.substr(*list));
     if (const auto alias = find_value(line, "*&"); alias && at == last && !in_list)

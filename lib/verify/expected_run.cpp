@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/error.h"
 #include "base/number.h"
 #include "base/stop.h"
 #include "bind/stated.h"
@@ -37,6 +38,7 @@ class TwoRuns {
 
   hybrid::Ending ending() const { return sharper_.ending; }
   const std::string& message() const { return sharper_.message; }
+  double end() const { return sharper_.end; }
 
   /// What is not known of a figure, however well the runs agree: numbers of events are whole.
   double accuracy_of(const model::Figure& figure, std::optional<double> value) const {
@@ -72,7 +74,9 @@ class TwoRuns {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-std::string said(const std::optional<double>& value) { return value ? brief(*value, 9) : "none"; }
+std::string said(const std::optional<double>& value, double end) {
+  return value ? brief(*value, 9) : "none until the run ends, at t = " + brief(end, 9);
+}
 
 }  // namespace
 
@@ -95,16 +99,23 @@ RunDifferences run_differences(const model::Instance& instance, const model::Gai
       continue;
     }
     const FoundFigure found = runs.find(figure);
+    const auto limit = [&](const model::Formula& formula) {
+      return numbers::evaluate(formula.program, instance.values)(0, 0);
+    };
     const auto within = [&](const model::Formula& formula, const char* words, double sign) {
-      const double limit = numbers::evaluate(formula.program, instance.values)(0, 0);
-      const std::string text = what + words + brief(limit, 9) + ", found " + said(found.value);
-      const double over = found.value ? sign * (*found.value - limit) : kNone;
+      const double most = limit(formula);
+      const std::string text =
+          what + words + brief(most, 9) + ", found " + said(found.value, runs.end());
+      const double over = found.value ? sign * (*found.value - most) : kNone;
       const double known = std::max(found.difference, runs.accuracy_of(figure, found.value));
       if (!(over <= known))
         result.different.push_back(text);
       else if (over > 0 || !(over + found.difference <= 0))
         result.undecided.push_back(text + " +- " + brief(known));
     };
+    if (expected.below && expected.above && limit(*expected.above) > limit(*expected.below))
+      throw InputError(figure.place, "is: no number is above " + brief(limit(*expected.above), 9) +
+                                         " and below " + brief(limit(*expected.below), 9));
     if (expected.below) within(*expected.below, "at most ", 1);
     if (expected.above) within(*expected.above, "at least ", -1);
     if (!expected.is) continue;
@@ -112,7 +123,7 @@ RunDifferences run_differences(const model::Instance& instance, const model::Gai
     const double allowed =
         std::max(expected.absolute.value_or(0), expected.relative.value_or(0) * std::abs(wanted));
     const std::string text = what + fmt::format("{} within {}, found {}", brief(wanted, 9),
-                                                brief(allowed), said(found.value));
+                                                brief(allowed), said(found.value, runs.end()));
     if (!found.value || !(std::abs(*found.value - wanted) <= allowed))
       result.different.push_back(text);
     else if (!(found.difference <= allowed))

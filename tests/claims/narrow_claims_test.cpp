@@ -11,6 +11,7 @@
 #include "bind/bind.h"
 #include "claims/case.h"
 #include "io/problem_text.h"
+#include "support/input_error.h"
 #include "verify/campaign.h"
 #include "verify/expected_run.h"
 
@@ -296,13 +297,21 @@ TEST(NarrowFigures, HaveLimits) {
       "    - {value: x, at: {t: 1}, is: {below: 0.3}}\n"
       "    - {value: x, at: {t: 1}, is: {above: exp(0)}}\n"
       "    - {value: x, at: {t: 1}, is: {below: 0.3678794411}}\n"
-      "    - {settles: x, below: 0.1, is: {below: 10}}\n"));
+      "    - {settles: x, below: 0.1, is: {below: 10}}\n"
+      "    - {value: x, at: {t: 2}, is: {below: 10}}\n"));
   const RunDifferences found = run_differences(instance, model::Gains{});
-  ASSERT_EQ(found.different.size(), 3U);
+  ASSERT_EQ(found.different.size(), 4U);
   EXPECT_NE(found.different[0].find("expected at most 0.3, found 0.367879441"), std::string::npos);
   EXPECT_NE(found.different[1].find("expected at least 1, found 0.3678"), std::string::npos);
   EXPECT_NE(found.different[2].find("expected at most 10, found inf"), std::string::npos);
+  EXPECT_NE(found.different[3].find("found none until the run ends, at t = 1"), std::string::npos);
   EXPECT_EQ(found.undecided.size(), 1U) << "a limit within the errors of the run";
+  const model::Instance never = bind::bind(io::read_problem(
+      "problem: p\nmethod:\n  method: m\n  plant: {state: {x: {shape: scalar, start: 1}}, flow: "
+      "{x: -x}}\ncampaign: {horizon: 1}\nexpect:\n  run:\n"
+      "    - {peak: x, is: {below: 1, above: 2}}\n"));
+  EXPECT_EQ(tests::input_error([&] { run_differences(never, {}); }).message(),
+            "is: no number is above 2 and below 1");
 }
 
 }  // namespace

@@ -32,6 +32,8 @@ TEST(YamlErrors, AFormulaThatMustBeQuoted) {
   expect("a: &\nb: &\n", 1, 4, "begins with '&' must be quoted");
   expect("a: [P, Y; *, I] > 0\n", 1, 4, "begins with '[' must be quoted");
   expect("a: [P, Y] + 2\nb: 1\n", 1, 4, "begins with '[' must be quoted");
+  expect("data: {A: diag([1, 0]), C: [[1, 0]]}\n", 1, 11, "quoted, such as \"diag([1, 2])\"");
+  expect("a: {s: \"it's\", A: f([1]), b: g([2])}\n", 1, 19, "quoted, such as \"f([1, 2])\"");
   expect("a: b: c\n", 1, 5, "holds ': ' must be quoted");
 }
 
