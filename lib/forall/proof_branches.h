@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "expr/assembly.h"
 #include "forall/proof_function.h"
 #include "numbers/ball_functions.h"
 
@@ -26,8 +27,7 @@ class Branches {
     for (std::size_t at = 0; at < program.code.size(); ++at) {
       const expr::Instruction& one = program.code[at];
       if (one.op != expr::Op::where || !one.shape.is_scalar()) continue;
-      expr::Program& condition = programs_.emplace_back(program);
-      condition.result = one.operands[0];
+      const expr::Program& condition = programs_.emplace_back(part(one.operands[0], {}));
       conditions_.push_back({static_cast<int>(at), one.attributes[0] != 0,
                              std::make_unique<Function<S>>(condition, known_, strict, axes)});
     }
@@ -49,8 +49,8 @@ class Branches {
       for (std::size_t i = 0; i < met.size(); ++i) branch[met[i]] = 1 + ((choice >> i) & 1U);
       auto& function = functions_[branch];
       if (!function)
-        function = std::make_unique<Function<S>>(programs_.emplace_back(chosen(branch)), known_,
-                                                 strict_, axes_);
+        function = std::make_unique<Function<S>>(
+            programs_.emplace_back(part(program_.result, branch)), known_, strict_, axes_);
       result.push_back(function.get());
     }
     return result;
@@ -63,16 +63,23 @@ class Branches {
     std::unique_ptr<Function<S>> function;
   };
 
-  expr::Program chosen(const std::map<int, std::size_t>& branch) const {
-    expr::Program result = program_;
-    const auto move = [&](int& at) {
-      for (auto found = branch.find(at); found != branch.end(); found = branch.find(at))
-        at = program_.code[static_cast<std::size_t>(at)].operands[found->second];
-    };
-    for (expr::Instruction& one : result.code)
-      for (int& operand : one.operands) move(operand);
-    move(result.result);
-    return result;
+  /// What an instruction needs and no more, each `where` of `branch` replaced by that operand.
+  expr::Program part(int result, const std::map<int, std::size_t>& branch) const {
+    expr::Assembly assembly;
+    std::vector<int> moved;
+    for (std::size_t at = 0; at < program_.code.size(); ++at) {
+      expr::Instruction one = program_.code[at];
+      for (int& operand : one.operands) operand = moved[static_cast<std::size_t>(operand)];
+      if (const auto found = branch.find(static_cast<int>(at)); found != branch.end()) {
+        moved.push_back(one.operands[found->second]);
+      } else if (one.op == expr::Op::input) {
+        const expr::Input& input = program_.inputs[static_cast<std::size_t>(one.attributes[0])];
+        moved.push_back(assembly.add_input(input.name, input.shape, one));
+      } else {
+        moved.push_back(assembly.add(std::move(one)));
+      }
+    }
+    return assembly.extract(moved[static_cast<std::size_t>(result)]);
   }
 
   const expr::Program& program_;

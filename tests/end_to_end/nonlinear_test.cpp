@@ -133,6 +133,22 @@ no campaign: gains alone
 }
 
 /// P is the Lyapunov matrix of the method: its claim would be about the other observer alone.
+/// Beside an angle, whose sine and cosine turn the equations; `where` may jump for all that is known.
+TEST(NonlinearObserver, FrictionAndSaturationAreShownAndAJumpIsNot) {
+  const auto drone = [](const std::string& drag) {
+    return synth(observer("[-5, -5, -0.5, -3, -3, -1]", "[5, 5, 0.5, 3, 3, 1]",
+                          "[x(4:6); -10*sin(x(3)) - " + drag + "; 10*cos(x(3)) - 9.81; -2*x(6)]",
+                          "x(1:3)"));
+  };
+  for (const std::string drag : {"0.1*abs(x(4))*x(4)", "0.5*clip(x(4), -1, 1)",
+                                 "max(0.1*x(4), 0.3*x(4) - 0.2)", "0.2*abs(x(4))"}) {
+    const Outcome shown = drone(drag);
+    EXPECT_EQ(shown.exit, 0) << drag << "\n" << shown.out << shown.err;
+  }
+  EXPECT_TRUE(says(synth(observer("[-1, -1]", "[1, 1]", "[x(2); -sign(x(2)) - x(1)]", "x(1)")).out,
+                   "verdict undecided"));
+}
+
 TEST(NonlinearObserver, ANameOfTheMethodIsNotTakenByAnotherObserver) {
   const Folder folder;
   const Outcome outcome = gainsmith({"check", folder.file("p.yaml", R"yaml(problem: p
