@@ -1,6 +1,7 @@
 #include <optional>
 #include <utility>
 
+#include "numbers/exponential_formula.h"
 #include "numbers/scalar_rules.h"
 
 namespace gainsmith::numbers {
@@ -188,6 +189,14 @@ class Slopes : public NodeRules {
                           const TracedMatrix& out) {
     const int n = one.shape.rows;
     if (n == 1) return {graph_.multiply(out.value[0], moved[0])};
+    const auto argument = as_multiple(in.value, n, graph_);
+    const auto rate = as_multiple(moved, n, graph_);
+    if (argument && rate && argument->factor == rate->factor) {  // ds/dt A e^(A s)
+      auto slope = product(in.shape, traced(rate->factor, graph_).value, out.shape, out.value);
+      if (!slope) throw NoFormula();
+      for (int& node : *slope) node = graph_.multiply(rate->number, node);
+      return std::move(*slope);
+    }
     const expr::Shape both{2 * n, 2 * n};
     Nodes operand = zeros(both);
     for (int j = 0; j < n; ++j)

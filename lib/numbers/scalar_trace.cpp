@@ -8,6 +8,7 @@
 #include "base/number.h"
 #include "expr/number_type.h"
 #include "numbers/block_slope.h"
+#include "numbers/exponential_formula.h"
 #include "numbers/scalar_rules.h"
 
 namespace gainsmith::numbers {
@@ -152,7 +153,7 @@ class Tracer : public NodeRules {
       case Op::matrix_exponential:
         if (one.shape.size() == 1)
           return each([&](std::size_t k) { return graph_.apply(ScalarOp::exp, of(0, k)); });
-        out.value = block_of({one, {in[0]->value}, {in[0]->shape}});
+        out.value = exponential(one, *in[0]);
         return true;
       case Op::jacobian:
         return jacobian(one, in, out);
@@ -212,6 +213,13 @@ class Tracer : public NodeRules {
     int sum = zero();
     for (const int node : in.value) sum = graph_.add(sum, graph_.multiply(node, node));
     out.value = {graph_.apply(ScalarOp::sqrt, sum)};
+  }
+
+  Nodes exponential(const Instruction& one, const TracedMatrix& in) {
+    std::optional<Nodes> nodes;
+    if (const auto argument = as_multiple(in.value, one.shape.rows, graph_))
+      nodes = exponential_nodes(*argument, graph_);
+    return nodes ? std::move(*nodes) : block_of({one, {in.value}, {in.shape}});
   }
 
   /// Rows are the elements of the body's value, columns those of the first operand.

@@ -91,6 +91,23 @@ TEST(Tape, TheDerivativeOfAnExponentialIsOneOfALargerMatrix) {
   }
 }
 
+TEST(Tape, AnExponentialOfAKnownMatrixIsAFormula) {
+  const TapeOf texts({"expm(A*x(1))", "expm(-A*(x(1) - t))*x",
+                      "jacobian(expm(A*x(1))*[1; 2; 3], x)",
+                      "jacobian(expm(2*A*(x(1) + t))(2, :)', x)"});
+  StackedFunctions functions = texts.functions();
+  for (const Vector& x : {point(0.3, 2, -1), point(0, 0, 0), point(-1.5, 1, 1)}) {
+    ASSERT_TRUE(functions.run(x, 0.2));
+    for (std::size_t k = 0; k < functions.count(); ++k) {
+      const Matrix truth = functions.at(k, x, 0.2);
+      EXPECT_LT((functions.value(k) - truth).cwiseAbs().maxCoeff(), 1e-13 * (1 + truth.norm()))
+          << k;
+    }
+  }
+  // An exponential, a sine, a cosine and another exponential, not a matrix.
+  EXPECT_LT(TapeOf({"expm(A*x(1))"}).operations(), 25U);
+}
+
 TEST(Tape, TheDerivativeOfANormAtZeroHasNoValue) {
   const TapeOf texts({"jacobian(norm(x), x)", "jacobian(sqrt(x(1)), x)"});
   StackedFunctions functions = texts.functions();

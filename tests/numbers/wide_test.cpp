@@ -36,8 +36,8 @@ std::string hilbert(int n) {
 
 template <class Scalar>
 class Wide : public testing::Test {};
-using Scalars = testing::Types<DoubleDouble, Decimal100>;
-TYPED_TEST_SUITE(Wide, Scalars);
+using WideScalars = testing::Types<DoubleDouble, Decimal100>;
+TYPED_TEST_SUITE(Wide, WideScalars);
 
 TYPED_TEST(Wide, DecimalsAreRoundedFromTheirText) {
   EXPECT_EQ(value<TypeParam>("0.1")(0, 0), *parse_as<TypeParam>("0.1"));

@@ -1,0 +1,30 @@
+// e^(A s) of a known matrix A and a number s as nodes of a scalar graph:
+//
+//   e^(A s) = sum_i C_i f_i(s),   f_i = s^m e^(a s) cos(b s)  or  s^m e^(a s) sin(b s)
+//
+// over the eigenvalues a + b i of A, m below their multiplicity. The C_i, n x n, follow from
+// (d/ds)^k e^(A s) = A^k at s = 0, k = 0 .. n-1, in 31 digits.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "numbers/matrix.h"
+#include "numbers/scalar_graph.h"
+
+namespace gainsmith::numbers {
+
+/// Elements that are all multiples of one number.
+struct Multiple {
+  Matrix factor;
+  int number = -1;  ///< the node s; of constants the node 1
+};
+
+/// Nodes column by column as factor * s, with no other factors than constants.
+std::optional<Multiple> as_multiple(const std::vector<int>& nodes, int rows, ScalarGraph& graph);
+
+/// The nodes of e^(A s), column by column. None where the sum would lose more than two digits
+/// (eigenvalues that nearly coincide), and of large A.
+std::optional<std::vector<int>> exponential_nodes(const Multiple& argument, ScalarGraph& graph);
+
+}  // namespace gainsmith::numbers
