@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/number.h"
-#include "numerics/balance.h"
 #include "numbers/dense.h"
+#include "numerics/balance.h"
 #include "ode/chebyshev.h"
 #include "ode/integrator.h"
 
@@ -55,9 +55,11 @@ class ExactFlow : public Flow {
     read_generator(values);
     z_ = VectorXd::Ones(size_);
     z_.head(field_->size()) = field_->gathered(values);
-    const auto& steady = field_->steady_inputs();
-    for (std::size_t k = 0; k < steady.size(); ++k)
-      z_(field_->size() + static_cast<Index>(k)) = values(steady[k]);
+    const auto& inputs = field_->linear_inputs();
+    Index at = field_->size();
+    for (const VectorField::LinearInput& input : inputs) z_(at++) = values(input.element);
+    for (const VectorField::LinearInput& input : inputs)
+      if (has_rate(input)) z_(at++) = field_->rate_of(input);
   }
 
   hybrid::DenseStep next() override {
@@ -80,24 +82,28 @@ class ExactFlow : public Flow {
   }
 
  private:
-  /// z = (y, what is steady in y', 1),  z' = G z.
+  /// Whether its rate is one of the values that differ from flow to flow.
+  static bool has_rate(const VectorField::LinearInput& input) {
+    return !input.clock_rate && !input.rests;
+  }
+
+  /// z = (y, the linear inputs of y', their rates, 1),  z' = G z.
   void read_generator(const VectorXd& values) {
-    const Index n = field_->size();
-    const auto& steady = field_->steady_inputs();
-    const auto m = static_cast<Index>(steady.size());
+    const auto& inputs = field_->linear_inputs();
+    size_ = field_->size() + static_cast<Index>(inputs.size()) +
+            std::count_if(inputs.begin(), inputs.end(), has_rate) + 1;
     const VectorXd parameters = field_->parameters(values);
     std::vector<double> key(parameters.begin(), parameters.end());
-    for (const Index element : steady) key.push_back(field_->steady_rate(element));
     key.push_back(longest_);
-    size_ = n + m + 1;
     std::shared_ptr<ode::ExponentialTable>& known = field_->tables().at(key);
-    if (known == nullptr)
-      known = make_table(n, m, Eigen::Map<const VectorXd>(key.data() + parameters.size(), m));
+    if (known == nullptr) known = make_table();
     table_ = known;
   }
 
-  std::shared_ptr<ode::ExponentialTable> make_table(Index n, Index m,
-                                                    const VectorXd& steady_rates) {
+  std::shared_ptr<ode::ExponentialTable> make_table() {
+    const auto& inputs = field_->linear_inputs();
+    const Index n = field_->size();
+    const auto m = static_cast<Index>(inputs.size());
     auto made = std::make_shared<ode::ExponentialTable>();
     Matrix& generator = made->generator = Matrix::Zero(size_, size_);
     VectorXd constant(n), rate(n);
@@ -107,8 +113,13 @@ class ExactFlow : public Flow {
       field_->rate_at(unit.head(n), unit.tail(m), rate);
       generator.col(k).head(n) = rate - constant;
     }
-    generator.col(n + m).head(n) = constant;
-    generator.col(n + m).segment(n, m) = steady_rates;
+    generator.col(size_ - 1).head(n) = constant;
+    Index rates = n + m;
+    for (Index k = 0; k < m; ++k) {
+      const VectorField::LinearInput& input = inputs[static_cast<std::size_t>(k)];
+      if (input.clock_rate) generator(n + k, size_ - 1) = *input.clock_rate;
+      if (has_rate(input)) generator(n + k, rates++) = 1;
+    }
     set_lengths(*made);
     return made;
   }

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "base/error.h"
 #include "base/number.h"
+#include "hybrid/affine.h"
 
 namespace gainsmith::simulate {
 
@@ -41,6 +43,7 @@ VectorField::VectorField(const hybrid::System& system)
         {system.layout.slots[i].offset, 0, 0, kind == Kind::left ? -1.0 : 1.0, kind == Kind::left});
   }
   for (std::size_t k = 0; k < system.dynamics.flow.size(); ++k) add_flow(k);
+  note_inputs(flowing(system));
   for (const model::Dynamics::Component& one : system.dynamics.components)
     frozen_.push_back(
         one.frozen ? std::optional<hybrid::EventCondition>(std::in_place, *one.frozen, system)
@@ -58,7 +61,6 @@ void VectorField::add_flow(std::size_t flow) {
     for (Index k = 0; k < slot.shape.size(); ++k) lines_.push_back({slot.offset + k});
     return;
   }
-  note_inputs(one.value.program);
   flows_.push_back({one.variable, std::move(value), size(), {}});
   if (const auto& free = system_->free_flow[flow]) flows_.back().free.emplace(*free, *system_);
   const Index rows = slot.shape.rows;
@@ -72,16 +74,45 @@ void VectorField::add_flow(std::size_t flow) {
     }
 }
 
-void VectorField::note_inputs(const expr::Program& program) {
-  for (const expr::Input& input : program.inputs) {
-    const auto at = system_->slot(input.name);
-    if (!at || system_->moves[*at] == hybrid::Moves::flows) continue;
-    std::vector<Index>& list =
-        system_->moves[*at] == hybrid::Moves::steady ? steady_inputs_ : resting_inputs_;
-    const hybrid::Slot& slot = system_->layout.slots[*at];
-    if (std::find(list.begin(), list.end(), slot.offset) != list.end()) continue;
-    for (Index k = 0; k < slot.shape.size(); ++k) list.push_back(slot.offset + k);
+void VectorField::note_inputs(const std::vector<const expr::Program*>& programs) {
+  std::set<std::size_t> used;
+  for (const expr::Program* program : programs)
+    for (const expr::Input& input : program->inputs)
+      if (const auto at = system_->slot(input.name))
+        if (system_->moves[*at] != hybrid::Moves::flows) used.insert(*at);
+  for (const std::size_t variable : used)
+    if (system_->moves[variable] == hybrid::Moves::steady) add_linear_inputs(variable);
+  for (const std::size_t variable : used) {
+    if (system_->moves[variable] == hybrid::Moves::steady) continue;
+    const hybrid::Slot& slot = system_->layout.slots[variable];
+    if (is_affine_in(variable, programs))
+      add_linear_inputs(variable);
+    else
+      for (Index k = 0; k < slot.shape.size(); ++k) resting_inputs_.push_back(slot.offset + k);
   }
+}
+
+bool VectorField::is_affine_in(std::size_t variable,
+                               const std::vector<const expr::Program*>& programs) const {
+  const auto moves = [&](const std::string& name) {
+    const auto at = system_->slot(name);
+    return at && (*at == variable || system_->moves[*at] != hybrid::Moves::rests ||
+                  std::find(linear_.begin(), linear_.end(), *at) != linear_.end());
+  };
+  return system_->affine && std::ranges::all_of(programs, [&](const expr::Program* program) {
+           return hybrid::first_not_affine(*program, moves) == nullptr;
+         });
+}
+
+void VectorField::add_linear_inputs(std::size_t variable) {
+  linear_.push_back(variable);
+  const hybrid::Slot& slot = system_->layout.slots[variable];
+  const auto clock = std::find(clocks_.begin(), clocks_.end(), variable);
+  std::optional<double> rate;
+  if (clock != clocks_.end()) rate = lines_[static_cast<std::size_t>(clock - clocks_.begin())].rate;
+  const bool rests = system_->moves[variable] == hybrid::Moves::rests;
+  for (Index k = 0; k < slot.shape.size(); ++k)
+    linear_inputs_.push_back({slot.offset + k, rate, rests});
 }
 
 void VectorField::reset() {
@@ -224,16 +255,18 @@ void VectorField::rate(double t, const VectorXd& y, VectorXd& rate) {
   rates(rate);
 }
 
-void VectorField::rate_at(const VectorXd& y, const VectorXd& steady, VectorXd& rate) {
+void VectorField::rate_at(const VectorXd& y, const VectorXd& inputs, VectorXd& rate) {
   const VectorXd before = values_;
   spread(y, values_);
-  for (std::size_t k = 0; k < steady_inputs_.size(); ++k)
-    values_(steady_inputs_[k]) = steady(static_cast<Index>(k));
+  for (std::size_t k = 0; k < linear_inputs_.size(); ++k)
+    values_(linear_inputs_[k].element) = inputs(static_cast<Index>(k));
   rates(rate);
   values_ = before;
 }
 
-double VectorField::steady_rate(Index element) const {
+double VectorField::rate_of(const LinearInput& input) const {
+  if (input.rests) return 0;
+  const Index element = input.element;
   const auto found = std::find_if(lines_.begin(), lines_.end(),
                                   [&](const Line& line) { return line.element == element; });
   return found == lines_.end() ? 0 : found->rate;

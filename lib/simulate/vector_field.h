@@ -44,12 +44,20 @@ class VectorField {
   void spread(const Eigen::VectorXd& y, Eigen::VectorXd& values) const;
   /// y' at (t, y). EvaluationError where it has no value.
   void rate(double t, const Eigen::VectorXd& y, Eigen::VectorXd& rate);
-  /// Elements of the lines on which y' may depend.
-  const std::vector<Eigen::Index>& steady_inputs() const { return steady_inputs_; }
-  double steady_rate(Eigen::Index element) const;
-  /// y' where everything that is steady has the values given, whatever the time.
-  void rate_at(const Eigen::VectorXd& y, const Eigen::VectorXd& steady, Eigen::VectorXd& rate);
-  /// The resting values that y' uses.
+  /// What y' may depend on beside y. Of an affine flow it is affine in y and these: they are lines,
+  /// and values that rest, such as noise that is held.
+  struct LinearInput {
+    Eigen::Index element = 0;
+    /// Of a line of the time: 1 or -1. None: the rate of a flow, or 0.
+    std::optional<double> clock_rate;
+    bool rests = false;
+  };
+  const std::vector<LinearInput>& linear_inputs() const { return linear_inputs_; }
+  /// In the flow that has begun.
+  double rate_of(const LinearInput& input) const;
+  /// y' where these have the values given, whatever the time.
+  void rate_at(const Eigen::VectorXd& y, const Eigen::VectorXd& inputs, Eigen::VectorXd& rate);
+  /// The other resting values that y' uses, and which components are frozen.
   Eigen::VectorXd parameters(const Eigen::VectorXd& values) const;
 
   /// All variables over [from, to] from a series for y.
@@ -80,7 +88,9 @@ class VectorField {
   };
 
   void add_flow(std::size_t flow);
-  void note_inputs(const expr::Program& program);
+  void note_inputs(const std::vector<const expr::Program*>& programs);
+  bool is_affine_in(std::size_t variable, const std::vector<const expr::Program*>& programs) const;
+  void add_linear_inputs(std::size_t variable);
   Line& clock(std::size_t variable);
   static const numbers::Matrix& text_of(Entry& entry, const Eigen::VectorXd& values);
   const numbers::Matrix& value_of(Entry& entry, const Eigen::VectorXd& values);
@@ -101,7 +111,9 @@ class VectorField {
     std::size_t flow = 0, at = 0, mirror = 0;  ///< of the value of together_
   };
   std::vector<Element> rate_of_;  ///< of each element of y
-  std::vector<Eigen::Index> steady_inputs_, resting_inputs_;
+  std::vector<LinearInput> linear_inputs_;
+  std::vector<Eigen::Index> resting_inputs_;
+  std::vector<std::size_t> linear_;                            ///< variables of linear_inputs_
   std::vector<std::optional<hybrid::EventCondition>> frozen_;  ///< by component
   std::vector<bool> is_frozen_;
   std::vector<double> largest_rate_;  ///< by variable, in this run

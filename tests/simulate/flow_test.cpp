@@ -64,6 +64,36 @@ TEST(EventFlow, StiffAndSwingingModesAreExactBetweenStepsToo) {
   EXPECT_LT(steps.size(), 300U);
 }
 
+TEST(EventFlow, NoiseThatIsHeldIsAnInputAndNoParameter) {
+  EventProblem problem;
+  problem.noise("w", model::Dynamics::NoiseKind::normal, {"2"}, "", "0.5");
+  problem.noise("v", model::Dynamics::NoiseKind::uniform, {"-1", "3"}, "", "0.5");
+  problem.state("x", {2, 1}, "[1; 0]").state("s", {1, 1}, "0.5").state("q", {1, 1}, "3");
+  problem.flow("x", "[x(2) + w + s; v*x(1) - x(2)]").flow("s", "w").flow("q", "0");
+  const hybrid::System system = problem.system();
+  ASSERT_TRUE(system.affine);
+  VectorField field(system);
+  const VectorXd values = VectorXd::Constant(system.whole, 1.5);
+  // v, of which an exponential is made each time, and whether all are frozen.
+  EXPECT_EQ(field.parameters(values).size(), 2);
+  ASSERT_EQ(field.linear_inputs().size(), 2U);  // s, which is a line, and w
+}
+
+TEST(EventFlow, LinesAndHeldValuesMoveAnExactFlow) {
+  EventProblem problem;
+  problem.state("x", {2, 1}, "[1; 0]").state("s", {1, 1}, "0.5").state("q", {1, 1}, "3");
+  problem.flow("x", "[x(2); s + q]").flow("s", "q - 1").flow("q", "0");
+  const hybrid::System system = problem.system();
+  VectorField field(system);
+  EXPECT_EQ(field.parameters(VectorXd::Zero(system.whole)).size(), 1);
+  const auto flow = exact_flow(field, 1);
+  const auto steps = steps_of(system, field, *flow, 3);
+  const auto exact = [](double t) {  // x'' = 3.5 + 2 t
+    return VectorXd(Eigen::Vector2d(1 + 3.5 * t * t / 2 + t * t * t / 3, 3.5 * t + t * t));
+  };
+  EXPECT_LT(largest_error(system, steps, exact), 1e-13);
+}
+
 TEST(EventFlow, IntegratedStepsMeetAndKeepTheirAccuracy) {
   EventProblem problem;
   problem.state("x", {2, 1}, "[0; 2]").flow("x", "[x(2); -sin(x(1))]");  // the separatrix
