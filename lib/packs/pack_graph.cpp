@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "expr/derivative.h"
+
 namespace gainsmith::packs {
 
 using hybrid::Slot;
@@ -75,7 +77,8 @@ TracedMatrix PackGraph::value(const expr::Program& program, const Nodes& x) {
 }
 
 TracedMatrix PackGraph::moving(const expr::Program& program, const Nodes& x, const Nodes& rates) {
-  TracedMatrix made = numbers::trace(program, at(x, &rates), graph_);
+  // The rate of a rate: a jacobian that moves has no slope, its formula has one.
+  TracedMatrix made = numbers::trace(expr::with_derivatives(program), at(x, &rates), graph_);
   if (made.slopes.empty()) made.slopes.emplace_back(made.value.size(), graph_.constant(0));
   return made;
 }

@@ -120,6 +120,19 @@ method:
     decrease: {nonincreasing: (x - xh)'*(x - xh)}
 campaign: {runs: 96, horizon: 3, initial: {x: {box: [-1, 1]}}}
 )yaml"},
+    {"a claim on a rate, with held noise", R"yaml(problem: p
+method:
+  method: m
+  noise: {w: {normal: 1, every: 0.1}}
+  plant:
+    state: {x: {shape: 2, start: 0}}
+    flow: {x: "[x(2); -2*x(1) - 3*x(2) + w]"}
+  claims:
+    energy: {below: "rate(2*x(1)^2 + x(2)^2) - w^2/6", bound: 1e-6}
+    power: {below: "rate(x'*x)", bound: 1.5}
+    speed: {below: abs(rate(x(1))), bound: 1.2}
+campaign: {runs: 96, horizon: 4, initial: {x: {box: [-1, 1]}}}
+)yaml"},
     {"an oscillator with limits", R"yaml(problem: p
 method:
   method: m
