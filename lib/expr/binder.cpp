@@ -204,6 +204,8 @@ int Binder::materialise(const Expression& expression, const Node& node, Bound va
        describe(expression, node, value) + " has the wrong shape: expected " + to_string(wanted) +
            (turned && (found.rows == 1 || found.cols == 1)
                 ? "; a column is written [a; b], a row [a, b]"
+            : found.size() == 1 && wanted.is_square()
+                ? "; a multiple of the identity is written " + expression.quote(node) + "*I"
             : wanted.size() == 1 && found.cols == 1 && node.kind == NodeKind::name
                 ? "; the size of a column is norm(" + expression.quote(node) + "), an element " +
                       expression.quote(node) + "(1)"

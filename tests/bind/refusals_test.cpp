@@ -84,7 +84,8 @@ TEST(Refusal, WrongShapes) {
   expect_refused({"[5, 6]", "[5, 6, 7]", at(5, 3), "b is declared n (n = 2); found 3 x 1"});
   expect_refused({"T1: 0.5", "T1: [1, 2]", at(6, 3), "T1 is declared scalar; found 1 x 2"});
   expect_refused(
-      {"  T1:", "  Q: 5\n  T1:", at(6, 6), "5 (1 x 1) has the wrong shape: expected 2 x 2"});
+      {"  T1:", "  Q: 5\n  T1:", at(6, 6),
+       "5 (1 x 1) has the wrong shape: expected 2 x 2; a multiple of the identity is written 5*I"});
   expect_refused({"  T1:", "  Q: [[1, 2]]\n  T1:", at(6, 3), "symmetric n (n = 2); found 1 x 2"});
 }
 
