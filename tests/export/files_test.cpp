@@ -188,7 +188,7 @@ TEST(ExportFiles, AMapThatIsLeftOutSaysWhatFollows) {
   const std::string consequence =
       "; so the exported observer does not do at that event what the simulated one does, and the "
       "claims that were verified do not cover it";
-  for (const char* map : {"xh + svd(xh)(1)*K", "xh + expm(xh(1)*A)*K*y"}) {
+  for (const char* map : {"xh + svd(xh)(1)*K", "xh + expm(A + xh*xh')*K*y"}) {
     Content made = content(
         problem("{every: 0.1}", std::string("  observer: {state: {xh: {shape: n, start: 0}}, "
                                             "at: {sample: {xh: \"") +
