@@ -73,18 +73,39 @@ double price_of(const Posed& posed, const Attempt& attempt, const sdp::Solution&
 /// programs have in the dense solver too.
 constexpr double kCheap = 3e-7, kFair = 1e-6;
 
-/// A gap that is small beside the solver's 1 may be large beside the objective: then the program is
-/// solved to a finer one.
+/// The solution of the formulation as it is now takes the place of the result's where it is cheaper.
+void take_cheaper(const Posed& posed, const lmi::Formulation& formulation, sdp::Solution solution,
+                  Attempt& result) {
+  if (solution.status != sdp::Status::optimal) return;
+  Attempt again = result;
+  again.formulation = formulation;
+  if (!(price_of(posed, again, solution) < price_of(posed, result, result.solution))) return;
+  solution.iterations += result.solution.iterations;
+  result.formulation = formulation;
+  result.solution = std::move(solution);
+}
+
+/// What margins cost that are relative to units of the data may be much where the blocks are small
+/// in them: then they are asked relative to the blocks at the solution. And a gap that is small
+/// beside the solver's 1 may be large beside the objective: then the program is solved to a finer
+/// one.
 void refine_price(const Posed& posed, const Solve& solve, Attempt& result) {
   constexpr double kDear = 1e-3;  // dearer is no matter of the solver's digits
   constexpr double kFiner = 1e-3;
-  const double price = price_of(posed, result, result.solution);
-  if (!(kCheap < price && price < kDear)) return;
-  Effort finer = result.question.effort;
+  const auto price = [&] { return price_of(posed, result, result.solution); };
+  const Question& asked = result.question;
+  if (!(price() > kCheap)) return;
+  if (const auto round =
+          lmi::next_round(posed.lmi, asked.bounds, result.formulation, result.solution.x)) {
+    lmi::Formulation smaller = result.formulation;
+    lmi::assemble(posed.lmi, asked.bounds, *round, smaller);
+    sdp::Solution again = solve(smaller.problem, asked.effort);
+    take_cheaper(posed, smaller, std::move(again), result);
+  }
+  if (!(kCheap < price() && price() < kDear)) return;
+  Effort finer = asked.effort;
   finer.tolerance *= kFiner;
-  sdp::Solution again = solve(result.formulation.problem, finer);
-  if (again.status == sdp::Status::optimal && price_of(posed, result, again) < price)
-    result.solution = std::move(again);
+  take_cheaper(posed, result.formulation, solve(result.formulation.problem, finer), result);
 }
 
 void solve_objective(const Posed& posed, const Solve& solve, Attempt& result) {

@@ -110,13 +110,16 @@ Formulation pose_interior(const Lmi& lmi, const GainBounds& bounds,
 namespace {
 
 void assemble_objective(const Lmi& lmi, const std::vector<const Block*>& blocks,
-                        const std::vector<std::vector<int>>& rows, Formulation& result) {
+                        const std::vector<std::vector<int>>& rows, const Round& round,
+                        Formulation& result) {
   Assembler assembler(result.variables);
   for (std::size_t k = 0; k < blocks.size(); ++k) {
     result.blocks.push_back(balanced(*blocks[k], result.balance, k, rows[k]));
     const int added = assembler.add(result.blocks[k], 0, 1);
     for (int r = 0; k < lmi.blocks.size() && r < result.blocks[k].size; ++r)
-      assembler.add_entry(0, added, r, r, -result.shift);
+      assembler.add_entry(
+          0, added, r, r,
+          -result.shift * (round.diagonals.empty() ? 1 : std::min(1.0, round.diagonals[k][r])));
   }
   for (int i = 1; lmi.has_objective && i <= lmi.unknowns; ++i)
     assembler.set_cost(i, lmi.objective[static_cast<std::size_t>(i) - 1] * result.balance.unit(i) *
@@ -159,7 +162,7 @@ void assemble(const Lmi& lmi, const GainBounds& bounds, const Round& round,
   const auto rows = rows_of(formulation.free_variables, bounds);
   formulation.blocks.clear();
   if (formulation.goal == Goal::objective)
-    assemble_objective(lmi, blocks, rows, formulation);
+    assemble_objective(lmi, blocks, rows, round, formulation);
   else
     assemble_interior(blocks, rows, round, exactly, formulation);
 }

@@ -4,6 +4,8 @@
 // so what comes out does not depend on the units of the problem.
 //
 //   objective   minimise c'x,  B_k(x) >= shift I, strict or not; gain bounds >= 0
+//               begun so, and repeated with B_k(x) >= shift min(I, diag(B_k(x))) of the x found
+//               where the shift costs much: units of the data may be large beside the solution
 //   interior    the largest unit-free margin, min over k of the smallest eigenvalue of
 //               D^-1/2 B_k(x) D^-1/2 with D = diag(B_k(x)), of the homogenised blocks
 //                 x_0 B_k0 + sum_i x_i B_ki > 0,   x_0 > 0  (where a block has a constant part):
@@ -31,7 +33,7 @@ namespace gainsmith::lmi {
 
 enum class Goal { objective, interior };
 
-/// Where a round of `interior` begins.
+/// Where a round begins: of `objective` the D_k alone.
 struct Round {
   double margin = 0;                       ///< t
   std::vector<numbers::Vector> diagonals;  ///< D_k of all blocks, bounds included; empty: I
@@ -40,14 +42,14 @@ struct Round {
 
 struct Formulation {
   Goal goal = Goal::objective;
-  Balance balance;           ///< of the blocks of the Lmi, then of the gain bounds
-  double shift = 0;          ///< objective
-  double cost_unit = 1;      ///< objective: costs of the problem by those of the Lmi, 2^k
-  bool homogenised = false;  ///< interior: x_0 stands before s, which is the last variable
-  int rows = 0;              ///< interior: N
-  int variables = 0;         ///< of the program
+  Balance balance;               ///< of the blocks of the Lmi, then of the gain bounds
+  double shift = 0;              ///< objective
+  double cost_unit = 1;          ///< objective: costs of the problem by those of the Lmi, 2^k
+  bool homogenised = false;      ///< interior: x_0 stands before s, which is the last variable
+  int rows = 0;                  ///< interior: N
+  int variables = 0;             ///< of the program
   FreeVariables free_variables;  ///< scalars left out, and the rows of each block that stay
-  std::vector<int> sizes;    ///< rows that stay in each block, those of the bounds last
+  std::vector<int> sizes;        ///< rows that stay in each block, those of the bounds last
 
   // Of what is assembled:
   sdp::Problem problem;               ///< its first blocks are those of the Lmi, then of the bounds
@@ -70,7 +72,7 @@ Formulation pose_interior(const Lmi& lmi, const GainBounds& bounds,
                           const std::vector<std::vector<int>>& rows = {});
 
 /// Adds the program. With `exactly` the coefficients of the Lmi's blocks are those, in 31 digits;
-/// there must be no bounds then. `round`: of an interior formulation.
+/// there must be no bounds then.
 void assemble(const Lmi& lmi, const GainBounds& bounds, const Round& round,
               Formulation& formulation, const Exactly& exactly = {});
 
@@ -102,7 +104,7 @@ double interior_margin(const sdp::Solution& solution);
 std::vector<double> read_back(const Lmi& lmi, const Formulation& formulation,
                               const sdp::Solution& solution);
 
-/// The round after the solution x of an interior program; none when a block has a diagonal element
+/// The round after the solution x of a program; none when a block has a diagonal element
 /// <= 0 there.
 std::optional<Round> next_round(const Lmi& lmi, const GainBounds& bounds,
                                 const Formulation& formulation, const std::vector<double>& x);
