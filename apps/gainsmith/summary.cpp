@@ -13,16 +13,28 @@ namespace gainsmith::app {
 
 namespace {
 
+/// "[1, 2; 3, 4]", or a row on each line where it is wide, the first in the column `at`.
+std::string rows_text(const numbers::Matrix& matrix, std::size_t at) {
+  constexpr std::size_t kWide = 120;
+  std::string text = matrix_text(matrix);
+  if (at + text.size() <= kWide) return text;
+  const std::string between = ";\n" + std::string(at + 1, ' ');
+  for (auto end = text.find("; "); end != std::string::npos; end = text.find("; ", end))
+    text.replace(end, 2, between);
+  return text;
+}
+
 /// "gains       L = [1; 2]", and what is an estimate.
 std::string named_matrices(const std::string& title, const model::NamedMatrices& matrices,
                            const model::Gains& gains) {
   std::string text;
   for (const auto& [name, matrix] : matrices) {
     const auto estimate = gains.estimates.find(name);
-    text += fmt::format(
-        "{:<12}{} = {}{}\n", text.empty() ? title : "", name,
-        gains.eigenvalues.contains(name) ? eigenvalues_text(matrix) : matrix_text(matrix),
-        estimate == gains.estimates.end() ? "" : " (" + estimate->second + ")");
+    const std::string head = fmt::format("{:<12}{} = ", text.empty() ? title : "", name);
+    text += fmt::format("{}{}{}\n", head,
+                        gains.eigenvalues.contains(name) ? eigenvalues_text(matrix)
+                                                         : rows_text(matrix, head.size()),
+                        estimate == gains.estimates.end() ? "" : " (" + estimate->second + ")");
   }
   return text;
 }

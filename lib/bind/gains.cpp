@@ -123,14 +123,15 @@ class Products {
   const expr::Scope& scope_;
 };
 
-/// The scope of a gain's formula.
+/// The scope of a gain's formula, which may use the gains above it.
 expr::Scope gain_scope(expr::Scope scope, const std::string& variable) {
   if (!variable.empty()) scope.symbols[variable] = {};
   return scope;
 }
 
-void add_gain(Binding& binding, const model::Gain& gain) {
-  const expr::Scope scope = gain_scope(binding.names->design, gain.variable);
+/// Adds it to `names`, for the gains below it.
+void add_gain(Binding& binding, const model::Gain& gain, expr::Scope& names) {
+  const expr::Scope scope = gain_scope(names, gain.variable);
   model::Design::Gain bound;
   bound.name = gain.name;
   bound.variable = gain.variable;
@@ -141,6 +142,8 @@ void add_gain(Binding& binding, const model::Gain& gain) {
   products.find(gain.value.root, bound.products);
   bound.whole = products.factor({gain.value.root});
   binding.design->gains.push_back(std::move(bound));
+  if (gain.variable.empty())
+    names.definitions.try_emplace(gain.name, expr::Definition{{}, gain.value});
 }
 
 /// The bound of a family is that of each of its members.
@@ -166,12 +169,16 @@ void bind_gain_bounds(Binding& binding) {
 
 void bind_gains(Binding& binding) {
   std::map<std::string, expr::Ranges> families;
+  expr::Scope names = binding.names->design;
   for (const model::Gain& gain : binding.method().gains) {
-    if (!gain.indices.empty()) families[gain.name] = ranges(gain.indices, binding.names->design);
     for (const Member& member : members(gain.indices, {}, binding.names->design))
       add_gain(binding,
                {member.name_of(gain.name), instantiate(gain.value, member, binding.names->design),
-                gain.place, gain.variable});
+                gain.place, gain.variable},
+               names);
+    if (gain.indices.empty()) continue;
+    families[gain.name] = ranges(gain.indices, binding.names->design);
+    names.families.try_emplace(gain.name, families[gain.name]);
   }
   bind_gain_bounds(binding);
   binding.names->running = binding.names->design;

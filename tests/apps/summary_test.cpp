@@ -22,5 +22,15 @@ TEST(Summary, ReportsOfEigenvaluesAreShownSo) {
   EXPECT_NE(text.find("table = [-1, 2; -1, -2]\n"), std::string::npos) << text;
 }
 
+TEST(Summary, WideMatricesHaveARowOnEachLine) {
+  model::Gains gains;
+  gains.gains = {{"K", numbers::Matrix::Constant(1, 30, 1.25)},
+                 {"P", numbers::Matrix::Constant(3, 15, 1.25)}};
+  const std::string text = synthesis_summary(gains);
+  EXPECT_NE(text.find("            P = [1.25, 1.25"), std::string::npos) << text;
+  EXPECT_NE(text.find("1.25;\n                 1.25, "), std::string::npos) << text;
+  EXPECT_NE(text.find("gains       K = [1.25, 1.25"), std::string::npos) << text;
+}
+
 }  // namespace
 }  // namespace gainsmith::app

@@ -59,6 +59,18 @@ TEST(GainProducts, NeedASymmetricUnknownAndAFactor) {
   EXPECT_EQ(products("L: inv(P) + Z"), Texts());
 }
 
+/// What stands in another gain's formula is bounded there.
+TEST(GainProducts, AreThoseOfTheTextThoughAGainMayUseTheGainsAboveIt) {
+  const Small small = with_gains("L: inv(P)*C', W: A - L*C, V: W*L");
+  EXPECT_EQ(products(small.design().gains.at(0)), Texts{"inv(P) | C' | C'"});
+  EXPECT_EQ(products(small.design().gains.at(1)), Texts());
+  EXPECT_EQ(small.design().gains.at(2).shape, (expr::Shape{2, 1}));
+  EXPECT_TRUE(small.design().gains.at(2).formula.program.uses("P"));
+  EXPECT_FALSE(small.design().gains.at(2).formula.program.uses("L"));
+  EXPECT_THROW(with_gains("W: A - L*C, L: inv(P)*C'"), InputError);
+  EXPECT_THROW(with_gains("L: L*2"), InputError);
+}
+
 TEST(GainProducts, AnInverseMayBeThatOfAFunction) {
   EXPECT_EQ(products("L(t): inv(Q(t))*Y(t)"), Texts{"inv(Q(t)) | Y(t) | Y(t)"});
   EXPECT_EQ(products("L(t): Z*inv(Q(2*t))"), Texts{"Z | inv(Q(2*t)) | Z"});
