@@ -73,6 +73,19 @@ double price_of(const Posed& posed, const Attempt& attempt, const sdp::Solution&
 /// programs have in the dense solver too.
 constexpr double kCheap = 3e-7, kFair = 1e-6;
 
+/// What the margins themselves cost, by the objective's size: to first order shift tr(Y).
+double price_of_margins(const Posed& posed, const Attempt& attempt) {
+  const lmi::Formulation& formulation = attempt.formulation;
+  const sdp::Solution& solution = attempt.solution;
+  double trace = 0;
+  for (std::size_t k = 0; k < posed.lmi.blocks.size(); ++k) {
+    const auto n = static_cast<std::size_t>(formulation.sizes[k]);
+    for (std::size_t i = 0; i < n; ++i) trace += solution.Y.values[k][i * (n + 1)];
+  }
+  const double value = posed.lmi.objective_at(lmi::read_back(posed.lmi, formulation, solution));
+  return formulation.shift * trace / formulation.cost_unit / std::abs(value);
+}
+
 /// The solution of the formulation as it is now takes the place of the result's where it is cheaper.
 void take_cheaper(const Posed& posed, const lmi::Formulation& formulation, sdp::Solution solution,
                   Attempt& result) {
@@ -85,24 +98,25 @@ void take_cheaper(const Posed& posed, const lmi::Formulation& formulation, sdp::
   result.solution = std::move(solution);
 }
 
-/// What margins cost that are relative to units of the data may be much where the blocks are small
-/// in them: then they are asked relative to the blocks at the solution. And a gap that is small
-/// beside the solver's 1 may be large beside the objective: then the program is solved to a finer
-/// one.
+/// Margins that are relative to units of the data may cost much where the blocks are small in them:
+/// then they are asked relative to the blocks at the solution, unless a large one is wished for, whatever
+/// it costs. And a gap that is small beside the
+/// solver's 1 may be large beside the objective: then the program is solved to a finer one.
 void refine_price(const Posed& posed, const Solve& solve, Attempt& result) {
   constexpr double kDear = 1e-3;  // dearer is no matter of the solver's digits
   constexpr double kFiner = 1e-3;
-  const auto price = [&] { return price_of(posed, result, result.solution); };
   const Question& asked = result.question;
-  if (!(price() > kCheap)) return;
-  if (const auto round =
-          lmi::next_round(posed.lmi, asked.bounds, result.formulation, result.solution.x)) {
-    lmi::Formulation smaller = result.formulation;
-    lmi::assemble(posed.lmi, asked.bounds, *round, smaller);
-    sdp::Solution again = solve(smaller.problem, asked.effort);
-    take_cheaper(posed, smaller, std::move(again), result);
-  }
-  if (!(kCheap < price() && price() < kDear)) return;
+  const bool is_wished = asked.shift > model::SynthesisOptions{}.margin;
+  if (!is_wished && price_of_margins(posed, result) > kCheap)
+    if (const auto round =
+            lmi::next_round(posed.lmi, asked.bounds, result.formulation, result.solution.x)) {
+      lmi::Formulation smaller = result.formulation;
+      lmi::assemble(posed.lmi, asked.bounds, *round, smaller);
+      sdp::Solution again = solve(smaller.problem, asked.effort);
+      take_cheaper(posed, smaller, std::move(again), result);
+    }
+  const double price = price_of(posed, result, result.solution);
+  if (!(kCheap < price && price < kDear)) return;
   Effort finer = asked.effort;
   finer.tolerance *= kFiner;
   take_cheaper(posed, result.formulation, solve(result.formulation.problem, finer), result);
