@@ -1,4 +1,7 @@
 // where(condition, x, y) and the differences of conditions.
+#include <algorithm>
+#include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -63,12 +66,40 @@ Bound Binder::compared(const Expression& expression, const Node& node, const Nod
                 no);
 }
 
+/// The value of numbers that are written out, such as an index; none of others, and of those so near 0
+/// that rounding may decide their sign.
+std::optional<double> Binder::written_number(int at) const {
+  constexpr double kClear = 1e-6;
+  if (!shape(at).is_scalar() || !scope_.known) return std::nullopt;
+  const Program program = assembly_.extract(at);
+  if (!program.inputs.empty() || !program.functions.empty()) return std::nullopt;
+  const bool is_whole = std::ranges::all_of(program.code, [](const Instruction& one) {
+    switch (one.op) {
+      case Op::constant:
+        return one.text.find_first_not_of("0123456789") == std::string::npos;
+      case Op::add:
+      case Op::subtract:
+      case Op::negate:
+      case Op::multiply:
+        return true;
+      default:
+        return false;
+    }
+  });
+  const double value = scope_.known->number(program);
+  return is_whole || std::abs(value) >= kClear ? std::optional(value) : std::nullopt;
+}
+
 Bound Binder::branch(const Expression& expression, const Node& node, int difference, bool strict,
                      Bound yes, Bound no) {
   Shape common;
   for (const Bound& value : {Bound{difference}, yes, no}) {
     const int at = sized(expression, node, value);
     if (!shape(at).is_scalar()) common = shape(at);
+  }
+  if (const auto sign = written_number(difference)) {
+    const bool holds = strict ? *sign > 0 : *sign >= 0;
+    return {same_shape(expression, *node.children[holds ? 1 : 2], holds ? yes : no, common)};
   }
   return {emit(expression, node, Op::where,
                {same_shape(expression, *node.children[0], {difference}, common),

@@ -201,6 +201,7 @@ class Binder {
                Bound no);
   Bound compared(const Expression& expression, const Node& node, const Node& chain, std::size_t k,
                  Bound yes, Bound no);
+  std::optional<double> written_number(int at) const;
   Bound branch(const Expression& expression, const Node& node, int difference, bool strict,
                Bound yes, Bound no);
   // bind_gramian.cpp

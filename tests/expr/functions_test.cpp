@@ -138,6 +138,25 @@ TEST(Where, TheRelationDecidesAtEquality) {
   EXPECT_EQ(world("where(1 <= 1, 5, 6)")(0, 0), 5);
 }
 
+/// What is written out decides when the text is read; what rounding could decide does not.
+TEST(Where, OnNumbersIsDecidedAtOnce) {
+  World world;
+  world.set("x", 2.0);
+  const auto branches = [&](const std::string& text) {
+    const Program program = compile(parse({text, "test"}), world.scope);
+    return std::ranges::count_if(program.code,
+                                 [](const Instruction& one) { return one.op == Op::where; });
+  };
+  EXPECT_EQ(branches("where(x > 1, 5, 6)"), 1);
+  EXPECT_EQ(branches("sum(k in 1..3, where(k < 2 and x > 1, 1, 0))"), 1);
+  EXPECT_EQ(world("sum(k in 1..3, where(k < 2 and x > 1, 1, 0))")(0, 0), 1);
+  EXPECT_EQ(branches("where(1/2 < 0.6, x, 0)"), 0);
+  EXPECT_EQ(branches("where(0.1 + 0.2 > 0.3, x, 0)"), 1);
+  EXPECT_EQ(branches("where(49*(1/49) >= 1, x, 0)"), 1);
+  EXPECT_EQ(world("where(1 > 2, x, [1; 2])")(1, 0), 2);
+  EXPECT_EQ(world("where(1 < 2, x, [1; 2])")(1, 0), 2);
+}
+
 TEST_P(Functions, OfMatrices) {
   expect("He(A)", A + A.transpose());
   expect("He(x)", 0.6);
