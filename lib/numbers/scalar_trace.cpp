@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <numbers>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "base/number.h"
 #include "expr/number_type.h"
+#include "numbers/affine_flow_map.h"
 #include "numbers/block_slope.h"
 #include "numbers/exponential_formula.h"
 #include "numbers/scalar_rules.h"
@@ -42,6 +44,8 @@ class Tracer : public NodeRules {
  private:
   TracedMatrix instruction(const Instruction& one, const TracedOperands& operands) {
     if (one.op == Op::norm && !is_line(operands[0]->shape)) return largest(one, operands);
+    if (one.op == Op::flow_map)
+      if (auto exact = exact_flow(one, operands)) return std::move(*exact);
     TracedMatrix out{one.shape, {}};
     if (!value(one, operands, out)) return block(one, operands);
     for (std::size_t d = 0; d < directions_of(operands); ++d)
@@ -80,6 +84,21 @@ class Tracer : public NodeRules {
       out.slopes.push_back(block_of(moved));
     }
     return out;
+  }
+
+  /// Of a flow map along an affine rate.
+  std::optional<TracedMatrix> exact_flow(const Instruction& one, const TracedOperands& operands) {
+    const auto exact = affine_flow_map(one);
+    if (!exact) return std::nullopt;
+    const ScalarGraph::Mark before = graph_.mark();
+    try {
+      return program(*exact, [&](const expr::Input& operand) {
+        return *operands[static_cast<std::size_t>(std::stoi(operand.name))];
+      });
+    } catch (const NoFormula&) {
+      graph_.return_to(before);
+      return std::nullopt;
+    }
   }
 
   /// The norm of a matrix: its first singular value.

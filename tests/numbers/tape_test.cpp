@@ -129,6 +129,26 @@ TEST(Tape, AFlowMapIsThatOfReal) {
     }
 }
 
+/// Of an integration, of its derivative, and with what stands still along the flow.
+TEST(Tape, AFlowMapAlongAnAffineRateIsAnExponential) {
+  const TapeOf texts({"flow_map(A*x, x, 0.7)", "flow_map([x(2); -9.8 - 0.1*x(2); 0], x, x(3)/4)",
+                      "jacobian(flow_map([x(2); -9.8 - 0.1*x(2); 1], x, -t), x)",
+                      "flow_map(x(3)*t + x(1), t, 0.3)", "flow_map(ones(3, 1), x, t)"});
+  StackedFunctions functions = texts.functions();
+  for (const Vector& x : {point(1, -0.2, 3), point(-2, 4, 0.5)})
+    for (const double t : {0.4, -1.0}) {
+      ASSERT_TRUE(functions.run(x, t));
+      for (std::size_t k = 0; k < functions.count(); ++k) {
+        const Matrix truth = functions.at(k, x, t);
+        EXPECT_LT((functions.value(k) - truth).cwiseAbs().maxCoeff(), 1e-12 * (1 + truth.norm()))
+            << k;
+      }
+    }
+  const auto is_block = [](const std::string& text) { return TapeOf({text}).operations() < 2; };
+  EXPECT_FALSE(is_block("flow_map([x(2); -9.8 - 0.1*x(2); 0], x, x(3)/4)"));
+  EXPECT_TRUE(is_block("flow_map([x(2); -sin(x(1)); 0.1*x(1)], x, 0.8)"));
+}
+
 TEST(Tape, AFlowMapThatEscapesNamesItsPlace) {
   const TapeOf texts({"flow_map([x(1)^2; 0; 0], x, 3)"});
   StackedFunctions functions = texts.functions();
