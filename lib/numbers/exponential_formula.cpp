@@ -25,7 +25,7 @@ constexpr Index kLargest = 10;
 /// Eigenvalues of A, |A| = 1, that are nearer count as equal: their mean is as good to the square of it.
 constexpr double kSameEigenvalue = 1e-9;
 /// The largest element of |C_1| + |C_2| + ..., |A| = 1, where e^(A s) is the unit matrix at s = 0.
-constexpr double kLargestSum = 100;
+constexpr double kLargestSum = 1000;
 /// The difference from e^(A s) where it is computed otherwise, relative to its largest element.
 constexpr double kDifference = 1e-12;
 /// Elements of C_i below it are 0.

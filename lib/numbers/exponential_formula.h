@@ -23,7 +23,7 @@ struct Multiple {
 /// Nodes column by column as factor * s, with no other factors than constants.
 std::optional<Multiple> as_multiple(const std::vector<int>& nodes, int rows, ScalarGraph& graph);
 
-/// The nodes of e^(A s), column by column. None where the sum would lose more than two digits
+/// The nodes of e^(A s), column by column. None where the sum would lose more than three digits
 /// (eigenvalues that nearly coincide), and of large A.
 std::optional<std::vector<int>> exponential_nodes(const Multiple& argument, ScalarGraph& graph);
 
