@@ -73,53 +73,76 @@ double price_of(const Posed& posed, const Attempt& attempt, const sdp::Solution&
 /// programs have in the dense solver too.
 constexpr double kCheap = 3e-7, kFair = 1e-6;
 
-/// What the margins themselves cost, by the objective's size: to first order shift tr(Y).
-double price_of_margins(const Posed& posed, const Attempt& attempt) {
-  const lmi::Formulation& formulation = attempt.formulation;
+/// The shift that costs a part of kCheap: in units in which the diagonals of the blocks are near 1, a shift
+/// costs shift tr(Y), to first order.
+double cheap_shift(const Posed& posed, const Attempt& attempt, const lmi::Formulation& there) {
+  constexpr double kPart = 0.3;
+  constexpr double kLeast = 1e-13;  // less is no margin beside rounding
+  constexpr double kMost = 1e-8;    // more than the solver leaves undone
+  const lmi::Formulation& here = attempt.formulation;
   const sdp::Solution& solution = attempt.solution;
   double trace = 0;
   for (std::size_t k = 0; k < posed.lmi.blocks.size(); ++k) {
-    const auto n = static_cast<std::size_t>(formulation.sizes[k]);
-    for (std::size_t i = 0; i < n; ++i) trace += solution.Y.values[k][i * (n + 1)];
+    const std::vector<int>& kept = here.free_variables.kept[k];
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      const double unit = here.balance.row(k, kept[i]) / there.balance.row(k, kept[i]);
+      trace += solution.Y.values[k][i * (kept.size() + 1)] * unit * unit;
+    }
   }
-  const double value = posed.lmi.objective_at(lmi::read_back(posed.lmi, formulation, solution));
-  return formulation.shift * trace / formulation.cost_unit / std::abs(value);
+  const double value = posed.lmi.objective_at(lmi::read_back(posed.lmi, here, solution));
+  return std::clamp(kPart * kCheap * std::abs(value) * here.cost_unit / trace, kLeast, kMost);
 }
 
-/// The solution of the formulation as it is now takes the place of the result's where it is cheaper.
-void take_cheaper(const Posed& posed, const lmi::Formulation& formulation, sdp::Solution solution,
-                  Attempt& result) {
+bool has_point(const Posed& posed, const Attempt& attempt) {
+  return attempt.solution.status == sdp::Status::optimal &&
+         is_positive(posed, lmi::read_back(posed.lmi, attempt.formulation, attempt.solution));
+}
+
+/// The solution of the formulation takes the place of the result's where it is a point and that is none,
+/// or where it is cheaper.
+void take_better(const Posed& posed, const lmi::Formulation& formulation, sdp::Solution solution,
+                 Attempt& result) {
   if (solution.status != sdp::Status::optimal) return;
   Attempt again = result;
   again.formulation = formulation;
-  if (!(price_of(posed, again, solution) < price_of(posed, result, result.solution))) return;
-  solution.iterations += result.solution.iterations;
-  result.formulation = formulation;
-  result.solution = std::move(solution);
+  again.solution = std::move(solution);
+  const bool was_point = has_point(posed, result);
+  if (was_point != has_point(posed, again)
+          ? was_point
+          : !(price_of(posed, again, again.solution) < price_of(posed, result, result.solution)))
+    return;
+  again.solution.iterations += result.solution.iterations;
+  result = std::move(again);
 }
 
-/// Margins that are relative to units of the data may cost much where the blocks are small in them:
-/// then they are asked relative to the blocks at the solution, unless a large one is wished for, whatever
-/// it costs. And a gap that is small beside the
-/// solver's 1 may be large beside the objective: then the program is solved to a finer one.
+/// Units of the data may be far from those of the solution: then the program is solved in these too, with
+/// a margin that costs little, unless a larger one is wished for.
+void solve_in_units_of_solution(const Posed& posed, const Solve& solve, Attempt& result) {
+  const Question& asked = result.question;
+  auto again =
+      lmi::in_units_of_solution(posed.lmi, asked.bounds, result.formulation, result.solution.x);
+  if (!again) return;
+  const bool is_wished = asked.shift > model::SynthesisOptions{}.margin;
+  if (!is_wished) again->shift = cheap_shift(posed, result, *again);
+  lmi::assemble(posed.lmi, asked.bounds, {}, *again);
+  take_better(posed, *again, solve(again->problem, asked.effort), result);
+}
+
+/// Until the point costs little. A gap that is small beside the solver's 1 may be large beside the
+/// objective: then the program is solved to a finer one.
 void refine_price(const Posed& posed, const Solve& solve, Attempt& result) {
   constexpr double kDear = 1e-3;  // dearer is no matter of the solver's digits
   constexpr double kFiner = 1e-3;
-  const Question& asked = result.question;
-  const bool is_wished = asked.shift > model::SynthesisOptions{}.margin;
-  if (!is_wished && price_of_margins(posed, result) > kCheap)
-    if (const auto round =
-            lmi::next_round(posed.lmi, asked.bounds, result.formulation, result.solution.x)) {
-      lmi::Formulation smaller = result.formulation;
-      lmi::assemble(posed.lmi, asked.bounds, *round, smaller);
-      sdp::Solution again = solve(smaller.problem, asked.effort);
-      take_cheaper(posed, smaller, std::move(again), result);
-    }
+  const auto is_good = [&] {
+    return has_point(posed, result) && price_of(posed, result, result.solution) <= kCheap;
+  };
+  if (is_good()) return;
+  solve_in_units_of_solution(posed, solve, result);
   const double price = price_of(posed, result, result.solution);
-  if (!(kCheap < price && price < kDear)) return;
-  Effort finer = asked.effort;
+  if (is_good() || !(kCheap < price && price < kDear)) return;
+  Effort finer = result.question.effort;
   finer.tolerance *= kFiner;
-  take_cheaper(posed, result.formulation, solve(result.formulation.problem, finer), result);
+  take_better(posed, result.formulation, solve(result.formulation.problem, finer), result);
 }
 
 void solve_objective(const Posed& posed, const Solve& solve, Attempt& result) {

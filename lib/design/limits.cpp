@@ -79,6 +79,21 @@ model::Instance without_gain_bound(const model::Instance& instance) {
   });
 }
 
+/// With these inequalities alone. Without any the objective is unbounded; where 0 is a solution of
+/// those that are left, nothing constant is left.
+Changed with_others(const model::Instance& instance, const std::set<std::string>& others,
+                    const sdp::Options& solver) {
+  Changed result;
+  result.unbounded = others.empty();
+  if (others.empty()) return result;
+  try {
+    return changed(with_inequalities(instance, others), solver);
+  } catch (const InputError&) {
+    result.homogeneous = true;
+    return result;
+  }
+}
+
 /// Kept where one of them is below what is shown of the minimum within the bounds.
 void find_bounds(const model::Instance& instance, const model::Gains& gains,
                  const sdp::Options& solver, Limits& limits) {
@@ -163,7 +178,7 @@ Limits find_limits(const model::Instance& instance, const model::Gains& gains,
       std::set<std::string> others;
       for (const Design::Inequality& inequality : design.inequalities)
         if (inequality.name != limit.name) others.insert(inequality.name);
-      limit.without = changed(with_inequalities(instance, others), solver);
+      limit.without = with_others(instance, others, solver);
       // It is no worse than with all of them, however roughly the solver finds it.
       if (limit.without->minimum)
         limit.without->minimum = std::min(*limit.without->minimum, *gains.objective);

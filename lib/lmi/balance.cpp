@@ -147,7 +147,7 @@ Units fit(const BalanceElements& elements) {
 
 /// Without the elements that are small in these units; none when there are no such elements.
 std::optional<BalanceElements> without_small(const BalanceElements& elements, const Units& units) {
-  const double small = std::log2(1e-8);
+  const double small = std::log2(1e-3);
   const double none = -std::numeric_limits<double>::infinity();
   std::vector<double> of_row(static_cast<std::size_t>(units.rows.size()), none);
   std::vector<double> of_unknown(units.unknowns.size(), none);

@@ -110,16 +110,13 @@ Formulation pose_interior(const Lmi& lmi, const GainBounds& bounds,
 namespace {
 
 void assemble_objective(const Lmi& lmi, const std::vector<const Block*>& blocks,
-                        const std::vector<std::vector<int>>& rows, const Round& round,
-                        Formulation& result) {
+                        const std::vector<std::vector<int>>& rows, Formulation& result) {
   Assembler assembler(result.variables);
   for (std::size_t k = 0; k < blocks.size(); ++k) {
     result.blocks.push_back(balanced(*blocks[k], result.balance, k, rows[k]));
     const int added = assembler.add(result.blocks[k], 0, 1);
     for (int r = 0; k < lmi.blocks.size() && r < result.blocks[k].size; ++r)
-      assembler.add_entry(
-          0, added, r, r,
-          -result.shift * (round.diagonals.empty() ? 1 : std::min(1.0, round.diagonals[k][r])));
+      assembler.add_entry(0, added, r, r, -result.shift);
   }
   for (int i = 1; lmi.has_objective && i <= lmi.unknowns; ++i)
     assembler.set_cost(i, lmi.objective[static_cast<std::size_t>(i) - 1] * result.balance.unit(i) *
@@ -162,7 +159,7 @@ void assemble(const Lmi& lmi, const GainBounds& bounds, const Round& round,
   const auto rows = rows_of(formulation.free_variables, bounds);
   formulation.blocks.clear();
   if (formulation.goal == Goal::objective)
-    assemble_objective(lmi, blocks, rows, round, formulation);
+    assemble_objective(lmi, blocks, rows, formulation);
   else
     assemble_interior(blocks, rows, round, exactly, formulation);
 }
@@ -267,6 +264,40 @@ std::optional<Round> next_round(const Lmi& lmi, const GainBounds& bounds,
     round.diagonals.push_back(value.diagonal());
   }
   return round;
+}
+
+std::optional<Formulation> in_units_of_solution(const Lmi& lmi, const GainBounds& bounds,
+                                                const Formulation& formulation,
+                                                const std::vector<double>& x) {
+  const auto blocks = all_blocks(lmi, bounds);
+  const auto rows = rows_of(formulation.free_variables, bounds);
+  Formulation result = formulation;
+  result.problem = {};
+  result.blocks.clear();
+  Balance& balance = result.balance;
+  std::vector<double> in_given_units = x;
+  for (std::size_t i = 0; i < balance.unknowns.size(); ++i)
+    in_given_units[i] *= balance.unit(static_cast<int>(i) + 1);
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    const numbers::Vector diagonal = blocks[k]->value(in_given_units).diagonal();
+    for (const int row : rows[k]) {
+      if (!(diagonal(row) > 0) || !std::isfinite(diagonal(row))) return std::nullopt;
+      balance.rows[k][static_cast<std::size_t>(row)] = -std::ilogb(diagonal(row)) / 2;
+    }
+  }
+  std::vector<double> largest(balance.unknowns.size(), 0.0);
+  std::fill(balance.unknowns.begin(), balance.unknowns.end(), 0);
+  for (std::size_t k = 0; k < blocks.size(); ++k)
+    for_each_balanced(*blocks[k], balance, k, rows[k], [&](int i, int, int, double value) {
+      if (i == 0) return;
+      double& own = largest[static_cast<std::size_t>(i) - 1];
+      own = std::max(own, std::abs(value));
+    });
+  for (std::size_t i = 0; i < largest.size(); ++i)
+    balance.unknowns[i] =
+        largest[i] > 0 ? -std::ilogb(largest[i]) : formulation.balance.unknowns[i];
+  result.cost_unit = cost_unit_of(lmi, balance);
+  return result;
 }
 
 double objective_lower_bound(const Lmi& lmi, const GainBounds& bounds,

@@ -4,8 +4,8 @@
 // so what comes out does not depend on the units of the problem.
 //
 //   objective   minimise c'x,  B_k(x) >= shift I, strict or not; gain bounds >= 0
-//               begun so, and repeated with B_k(x) >= shift min(I, diag(B_k(x))) of the x found
-//               where the shift costs much: units of the data may be large beside the solution
+//               in units of the data, and once more in units of the solution (in_units_of_solution)
+//               where the first are far from these
 //   interior    the largest unit-free margin, min over k of the smallest eigenvalue of
 //               D^-1/2 B_k(x) D^-1/2 with D = diag(B_k(x)), of the homogenised blocks
 //                 x_0 B_k0 + sum_i x_i B_ki > 0,   x_0 > 0  (where a block has a constant part):
@@ -33,7 +33,7 @@ namespace gainsmith::lmi {
 
 enum class Goal { objective, interior };
 
-/// Where a round begins: of `objective` the D_k alone.
+/// Where a round of `interior` begins.
 struct Round {
   double margin = 0;                       ///< t
   std::vector<numbers::Vector> diagonals;  ///< D_k of all blocks, bounds included; empty: I
@@ -72,7 +72,7 @@ Formulation pose_interior(const Lmi& lmi, const GainBounds& bounds,
                           const std::vector<std::vector<int>>& rows = {});
 
 /// Adds the program. With `exactly` the coefficients of the Lmi's blocks are those, in 31 digits;
-/// there must be no bounds then.
+/// there must be no bounds then. `round`: of an interior formulation.
 void assemble(const Lmi& lmi, const GainBounds& bounds, const Round& round,
               Formulation& formulation, const Exactly& exactly = {});
 
@@ -104,10 +104,17 @@ double interior_margin(const sdp::Solution& solution);
 std::vector<double> read_back(const Lmi& lmi, const Formulation& formulation,
                               const sdp::Solution& solution);
 
-/// The round after the solution x of a program; none when a block has a diagonal element
+/// The round after the solution x of an interior program; none when a block has a diagonal element
 /// <= 0 there.
 std::optional<Round> next_round(const Lmi& lmi, const GainBounds& bounds,
                                 const Formulation& formulation, const std::vector<double>& x);
+
+/// The same objective in units of a solution x: rows of blocks in which their diagonals are near 1,
+/// and unknowns whose largest coefficient is near 1. Without the program; none where a diagonal
+/// element is not positive.
+std::optional<Formulation> in_units_of_solution(const Lmi& lmi, const GainBounds& bounds,
+                                                const Formulation& formulation,
+                                                const std::vector<double>& x);
 
 /// A lower bound on the objective without margins by weak duality with the dual solution Y,
 ///   c'x >= -sum_k <B_k0, Y_k> + sum_i r_i x_i,   r_i = c_i - sum_k <B_ki, Y_k>,
