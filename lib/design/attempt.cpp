@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "base/stop.h"
@@ -116,16 +117,33 @@ void take_better(const Posed& posed, const lmi::Formulation& formulation, sdp::S
 }
 
 /// Units of the data may be far from those of the solution: then the program is solved in these too, with
-/// a margin that costs little, unless a larger one is wished for.
-void solve_in_units_of_solution(const Posed& posed, const Solve& solve, Attempt& result) {
+/// a margin and a weight that cost little, unless a larger margin is wished for.
+void solve_in_units_of(const Posed& posed, const Solve& solve, const Attempt& near,
+                       Attempt& result) {
+  constexpr double kPart = 0.01;
   const Question& asked = result.question;
   auto again =
-      lmi::in_units_of_solution(posed.lmi, asked.bounds, result.formulation, result.solution.x);
+      lmi::in_units_of_solution(posed.lmi, asked.bounds, near.formulation, near.solution.x);
   if (!again) return;
   const bool is_wished = asked.shift > model::SynthesisOptions{}.margin;
-  if (!is_wished) again->shift = cheap_shift(posed, result, *again);
+  if (!is_wished) again->shift = cheap_shift(posed, near, *again);
+  // The diagonals are near 1.
+  const double value =
+      posed.lmi.objective_at(lmi::read_back(posed.lmi, near.formulation, near.solution));
+  again->weight = kPart * kCheap * std::abs(value) * again->cost_unit /
+                  std::accumulate(again->sizes.begin(), again->sizes.end(), 0);
   lmi::assemble(posed.lmi, asked.bounds, {}, *again);
   take_better(posed, *again, solve(again->problem, asked.effort), result);
+}
+
+/// The minimum with a weight in units of the data; its price is no matter.
+Attempt weighted(const Posed& posed, const Solve& solve, const Attempt& plain) {
+  constexpr double kWeight = 1e-8;
+  Attempt result = plain;
+  result.formulation.weight = kWeight;
+  lmi::assemble(posed.lmi, plain.question.bounds, {}, result.formulation);
+  result.solution = solve(result.formulation.problem, plain.question.effort);
+  return result;
 }
 
 /// Until the point costs little. A gap that is small beside the solver's 1 may be large beside the
@@ -137,7 +155,9 @@ void refine_price(const Posed& posed, const Solve& solve, Attempt& result) {
     return has_point(posed, result) && price_of(posed, result, result.solution) <= kCheap;
   };
   if (is_good()) return;
-  solve_in_units_of_solution(posed, solve, result);
+  const Attempt near = weighted(posed, solve, result);
+  solve_in_units_of(posed, solve, near.is_near_optimal() ? near : Attempt(result), result);
+  if (!result.is_near_optimal()) return;
   const double price = price_of(posed, result, result.solution);
   if (is_good() || !(kCheap < price && price < kDear)) return;
   Effort finer = result.question.effort;
@@ -160,9 +180,12 @@ void solve_objective(const Posed& posed, const Solve& solve, Attempt& result) {
   lmi::assemble(posed.lmi, asked.bounds, {}, result.formulation);
   result.solution = solve(result.formulation.problem, effort);
   if (near) result.solution.iterations += near->iterations;
+  const bool is_refuted = result.solution.status != sdp::Status::optimal &&
+                          result.solution.status != sdp::Status::undecided;
+  if (is_refuted || result.solution.x.empty()) return;
+  refine_price(posed, solve, result);
   // Far from the minimum a point serves no one: one inside comes from the other goal.
   if (!result.is_near_optimal()) return;
-  refine_price(posed, solve, result);
   take_point(posed, lmi::read_back(posed.lmi, result.formulation, result.solution), result);
 }
 

@@ -112,15 +112,20 @@ namespace {
 void assemble_objective(const Lmi& lmi, const std::vector<const Block*>& blocks,
                         const std::vector<std::vector<int>>& rows, Formulation& result) {
   Assembler assembler(result.variables);
+  std::vector<double> traces(static_cast<std::size_t>(result.variables) + 1, 0.0);
   for (std::size_t k = 0; k < blocks.size(); ++k) {
     result.blocks.push_back(balanced(*blocks[k], result.balance, k, rows[k]));
+    for (const BalancedBlock::Element& e : result.blocks[k].elements)
+      if (k < lmi.blocks.size() && e.row == e.column)
+        traces[static_cast<std::size_t>(e.unknown)] += e.value;
     const int added = assembler.add(result.blocks[k], 0, 1);
     for (int r = 0; k < lmi.blocks.size() && r < result.blocks[k].size; ++r)
       assembler.add_entry(0, added, r, r, -result.shift);
   }
   for (int i = 1; lmi.has_objective && i <= lmi.unknowns; ++i)
     assembler.set_cost(i, lmi.objective[static_cast<std::size_t>(i) - 1] * result.balance.unit(i) *
-                              result.cost_unit);
+                                  result.cost_unit +
+                              result.weight * traces[static_cast<std::size_t>(i)]);
   result.problem = assembler.take();
 }
 
@@ -302,9 +307,11 @@ std::optional<Formulation> in_units_of_solution(const Lmi& lmi, const GainBounds
 
 double objective_lower_bound(const Lmi& lmi, const GainBounds& bounds,
                              const Formulation& formulation, const sdp::Solution& solution) {
-  constexpr double kLike = 2;
+  constexpr double kLike = 2, kLikeTrace = 30;
   constexpr double kRounding = 3e-16;  // of the coefficients, which stand for decimals
-  // c'x >= -sum_k <B_k0, Y_k> + r'x  with  r_i = c_i - sum_k <B_ki, Y_k>.
+  // c'x >= r_0 + r'x - w sum_k tr(B_k(x))  with the weight w, c_0 = 0 and
+  // r_i = c_i + w sum_k tr(B_ki) - sum_k <B_ki, Y_k>, i = 0 the constant part.
+  double trace = 0;
   std::vector<DoubleDouble> r(solution.x.size() + 1, DoubleDouble(0));
   std::vector<double> sizes(r.size(), 0.0);
   const auto add = [&](int i, double factor, double times = 1) {
@@ -323,9 +330,12 @@ double objective_lower_bound(const Lmi& lmi, const GainBounds& bounds,
         *blocks[k], formulation.balance, k, rows[k], [&](int i, int row, int column, double value) {
           add(i, -(row == column ? 1 : 2) * value,
               Y[static_cast<std::size_t>(row) * n + static_cast<std::size_t>(column)]);
+          if (row != column || k >= lmi.blocks.size() || formulation.weight == 0) return;
+          trace += value * (i == 0 ? 1 : solution.x[static_cast<std::size_t>(i) - 1]);
+          add(i, formulation.weight, value);
         });
   }
-  double bound = as<double>(r[0]) - kRounding * sizes[0];
+  double bound = as<double>(r[0]) - kRounding * sizes[0] - kLikeTrace * formulation.weight * trace;
   for (std::size_t i = 1; i < r.size(); ++i)
     bound -=
         (std::abs(as<double>(r[i])) + kRounding * sizes[i]) * kLike * std::abs(solution.x[i - 1]);

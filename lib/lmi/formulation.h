@@ -3,9 +3,10 @@
 // Everything is solved in balanced units (balance.h): B_k(x) below is S_k B_k(x) S_k in x_i / d_i,
 // so what comes out does not depend on the units of the problem.
 //
-//   objective   minimise c'x,  B_k(x) >= shift I, strict or not; gain bounds >= 0
-//               in units of the data, and once more in units of the solution (in_units_of_solution)
-//               where the first are far from these
+//   objective   minimise c'x + weight sum_k tr(B_k(x)),  B_k(x) >= shift I, strict or not; gain
+//               bounds >= 0; in units of the data without weight, and again in units of the solution
+//               where these are far from the first (in_units_of_solution). The weight bounds what
+//               the objective does not see.
 //   interior    the largest unit-free margin, min over k of the smallest eigenvalue of
 //               D^-1/2 B_k(x) D^-1/2 with D = diag(B_k(x)), of the homogenised blocks
 //                 x_0 B_k0 + sum_i x_i B_ki > 0,   x_0 > 0  (where a block has a constant part):
@@ -44,6 +45,7 @@ struct Formulation {
   Goal goal = Goal::objective;
   Balance balance;               ///< of the blocks of the Lmi, then of the gain bounds
   double shift = 0;              ///< objective
+  double weight = 0;             ///< objective
   double cost_unit = 1;          ///< objective: costs of the problem by those of the Lmi, 2^k
   bool homogenised = false;      ///< interior: x_0 stands before s, which is the last variable
   int rows = 0;                  ///< interior: N
@@ -117,9 +119,10 @@ std::optional<Formulation> in_units_of_solution(const Lmi& lmi, const GainBounds
                                                 const std::vector<double>& x);
 
 /// A lower bound on the objective without margins by weak duality with the dual solution Y,
-///   c'x >= -sum_k <B_k0, Y_k> + sum_i r_i x_i,   r_i = c_i - sum_k <B_ki, Y_k>,
+///   c'x >= r_0 + sum_i r_i x_i - w sum_k tr(B_k(x)),
+///   r_i = c_i + w sum_k tr(B_ki) - sum_k <B_ki, Y_k>,   c_0 = 0,  w the weight,
 /// for every x that satisfies the inequalities and is like the solution: no |x_i| is more than
-/// twice as large.
+/// twice as large, nor the trace of the blocks more than 30 times.
 double objective_lower_bound(const Lmi& lmi, const GainBounds& bounds,
                              const Formulation& formulation, const sdp::Solution& solution);
 
