@@ -145,9 +145,10 @@ Units fit(const BalanceElements& elements) {
   return units;
 }
 
-/// Without the elements that are small in these units; none when there are no such elements.
-std::optional<BalanceElements> without_small(const BalanceElements& elements, const Units& units) {
-  const double small = std::log2(1e-3);
+/// Without the elements below `least` in these units; none when there are no such elements.
+std::optional<BalanceElements> without_small(const BalanceElements& elements, const Units& units,
+                                             double least) {
+  const double small = std::log2(least);
   const double none = -std::numeric_limits<double>::infinity();
   std::vector<double> of_row(static_cast<std::size_t>(units.rows.size()), none);
   std::vector<double> of_unknown(units.unknowns.size(), none);
@@ -197,7 +198,10 @@ Balance balance(const std::vector<const Block*>& blocks, int unknowns,
                 const std::vector<double>& objective) {
   const BalanceElements elements(blocks, unknowns, objective);
   Units units = fit(elements);
-  if (const auto kept = without_small(elements, units)) units = fit(*kept);
+  constexpr double kNoise = 1e-8, kSmall = 1e-3;
+  std::optional<BalanceElements> kept = without_small(elements, units, kNoise);
+  if (kept) units = fit(*kept);
+  if (const auto large = without_small(kept ? *kept : elements, units, kSmall)) units = fit(*large);
   Balance result;
   for (std::size_t k = 0; k < blocks.size(); ++k) {
     std::vector<int>& of_block = result.rows.emplace_back();

@@ -9,9 +9,10 @@
 //   minimise  sum over nonzero elements  w (log2 |B_ki[r,c]| + log2 s_kr + log2 s_kc + log2 d_i)^2
 //
 // The objective c'x is a row of its own. Blocks of one inequality and size share their rows' units;
-// w is 1/(number of those blocks). Elements below 1e-3 in the units of a first pass do not count in
-// the second, unless nothing else stands in their row or for their unknown: a plant that is sampled
-// fast has couplings of 1e-10 that tell nothing of its units.
+// w is 1/(number of those blocks). Elements below 1e-8 in the units of a first pass do not count in
+// the second, nor those below 1e-3 of that one in the third, unless nothing else stands in their row
+// or for their unknown: a plant that is sampled fast has couplings of 1e-10 that tell nothing of
+// its units.
 //
 // Equivariant: other units that are powers of two give the same balanced numbers, bit for bit. So
 // directions that nothing determines are pinned by the pattern alone, at rows whose whole changes

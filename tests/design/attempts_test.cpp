@@ -55,8 +55,9 @@ std::vector<std::string> names(const model::NamedMatrices& matrices) {
 
 TEST(Attempts, AMinimumThatHoldsIsTheAnswer) {
   const Case of(kFloor);
+  const double least = 1 + 0x1p-23;
   const Scripted run(of, {[&](const sdp::Problem& problem) {
-                       sdp::Solution solution = minimum(of, {1.5})(problem);
+                       sdp::Solution solution = minimum(of, {least})(problem);
                        solution.dual_objective = 1 + kShift;  // F_0 . Y with Y = 1
                        solution.iterations = 7;
                        return solution;
@@ -67,14 +68,14 @@ TEST(Attempts, AMinimumThatHoldsIsTheAnswer) {
   EXPECT_EQ(run.gains.solver.cause, "converged");
   EXPECT_EQ(run.gains.solver.iterations, 7);
   EXPECT_EQ(run.message(), "");
-  EXPECT_EQ(run.unknown("x"), 1.5);
-  EXPECT_EQ(run.gains.objective, 1.5);
+  EXPECT_EQ(run.unknown("x"), least);
+  EXPECT_EQ(run.gains.objective, least);
   // Of the problem, x > 1, with the rounding of its sums.
   EXPECT_NEAR(run.gains.objective_lower_bound.value(), 1, 1e-12);
   EXPECT_LE(run.gains.objective_lower_bound.value(), 1);
   ASSERT_EQ(run.gains.margins.size(), 1U);
   EXPECT_EQ(run.gains.margins[0].reached, 1);
-  EXPECT_EQ(run.gains.margins[0].smallest_eigenvalue, 0.5);
+  EXPECT_EQ(run.gains.margins[0].smallest_eigenvalue, least - 1);
   EXPECT_FALSE(run.gains.certificate);
 }
 
