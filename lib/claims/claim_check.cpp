@@ -219,6 +219,14 @@ bool ClaimCheck<Scalar>::may_change(const Track& track, std::size_t before, std:
   return !(jump && track.accuracy > 0 && same);
 }
 
+namespace {
+
+/// The part of a value at the start below which what is undecided is noise, by the accuracy of the
+/// integration; 0: flows are not integrated.
+double noise_floor(double accuracy) { return accuracy > 0 ? std::max(accuracy, kNoiseOfRuns) : 0; }
+
+}  // namespace
+
 template <class Scalar>
 Finding ClaimCheck<Scalar>::nonincreasing(const Track& track) {
   const std::vector<Bounded> v = values(track);
@@ -249,9 +257,10 @@ Finding ClaimCheck<Scalar>::nonincreasing(const Track& track) {
         static_cast<double>(v[k].value - high.value) <= kGrown * (v[k].bound + high.bound))
       judgement = Judgement::held;
     const double top = bounded::size_of(v[k].value) + v[k].bound;
-    const double least = judgement == Judgement::undecided ? std::max(floor, track.accuracy)
-                         : integrated                      ? floor
-                                                           : 0;
+    const double least = judgement == Judgement::undecided
+                             ? std::max(floor, noise_floor(track.accuracy))
+                         : integrated ? floor
+                                      : 0;
     if (judgement != Judgement::held && scale != 0 && top <= least * std::abs(scale)) {
       noise = std::max(noise, top / std::abs(scale));
     } else if (judgement != Judgement::held) {
@@ -324,7 +333,8 @@ Finding ClaimCheck<Scalar>::bounded(const Track& track) {
     Finding found = finding_at(track, k, above ? b : v[k], above ? v[k] : b, scale, judgement);
     if (above) std::swap(found.value, found.bound);
     const double part = largest > 0 ? sizes[k] / largest : 1;
-    const bool drowned = found.undecided() && is_number(v[k]) && part <= track.accuracy;
+    const bool drowned =
+        found.undecided() && is_number(v[k]) && part <= noise_floor(track.accuracy);
     const bool nothing = judgement != Judgement::held && track.accuracy > 0 &&
                          (part <= kFloorOfAccuracy * track.accuracy || drowned);
     if (nothing) noise = std::max(noise, part);

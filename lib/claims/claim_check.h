@@ -35,8 +35,9 @@
 // and Finding::floor says down to where values were:
 //
 //   31 digits                            what is undecided below kFloorOfDigits of v(0)
-//   flows integrated to an accuracy a    what is undecided below a of v(0), and all that is below
-//                                        kFloorOfAccuracy a of v(0), where bounds are estimates
+//   flows integrated to an accuracy a    what is undecided below the larger of a and kNoiseOfRuns of
+//                                        v(0), and all that is below kFloorOfAccuracy a of v(0), where
+//                                        bounds are estimates
 //
 // In a comparison with a bound of 0 the largest terms of v take the place of v(0), since their sum
 // falls to nothing. Where terms merely cancel, and with any other bound, everything is compared.

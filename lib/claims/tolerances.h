@@ -10,6 +10,9 @@ constexpr double kFloorOfDigits = 1e-24;  ///< of the value at the start | in 31
 constexpr double kFloorOfAccuracy = 1e-4;  ///< of the accuracy | nothing below so much of the value
         ///< at the start is compared where flows are integrated |
         ///< Noise.ACertainRiseCountsDownToAPartOfTheAccuracy
+constexpr double kNoiseOfRuns = 1e-8;  ///< of the value at the start | what is undecided below it
+        ///< counts for nothing where flows are integrated, however accurately |
+        ///< Noise.WhatIsUndecidedIsLeftOutAlikeAtAllAccuracies
 constexpr double kGrown = 0.1;  ///< of the error | at a sample that may lie at the one before, a
         ///< value counts as grown only beyond it |
         ///< Noise.WithinAnInstantAValueHasGrownBeyondAPartOfItsError

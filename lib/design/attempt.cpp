@@ -74,8 +74,7 @@ double price_of(const Posed& posed, const Attempt& attempt, const sdp::Solution&
 /// programs have in the dense solver too.
 constexpr double kCheap = 3e-7, kFair = 1e-6;
 
-/// The shift that costs a part of kCheap: in units in which the diagonals of the blocks are near 1, a shift
-/// costs shift tr(Y), to first order.
+/// The shift that costs a part of kCheap in other units: to first order it costs shift tr(Y).
 double cheap_shift(const Posed& posed, const Attempt& attempt, const lmi::Formulation& there) {
   constexpr double kPart = 0.3;
   constexpr double kLeast = 1e-13;  // less is no margin beside rounding
@@ -91,7 +90,8 @@ double cheap_shift(const Posed& posed, const Attempt& attempt, const lmi::Formul
     }
   }
   const double value = posed.lmi.objective_at(lmi::read_back(posed.lmi, here, solution));
-  return std::clamp(kPart * kCheap * std::abs(value) * here.cost_unit / trace, kLeast, kMost);
+  const double cheap = kPart * kCheap * std::abs(value) * here.cost_unit;
+  return trace > 0 ? std::clamp(cheap / trace, kLeast, kMost) : kMost;
 }
 
 bool has_point(const Posed& posed, const Attempt& attempt) {
@@ -122,18 +122,17 @@ void solve_in_units_of(const Posed& posed, const Solve& solve, const Attempt& ne
                        Attempt& result) {
   constexpr double kPart = 0.01;
   const Question& asked = result.question;
-  auto again =
+  lmi::Formulation again =
       lmi::in_units_of_solution(posed.lmi, asked.bounds, near.formulation, near.solution.x);
-  if (!again) return;
   const bool is_wished = asked.shift > model::SynthesisOptions{}.margin;
-  if (!is_wished) again->shift = cheap_shift(posed, near, *again);
-  // The diagonals are near 1.
+  if (!is_wished) again.shift = cheap_shift(posed, near, again);
+  // The traces of the blocks are not above their numbers of rows.
   const double value =
       posed.lmi.objective_at(lmi::read_back(posed.lmi, near.formulation, near.solution));
-  again->weight = kPart * kCheap * std::abs(value) * again->cost_unit /
-                  std::accumulate(again->sizes.begin(), again->sizes.end(), 0);
-  lmi::assemble(posed.lmi, asked.bounds, {}, *again);
-  take_better(posed, *again, solve(again->problem, asked.effort), result);
+  again.weight = kPart * kCheap * std::abs(value) * again.cost_unit /
+                 std::accumulate(again.sizes.begin(), again.sizes.end(), 0);
+  lmi::assemble(posed.lmi, asked.bounds, {}, again);
+  take_better(posed, again, solve(again.problem, asked.effort), result);
 }
 
 /// The minimum with a weight in units of the data; its price is no matter.

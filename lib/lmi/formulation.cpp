@@ -271,24 +271,25 @@ std::optional<Round> next_round(const Lmi& lmi, const GainBounds& bounds,
   return round;
 }
 
-std::optional<Formulation> in_units_of_solution(const Lmi& lmi, const GainBounds& bounds,
-                                                const Formulation& formulation,
-                                                const std::vector<double>& x) {
+Formulation in_units_of_solution(const Lmi& lmi, const GainBounds& bounds,
+                                 const Formulation& formulation, const std::vector<double>& x) {
   const auto blocks = all_blocks(lmi, bounds);
   const auto rows = rows_of(formulation.free_variables, bounds);
   Formulation result = formulation;
   result.problem = {};
   result.blocks.clear();
   Balance& balance = result.balance;
-  std::vector<double> in_given_units = x;
-  for (std::size_t i = 0; i < balance.unknowns.size(); ++i)
-    in_given_units[i] *= balance.unit(static_cast<int>(i) + 1);
   for (std::size_t k = 0; k < blocks.size(); ++k) {
-    const numbers::Vector diagonal = blocks[k]->value(in_given_units).diagonal();
-    for (const int row : rows[k]) {
-      if (!(diagonal(row) > 0) || !std::isfinite(diagonal(row))) return std::nullopt;
-      balance.rows[k][static_cast<std::size_t>(row)] = -std::ilogb(diagonal(row)) / 2;
-    }
+    std::vector<double> sizes(rows[k].size(), 0.0);
+    for_each_balanced(*blocks[k], formulation.balance, k, rows[k],
+                      [&](int i, int row, int column, double value) {
+                        const double times = i == 0 ? 1 : x[static_cast<std::size_t>(i) - 1];
+                        if (row == column)
+                          sizes[static_cast<std::size_t>(row)] += std::abs(value * times);
+                      });
+    for (std::size_t r = 0; r < sizes.size(); ++r)
+      if (sizes[r] > 0 && std::isfinite(sizes[r]))
+        balance.rows[k][static_cast<std::size_t>(rows[k][r])] -= std::ilogb(sizes[r]) / 2;
   }
   std::vector<double> largest(balance.unknowns.size(), 0.0);
   std::fill(balance.unknowns.begin(), balance.unknowns.end(), 0);

@@ -111,12 +111,10 @@ std::vector<double> read_back(const Lmi& lmi, const Formulation& formulation,
 std::optional<Round> next_round(const Lmi& lmi, const GainBounds& bounds,
                                 const Formulation& formulation, const std::vector<double>& x);
 
-/// The same objective in units of a solution x: rows of blocks in which their diagonals are near 1,
-/// and unknowns whose largest coefficient is near 1. Without the program; none where a diagonal
-/// element is not positive.
-std::optional<Formulation> in_units_of_solution(const Lmi& lmi, const GainBounds& bounds,
-                                                const Formulation& formulation,
-                                                const std::vector<double>& x);
+/// The same objective in units of a solution x: rows of blocks in which the terms of their diagonals,
+/// sum_i |x_i B_ki|, are near 1, and unknowns whose largest coefficient is near 1. Without the program.
+Formulation in_units_of_solution(const Lmi& lmi, const GainBounds& bounds,
+                                 const Formulation& formulation, const std::vector<double>& x);
 
 /// A lower bound on the objective without margins by weak duality with the dual solution Y,
 ///   c'x >= r_0 + sum_i r_i x_i - w sum_k tr(B_k(x)),

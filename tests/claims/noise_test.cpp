@@ -65,6 +65,16 @@ TEST(Noise, AnUndecidedComparisonCountsDownToTheAccuracy) {
   EXPECT_NEAR(below.floor, 5e-9, 1e-10);
 }
 
+/// A run that is repeated more accurately leaves out no less.
+TEST(Noise, WhatIsUndecidedIsLeftOutAlikeAtAllAccuracies) {
+  for (const double accuracy : {1e-8, 1e-10, 1e-12}) {
+    const Finding below = InDouble(accuracy).add(1, 0).add(5e-9, 1e-11).add(5e-9, 1e-11).judged();
+    EXPECT_EQ(below.judgement, Judgement::held);
+    EXPECT_NEAR(below.floor, 5e-9, 1e-10);
+    EXPECT_TRUE(InDouble(accuracy).add(1, 0).add(5e-9, 0).add(6e-9, 0).judged().violated());
+  }
+}
+
 TEST(Noise, InDigitsAnUndecidedComparisonCountsDownToTheirFloor) {
   EXPECT_TRUE(InDigits(0).add(1, 0).add(1e-22, 1e-24).add(1e-22, 1e-24).judged().undecided());
   const Finding below = InDigits(0).add(1, 0).add(1e-25, 1e-27).add(1e-25, 1e-27).judged();
