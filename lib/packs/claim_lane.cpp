@@ -32,6 +32,17 @@ void ClaimLane::begin(const PackClaim& claim, const PackSystem& pack, const Pack
   limit_ = sign_ * limit;
   limit_error_ = hybrid::kTermRounding * terms;
   if (!std::isfinite(limit)) open_ = true;
+  if (!claim.squared) return;
+  // Norms are nowhere below 0, and at 0 the size of the terms counts.
+  if (!(limit > 0)) open_ = true;
+  limit_error_ *= 2 * std::abs(limit);
+  limit_ *= std::abs(limit);
+}
+
+double ClaimLane::score_of(double value) const {
+  if (!claim_->squared) return (value - limit_) / scale();
+  const double bound = std::sqrt(scale());
+  return sign_ * (std::sqrt(std::fmax(0, sign_ * value)) - bound) / bound;
 }
 
 /// Two runs that differ by a part of the range of a value have nothing to do with each other.
@@ -117,7 +128,7 @@ void ClaimLane::compare(Known value, double terms, bool same, bool crowded) {
   if (claim_->kind == ClaimKind::shrinks) return;
   const double excess = value.value - limit_ - forgiven(terms);
   const double error = value.error + limit_error_;
-  score_ = std::max(score_, (value.value - limit_) / scale());
+  score_ = std::max(score_, score_of(value.value));
   if (excess > error) violated_ = true;
   const bool is_close = std::abs(excess) <= error && !(excess <= 0 && error == 0);
   if (is_close && !violated_) open_ = true;
@@ -146,12 +157,11 @@ void ClaimLane::compare_within(const StepSamples& samples, Known end, double ter
     return;
   }
   const double most = limit_ + forgiven(terms);
-  if (breaks)
-    possible_score_ = std::max(possible_score_, (along.largest() + error - limit_) / scale());
+  if (breaks) possible_score_ = std::max(possible_score_, score_of(along.largest() + error));
   const bool may_exceed = along.largest() + error > most;
-  if (!may_exceed && (along.largest() - limit_) / scale() <= score_) return;
+  if (!may_exceed && score_of(along.largest()) <= score_) return;
   const double highest = along.highest();
-  score_ = std::max(score_, (highest - limit_) / scale());
+  score_ = std::max(score_, score_of(highest));
   // The careful run compares costs at samples alone.
   if (highest - error > most && claim_->kind != ClaimKind::cost) violated_ = true;
   // A violation at a point is certain without what lies between.
@@ -179,6 +189,7 @@ void ClaimLane::finish() {
   const double error = last_.error + std::abs(limit_) * first_.error;
   const double excess = last_.value - goal - claim_->tolerance * std::abs(goal);
   score_ = goal == 0 ? kNever : (last_.value - goal) / std::abs(goal);
+  if (claim_->squared && goal > 0) score_ = std::sqrt(std::fmax(0, last_.value) / goal) - 1;
   if (excess > error) violated_ = true;
   if (std::abs(excess) <= error) open_ = true;
 }

@@ -50,6 +50,9 @@ class ClaimLane {
   void compare(Known value, double terms, bool same, bool crowded);
   void compare_within(const StepSamples& samples, Known end, double terms, bool breaks);
   void check_parting(double value, double difference, double terms);
+  /// How near a value comes to what it must not exceed (claims::Finding::score), by their roots where
+  /// they are squares.
+  double score_of(double value) const;
   /// What a bound is compared by, and what a tolerance forgives of it.
   double scale() const { return limit_ == 0 ? 1 : std::abs(limit_); }
   double forgiven(double terms) const {

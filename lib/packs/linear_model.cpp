@@ -8,6 +8,7 @@
 #include "bounded/wide_function.h"
 #include "claims/value.h"
 #include "numbers/degree.h"
+#include "packs/square_of_norm.h"
 #include "packs/tolerances.h"
 
 namespace gainsmith::packs {
@@ -174,28 +175,6 @@ bool add_parts(const JudgedFunction& function, const LinearModel& linear,
     forms.push_back({part.factor, *Q});
   }
   return true;
-}
-
-/// v'v of a program norm(v); none for any other.
-std::optional<expr::Program> square_of_norm(const expr::Program& program) {
-  const auto last = static_cast<std::size_t>(program.result);
-  const expr::Instruction& root = program.code[last];
-  if (root.op != expr::Op::norm || last + 1 != program.code.size()) return std::nullopt;
-  const int of = root.operands.front();
-  const expr::Shape shape = program.code[static_cast<std::size_t>(of)].shape;
-  if (shape.rows != 1 && shape.cols != 1) return std::nullopt;
-  expr::Program square = program;
-  expr::Instruction turned = root;
-  turned.op = expr::Op::transpose;
-  turned.shape = {shape.cols, shape.rows};
-  expr::Instruction product = root;
-  product.op = expr::Op::multiply;
-  const int at = static_cast<int>(last);
-  product.operands = shape.cols == 1 ? std::vector<int>{at, of} : std::vector<int>{of, at};
-  square.code[last] = turned;
-  square.code.push_back(product);
-  square.result = at + 1;
-  return square;
 }
 
 /// The form of a cost, nowhere negative; none: it is no such form.

@@ -8,6 +8,7 @@
 #include "packs/dormand_prince.h"
 #include "packs/jump_code.h"
 #include "packs/sharp_parts.h"
+#include "packs/square_of_norm.h"
 #include "packs/tolerances.h"
 
 namespace gainsmith::packs {
@@ -153,13 +154,16 @@ class LookCode {
     made.over = claim.over;
     made.tolerance = claim.tolerance;
     if (claim.kind == model::ClaimKind::cost) return add_cost(claim);
-    const numbers::TracedMatrix value = texts_.moving(claim.value, x_, rates_);
+    const auto square = is_compared_once(claim) ? square_of_norm(claim.value) : std::nullopt;
+    made.squared = square.has_value();
+    const expr::Program& text = square ? *square : claim.value;
+    const numbers::TracedMatrix value = texts_.moving(text, x_, rates_);
     push(PackSystem::claim_values, value.value[0]);
     watch_peaks(value.value[0]);
     push(PackSystem::claim_rates, value.slopes[0][0]);
-    push(PackSystem::claim_terms, texts_.value(hybrid::absolute_terms(claim.value), x_).value[0]);
+    push(PackSystem::claim_terms, texts_.value(hybrid::absolute_terms(text), x_).value[0]);
     const auto moves = [&](const std::string& name) { return pack_.system->is_moving(name); };
-    for (const expr::Branch& branch : expr::branches_of(claim.value, moves))
+    for (const expr::Branch& branch : expr::branches_of(text, moves))
       for (const int node : texts_.value(branch.difference, x_).value) {
         made.branches.push_back(results_[PackSystem::extras].size());
         push(PackSystem::extras, node);
@@ -220,6 +224,14 @@ class LookCode {
   }
 
  private:
+  /// With a number, without a tolerance: so is the square, with the square of the number.
+  static bool is_compared_once(const claims::Claim& claim) {
+    using model::ClaimKind;
+    return claim.tolerance == 0 &&
+           (claim.kind == ClaimKind::below || claim.kind == ClaimKind::above ||
+            claim.kind == ClaimKind::shrinks);
+  }
+
   LaneCode without(std::initializer_list<PackSystem::LookResult> left_out) {
     auto results = results_;
     for (const PackSystem::LookResult one : left_out) results[one].clear();

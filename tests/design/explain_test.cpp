@@ -112,6 +112,24 @@ TEST(Explain, AFeasibleProblemSaysWhatLimitsItAndHowFarItsScalarsGo) {
   EXPECT_FALSE(found.reaches[1].conflict);
 }
 
+/// Without it nothing is left, and nothing bounds the objective; or what is left has the solution 0.
+TEST(Explain, WithoutTheOnlyRequirementThereIsNoMinimum) {
+  const YamlProblem one(
+      "problem: p\nmethod:\n  method: m\n  unknowns: {P: symmetric 2, g: scalar}\n"
+      "  require: {norm: \"blkdiag(P - I, g*I - P) > 0\"}\n  minimize: g\ndata: {}\n");
+  const Explanation found = explain(one.instance, {});
+  ASSERT_TRUE(found.limits);
+  ASSERT_EQ(found.limits->active.size(), 1U);
+  EXPECT_TRUE(found.limits->active[0].without->unbounded);
+  const YamlProblem zero(
+      "problem: p\nmethod:\n  method: m\n  unknowns: {x: scalar}\n"
+      "  require: {floor: x > 1, cone: x >= 0}\n  minimize: x\ndata: {}\n");
+  const Explanation left = explain(zero.instance, {});
+  ASSERT_TRUE(left.limits);
+  ASSERT_EQ(left.limits->active.size(), 1U);
+  EXPECT_TRUE(left.limits->active[0].without->homogeneous);
+}
+
 /// A solve that decides nothing does not make the gain bound the conflict.
 TEST(Explain, AnUndecidedRestIsNotBlamedOnTheGainBound) {
   for (const bool with_gains : {false, true}) {

@@ -133,6 +133,20 @@ method:
     speed: {below: abs(rate(x(1))), bound: 1.2}
 campaign: {runs: 96, horizon: 4, initial: {x: {box: [-1, 1]}}}
 )yaml"},
+    {"norms that come near 0, with held noise", R"yaml(problem: p
+method:
+  method: m
+  noise: {w: {normal: 0.7, every: 0.1}}
+  plant:
+    state: {x: {shape: 2, start: 0}}
+    flow: {x: "[x(2); -4*x(1) - 0.5*x(2) - 0.1*abs(x(2))*x(2) + w]"}
+  claims:
+    small: {below: norm(x), bound: 1.6}
+    away: {above: norm(x), bound: 0.05}
+    calm: {below: norm(x), bound: 0.8, after: 2}
+    falls: {shrinks: norm(x), to: 0.6}
+campaign: {runs: 96, horizon: 5, initial: {x: {box: [-1, 1]}}}
+)yaml"},
     {"an oscillator with limits", R"yaml(problem: p
 method:
   method: m
