@@ -108,6 +108,9 @@ class Rises {
  public:
   Rises(double noise, double floor) : noise_(noise), floor_(floor) {}
 
+  /// Whether no rise between values of such a size counts.
+  bool is_drowned(double size) const { return size <= floor_; }
+
   /// `size`, `noise`: of the part around.
   void next(double t, double value, double size, double noise) {
     if (value < low_) {
@@ -145,7 +148,8 @@ class Rises {
 /// The ends of a stretch, and where its series turns.
 void add_points(const Stretch& stretch, Rises& rises) {
   const double size = stretch.part.series.cwiseAbs().sum();
-  std::vector<double> times = turns_of(stretch.part);
+  std::vector<double> times;
+  if (!rises.is_drowned(size)) times = turns_of(stretch.part);
   times.insert(times.begin(), stretch.from);
   times.push_back(stretch.to);
   for (const double t : times)

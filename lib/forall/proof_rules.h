@@ -270,7 +270,9 @@ class Search {
 
   static constexpr std::string_view
       kNotDecided = "the sign at a point is within its error bound",
-      kTooSteep = "it moves too much between two points that are next to each other",
+      kTooSteep =
+          "it moves too much between two points that are next to each other, as where a sign, "
+          "where or floor jumps",
       kTooMany = "more pieces than are examined";
 
   Function<S>& function_;
