@@ -123,14 +123,13 @@ class Products {
   const expr::Scope& scope_;
 };
 
-/// The scope of a gain's formula, which may use the gains above it.
+/// The scope of a gain's formula.
 expr::Scope gain_scope(expr::Scope scope, const std::string& variable) {
   if (!variable.empty()) scope.symbols[variable] = {};
   return scope;
 }
 
-/// Adds it to `names`, for the gains below it.
-void add_gain(Binding& binding, const model::Gain& gain, expr::Scope& names) {
+void add_gain(Binding& binding, const model::Gain& gain, const expr::Scope& names) {
   const expr::Scope scope = gain_scope(names, gain.variable);
   model::Design::Gain bound;
   bound.name = gain.name;
@@ -142,8 +141,6 @@ void add_gain(Binding& binding, const model::Gain& gain, expr::Scope& names) {
   products.find(gain.value.root, bound.products);
   bound.whole = products.factor({gain.value.root});
   binding.design->gains.push_back(std::move(bound));
-  if (gain.variable.empty())
-    names.definitions.try_emplace(gain.name, expr::Definition{{}, gain.value});
 }
 
 /// The bound of a family is that of each of its members.
@@ -169,17 +166,21 @@ void bind_gain_bounds(Binding& binding) {
 
 void bind_gains(Binding& binding) {
   std::map<std::string, expr::Ranges> families;
-  expr::Scope names = binding.names->design;
+  std::vector<model::Gain> gains;
   for (const model::Gain& gain : binding.method().gains) {
+    if (!gain.indices.empty()) families[gain.name] = ranges(gain.indices, binding.names->design);
     for (const Member& member : members(gain.indices, {}, binding.names->design))
-      add_gain(binding,
-               {member.name_of(gain.name), instantiate(gain.value, member, binding.names->design),
-                gain.place, gain.variable},
-               names);
-    if (gain.indices.empty()) continue;
-    families[gain.name] = ranges(gain.indices, binding.names->design);
-    names.families.try_emplace(gain.name, families[gain.name]);
+      gains.push_back({member.name_of(gain.name),
+                       instantiate(gain.value, member, binding.names->design), gain.place,
+                       gain.variable});
   }
+  // A gain may use others, which are definitions to it.
+  expr::Scope names = binding.names->design;
+  names.families.insert(families.begin(), families.end());
+  for (const model::Gain& gain : gains)
+    if (gain.variable.empty() && !names.symbols.contains(gain.name))
+      names.definitions.try_emplace(gain.name, expr::Definition{{}, gain.value});
+  for (const model::Gain& gain : gains) add_gain(binding, gain, names);
   bind_gain_bounds(binding);
   binding.names->running = binding.names->design;
   expr::Scope& scope = binding.names->running;

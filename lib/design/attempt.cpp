@@ -3,31 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "base/stop.h"
 #include "design/certificates.h"
 #include "design/in_matrices.h"
-#include "lmi/correlation.h"
+#include "design/minimum.h"
 #include "verdict/relaxed_backward_error.h"
 
 namespace gainsmith::design {
 
 namespace {
-
-bool is_finite(const std::vector<double>& x) {
-  return std::all_of(x.begin(), x.end(), [](double value) { return std::isfinite(value); });
-}
-
-bool is_positive(const Posed& posed, const std::vector<double>& x) {
-  constexpr double kTells = 1e-15;  // what double tells from 0
-
-  return is_finite(x) && std::all_of(posed.lmi.blocks.begin(), posed.lmi.blocks.end(),
-                                     [&](const lmi::Block& block) {
-                                       return lmi::correlation_margin(block.value(x)) > kTells;
-                                     });
-}
 
 verdict::Margins margins_at(const Posed& posed, const Attempt& attempt,
                             const std::vector<double>& x) {
@@ -61,115 +47,13 @@ void take_point_beyond_double(const Posed& posed, const std::vector<double>& x, 
   result.margins = std::move(margins);
 }
 
-/// What the margins are said to cost, by the objective's size (lmi::objective_lower_bound).
-double price_of(const Posed& posed, const Attempt& attempt, const sdp::Solution& solution) {
-  const lmi::Formulation& formulation = attempt.formulation;
-  const double value = posed.lmi.objective_at(lmi::read_back(posed.lmi, formulation, solution));
-  const double least =
-      lmi::objective_lower_bound(posed.lmi, attempt.question.bounds, formulation, solution);
-  return (value - least) / std::abs(value);
-}
-
-/// A price that is no matter of the solver's digits, and one that ill-conditioned minima of large
-/// programs have in the dense solver too.
-constexpr double kCheap = 3e-7, kFair = 1e-6;
-
-/// The shift that costs a part of kCheap in other units: to first order it costs shift tr(Y).
-double cheap_shift(const Posed& posed, const Attempt& attempt, const lmi::Formulation& there) {
-  constexpr double kPart = 0.3;
-  constexpr double kLeast = 1e-13;  // less is no margin beside rounding
-  constexpr double kMost = 1e-8;    // more than the solver leaves undone
-  const lmi::Formulation& here = attempt.formulation;
-  const sdp::Solution& solution = attempt.solution;
-  double trace = 0;
-  for (std::size_t k = 0; k < posed.lmi.blocks.size(); ++k) {
-    const std::vector<int>& kept = here.free_variables.kept[k];
-    for (std::size_t i = 0; i < kept.size(); ++i) {
-      const double unit = here.balance.row(k, kept[i]) / there.balance.row(k, kept[i]);
-      trace += solution.Y.values[k][i * (kept.size() + 1)] * unit * unit;
-    }
-  }
-  const double value = posed.lmi.objective_at(lmi::read_back(posed.lmi, here, solution));
-  const double cheap = kPart * kCheap * std::abs(value) * here.cost_unit;
-  return trace > 0 ? std::clamp(cheap / trace, kLeast, kMost) : kMost;
-}
-
-bool has_point(const Posed& posed, const Attempt& attempt) {
-  return attempt.solution.status == sdp::Status::optimal &&
-         is_positive(posed, lmi::read_back(posed.lmi, attempt.formulation, attempt.solution));
-}
-
-/// The solution of the formulation takes the place of the result's where it is a point and that is none,
-/// or where it is cheaper.
-void take_better(const Posed& posed, const lmi::Formulation& formulation, sdp::Solution solution,
-                 Attempt& result) {
-  if (solution.status != sdp::Status::optimal) return;
-  Attempt again = result;
-  again.formulation = formulation;
-  again.solution = std::move(solution);
-  const bool was_point = has_point(posed, result);
-  if (was_point != has_point(posed, again)
-          ? was_point
-          : !(price_of(posed, again, again.solution) < price_of(posed, result, result.solution)))
-    return;
-  again.solution.iterations += result.solution.iterations;
-  result = std::move(again);
-}
-
-/// Units of the data may be far from those of the solution: then the program is solved in these too, with
-/// a margin and a weight that cost little, unless a larger margin is wished for.
-void solve_in_units_of(const Posed& posed, const Solve& solve, const Attempt& near,
-                       Attempt& result) {
-  constexpr double kPart = 0.01;
-  const Question& asked = result.question;
-  lmi::Formulation again =
-      lmi::in_units_of_solution(posed.lmi, asked.bounds, near.formulation, near.solution.x);
-  const bool is_wished = asked.shift > model::SynthesisOptions{}.margin;
-  if (!is_wished) again.shift = cheap_shift(posed, near, again);
-  // The traces of the blocks are not above their numbers of rows.
-  const double value =
-      posed.lmi.objective_at(lmi::read_back(posed.lmi, near.formulation, near.solution));
-  again.weight = kPart * kCheap * std::abs(value) * again.cost_unit /
-                 std::accumulate(again.sizes.begin(), again.sizes.end(), 0);
-  lmi::assemble(posed.lmi, asked.bounds, {}, again);
-  take_better(posed, again, solve(again.problem, asked.effort), result);
-}
-
-/// The minimum with a weight in units of the data; its price is no matter.
-Attempt weighted(const Posed& posed, const Solve& solve, const Attempt& plain) {
-  constexpr double kWeight = 1e-8;
-  Attempt result = plain;
-  result.formulation.weight = kWeight;
-  lmi::assemble(posed.lmi, plain.question.bounds, {}, result.formulation);
-  result.solution = solve(result.formulation.problem, plain.question.effort);
-  return result;
-}
-
-/// Until the point costs little. A gap that is small beside the solver's 1 may be large beside the
-/// objective: then the program is solved to a finer one.
-void refine_price(const Posed& posed, const Solve& solve, Attempt& result) {
-  constexpr double kDear = 1e-3;  // dearer is no matter of the solver's digits
-  constexpr double kFiner = 1e-3;
-  const auto is_good = [&] {
-    return has_point(posed, result) && price_of(posed, result, result.solution) <= kCheap;
-  };
-  if (is_good()) return;
-  const Attempt near = weighted(posed, solve, result);
-  solve_in_units_of(posed, solve, near.is_near_optimal() ? near : Attempt(result), result);
-  if (!result.is_near_optimal()) return;
-  const double price = price_of(posed, result, result.solution);
-  if (is_good() || !(kCheap < price && price < kDear)) return;
-  Effort finer = result.question.effort;
-  finer.tolerance *= kFiner;
-  take_better(posed, result.formulation, solve(result.formulation.problem, finer), result);
-}
-
 void solve_objective(const Posed& posed, const Solve& solve, Attempt& result) {
   const Question& asked = result.question;
   result.formulation = lmi::pose_objective(posed.lmi, asked.bounds, asked.shift);
   Effort effort = asked.effort;
   auto near = solve_in_matrices(posed, asked, result.formulation, {}, {});
-  if (near && near->cause == sdp::Cause::converged && price_of(posed, result, *near) <= kFair) {
+  if (near && near->cause == sdp::Cause::converged &&
+      price_of(posed, asked.bounds, result.formulation, *near) <= kFair) {
     near->status = sdp::Status::optimal;
     result.solution = std::move(*near);
     take_point(posed, lmi::read_back(posed.lmi, result.formulation, result.solution), result);
@@ -182,7 +66,7 @@ void solve_objective(const Posed& posed, const Solve& solve, Attempt& result) {
   const bool is_refuted = result.solution.status != sdp::Status::optimal &&
                           result.solution.status != sdp::Status::undecided;
   if (is_refuted || result.solution.x.empty()) return;
-  refine_price(posed, solve, result);
+  refine_minimum(posed, solve, result);
   // Far from the minimum a point serves no one: one inside comes from the other goal.
   if (!result.is_near_optimal()) return;
   take_point(posed, lmi::read_back(posed.lmi, result.formulation, result.solution), result);
@@ -319,9 +203,9 @@ void refute(const Posed& posed, const Solve& solve, Interior& interior, Interior
 
 }  // namespace
 
-bool Attempt::is_near_optimal() const {
+bool is_near_optimal(const sdp::Solution& solution) {
   constexpr double kNear = 1e-6;
-  if (is_optimal()) return true;
+  if (solution.status == sdp::Status::optimal) return true;
   // A solver that is stopped before its first iteration has no point and no gap.
   return !solution.x.empty() && std::abs(solution.relative_gap) <= kNear;
 }

@@ -26,6 +26,9 @@ struct Effort {
 /// Solves a semidefinite program: sdp::solve with its options, or a script in a test.
 using Solve = std::function<sdp::Solution(const sdp::Problem& problem, const Effort& effort)>;
 
+/// Optimal, or with objectives that nearly agree.
+bool is_near_optimal(const sdp::Solution& solution);
+
 /// Inequalities with the blocks that stand for them.
 struct Posed {
   const lmi::Inequalities& inequalities;
@@ -83,8 +86,7 @@ struct Attempt {
   double reached_gain = 0;  ///< the same as the bound measures it (lmi::GainBounds)
 
   bool is_optimal() const { return solution.status == sdp::Status::optimal; }
-  /// Optimal, or with objectives that nearly agree.
-  bool is_near_optimal() const;
+  bool is_near_optimal() const { return design::is_near_optimal(solution); }
   /// Every inequality holds at the decimals of x: a yes.
   bool holds() const { return point && verdict::all_hold(margins); }
   /// No x satisfies the inequalities.

@@ -89,6 +89,7 @@ Changed with_others(const model::Instance& instance, const std::set<std::string>
   try {
     return changed(with_inequalities(instance, others), solver);
   } catch (const InputError&) {
+    // With all of them nothing was refused: what is left has the solution 0.
     result.homogeneous = true;
     return result;
   }

@@ -271,8 +271,8 @@ class Search {
   static constexpr std::string_view
       kNotDecided = "the sign at a point is within its error bound",
       kTooSteep =
-          "it moves too much between two points that are next to each other, as where a sign, "
-          "where or floor jumps",
+          "it moves too much between two points that are next to each other; a sign, where or "
+          "floor may jump there",
       kTooMany = "more pieces than are examined";
 
   Function<S>& function_;

@@ -158,34 +158,36 @@ class ModeNodes {
   ScalarGraph& graph_;
 };
 
+/// A node as a constant times a node that is neither negated nor a multiple; of constants the node 1.
+std::pair<double, int> as_product(int number, ScalarGraph& graph) {
+  double factor = 1;
+  while (true) {
+    const ScalarGraph::Node node = graph.nodes()[static_cast<std::size_t>(number)];
+    if (node.op == ScalarOp::constant) return {factor * graph.value(number), graph.constant(1)};
+    const bool is_left = node.op == ScalarOp::multiply && graph.is_constant(node.a);
+    const bool is_right = node.op == ScalarOp::multiply && graph.is_constant(node.b);
+    if (node.op == ScalarOp::negate) {
+      factor = -factor;
+      number = node.a;
+    } else if (is_left || is_right) {
+      factor *= graph.value(is_left ? node.a : node.b);
+      number = is_left ? node.b : node.a;
+    } else {
+      return {factor, number};
+    }
+  }
+}
+
 }  // namespace
 
 std::optional<Multiple> as_multiple(const std::vector<int>& nodes, int rows, ScalarGraph& graph) {
   Multiple result{Matrix(rows, rows), -1};
   for (std::size_t k = 0; k < nodes.size(); ++k) {
-    const ScalarGraph::Node node = graph.nodes()[static_cast<std::size_t>(nodes[k])];
-    double factor = 1;
-    int number = nodes[k];
-    if (node.op == ScalarOp::constant && graph.value(number) == 0) {
-      result.factor(static_cast<Index>(k)) = 0;
-      continue;
-    }
-    if (node.op == ScalarOp::constant) {
-      factor = graph.value(number);
-      number = graph.constant(1);
-    } else if (node.op == ScalarOp::negate) {
-      factor = -1;
-      number = node.a;
-    } else if (node.op == ScalarOp::multiply) {
-      for (const auto& [one, other] : {std::pair(node.a, node.b), std::pair(node.b, node.a)})
-        if (graph.is_constant(one)) {
-          factor = graph.value(one);
-          number = other;
-        }
-    }
+    const auto [factor, number] = as_product(nodes[k], graph);
+    result.factor(static_cast<Index>(k)) = factor;
+    if (factor == 0) continue;
     if (result.number >= 0 && result.number != number) return std::nullopt;
     result.number = number;
-    result.factor(static_cast<Index>(k)) = factor;
   }
   if (result.number < 0) result.number = graph.constant(1);
   return result;

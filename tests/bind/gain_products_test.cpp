@@ -60,15 +60,16 @@ TEST(GainProducts, NeedASymmetricUnknownAndAFactor) {
 }
 
 /// What stands in another gain's formula is bounded there.
-TEST(GainProducts, AreThoseOfTheTextThoughAGainMayUseTheGainsAboveIt) {
-  const Small small = with_gains("L: inv(P)*C', W: A - L*C, V: W*L");
-  EXPECT_EQ(products(small.design().gains.at(0)), Texts{"inv(P) | C' | C'"});
-  EXPECT_EQ(products(small.design().gains.at(1)), Texts());
-  EXPECT_EQ(small.design().gains.at(2).shape, (expr::Shape{2, 1}));
-  EXPECT_TRUE(small.design().gains.at(2).formula.program.uses("P"));
-  EXPECT_FALSE(small.design().gains.at(2).formula.program.uses("L"));
-  EXPECT_THROW(with_gains("W: A - L*C, L: inv(P)*C'"), InputError);
+TEST(GainProducts, AreThoseOfTheTextThoughAGainMayUseOthers) {
+  const Small small = with_gains("V: W*L, L: inv(P)*C', W: A - L*C, A: A");
+  EXPECT_EQ(products(small.design().gains.at(1)), Texts{"inv(P) | C' | C'"});
+  EXPECT_EQ(products(small.design().gains.at(2)), Texts());
+  EXPECT_EQ(small.design().gains.at(0).shape, (expr::Shape{2, 1}));
+  EXPECT_TRUE(small.design().gains.at(0).formula.program.uses("P"));
+  EXPECT_FALSE(small.design().gains.at(0).formula.program.uses("L"));
+  EXPECT_TRUE(small.design().gains.at(3).formula.program.uses("A"));
   EXPECT_THROW(with_gains("L: L*2"), InputError);
+  EXPECT_THROW(with_gains("L: W*2, W: L/2"), InputError);
 }
 
 TEST(GainProducts, AnInverseMayBeThatOfAFunction) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "lmi/correlation.h"
+#include "sdp/solver.h"
 #include "support/yaml_problem.h"
 
 namespace gainsmith::lmi {
@@ -86,6 +87,35 @@ TEST(FormulationTest, TheObjectiveIsSolvedInBalancedUnitsWithItsShift) {
     EXPECT_LT((slack(formulation.problem, static_cast<int>(k), y) - expected).norm(),
               1e-13 * expected.norm());
   }
+}
+
+/// minimise x with x > 2 and y > 1e-9, in units far from those of the solution: the objective does not see y,
+/// which the weight keeps small.
+TEST(FormulationTest, TheWeightBoundsWhatTheObjectiveDoesNotSee) {
+  const tests::YamlProblem yaml(
+      "problem: p\nmethod:\n  method: m\n  unknowns: {x: scalar, y: scalar}\n"
+      "  require: {a: x > 2, b: \"[y, 1e-3*x; *, 1e6*y] > 0\"}\n  minimize: x\ndata: {}\n");
+  const Lmi lmi = compile(Inequalities(yaml.instance));
+  const std::vector<double> near = {2.1, 1e-5};
+  const Formulation data = formulate_objective(lmi, {}, 0);
+  Formulation formulation = in_units_of_solution(lmi, {}, data, in_units(data.balance, near));
+  for (std::size_t k = 0; k < 2; ++k) {
+    const numbers::Matrix block = in_units(lmi, formulation.balance, k, near);
+    for (int r = 0; r < block.rows(); ++r) {
+      EXPECT_GT(block(r, r), 0.01) << k;  // of 2.1 - 2 the terms are 2.1 and 2
+      EXPECT_LT(block(r, r), 4) << k;
+    }
+  }
+  formulation.weight = 1e-6;
+  assemble(lmi, {}, {}, formulation);
+  const sdp::Solution solution = sdp::solve(formulation.problem);
+  ASSERT_EQ(solution.status, sdp::Status::optimal);
+  const std::vector<double> x = read_back(lmi, formulation, solution);
+  EXPECT_NEAR(x[0], 2, 1e-5);
+  EXPECT_LT(x[1], 1e-3);
+  const double bound = objective_lower_bound(lmi, {}, formulation, solution);
+  EXPECT_LE(bound, 2);
+  EXPECT_GT(bound, 2 - 1e-3);
 }
 
 /// In a round with t and D_k a block is B - t diag(B) - s D_k and the sizes of all, measured by

@@ -101,6 +101,11 @@ TEST(ExponentialFormula, KnowsMultiplesOfOneNumber) {
   ASSERT_TRUE(found);
   EXPECT_EQ(found->number, s);
   EXPECT_EQ(found->factor, matrix(2, {1, 0, 2, -1}));
+  const int back = graph.multiply(graph.constant(3), graph.negate(s));
+  const auto negated = as_multiple({graph.negate(s), back, zero, s}, 2, graph);
+  ASSERT_TRUE(negated);
+  EXPECT_EQ(negated->number, s);
+  EXPECT_EQ(negated->factor, matrix(2, {-1, 0, -3, 1}));
   EXPECT_FALSE(as_multiple({s, twice, zero, t}, 2, graph));
   EXPECT_FALSE(as_multiple({s, graph.constant(3), zero, s}, 2, graph));
   const auto constant = as_multiple({graph.constant(3), zero, zero, graph.constant(-1)}, 2, graph);
