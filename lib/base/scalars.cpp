@@ -10,6 +10,20 @@ namespace {
 /// Decimals that tell any two numbers of 107 (31 digits) and of 500 (100 digits) bits apart.
 constexpr int kQuadText = 34, kWideText = 153;
 
+/// Boost fills in a limit of a number type at its first call, unsafe where two threads make that
+/// call. This one is made before threads begin: Boost's own does it for types with expression
+/// templates alone (multiprecision/mpfr.hpp, data_initializer).
+[[maybe_unused]] const bool limits_are_filled_in = [] {
+  using Limits = std::numeric_limits<Decimal100>;
+  Limits::epsilon();
+  Limits::round_error();
+  (Limits::min)();
+  (Limits::max)();
+  Limits::infinity();
+  Limits::quiet_NaN();
+  return true;
+}();
+
 }  // namespace
 
 template <>
@@ -51,7 +65,8 @@ double pi<double>() {
 }
 template <>
 Decimal100 pi<Decimal100>() {
-  return boost::math::constants::pi<Decimal100>();
+  static const auto value = boost::math::constants::pi<Decimal100>();
+  return value;
 }
 template <>
 DoubleDouble pi<DoubleDouble>() {
