@@ -9,6 +9,7 @@
 #include "bind/data.h"
 #include "bind/gains.h"
 #include "bind/inequalities.h"
+#include "bind/observer_families.h"
 #include "bind/search.h"
 #include "bind/shown.h"
 #include "bind/simulation.h"
@@ -58,6 +59,7 @@ namespace {
 model::Instance bound(Binding binding) {
   expr::count_design();
   bind_data(binding);
+  bind_observer_families(binding);
   bind_inequalities(binding);
   bind_gains(binding);
   bind_components(binding);

@@ -34,7 +34,7 @@ void refuse_unknown_names(const Binding& binding) {
       std::vector<std::string> missing;
       for (const std::string& one : known)
         if (std::none_of(values.begin(), values.end(),
-                         [&](const model::Value& other) { return other.name == one; }))
+                         [&](const model::Value& given) { return given.name == one; }))
           missing.push_back(one);
       const bool misplaced =
           std::find(elsewhere.begin(), elsewhere.end(), value.name) != elsewhere.end();

@@ -64,14 +64,14 @@ std::vector<model::NamedFormula> named(const std::vector<model::Named>& list,
 
 /// What rate(v) is made of: the flows of the states, and those of t and of the clocks.
 void add_rates(Binding& binding) {
-  using Kind = model::Dynamics::VariableKind;
+  using VariableKind = model::Dynamics::VariableKind;
   expr::Scope& scope = binding.names->running;
   for (const model::Dynamics::Variable& variable : binding.design->dynamics->variables) {
-    const bool rises = variable.kind == Kind::time || variable.kind == Kind::since;
-    if (rises || variable.kind == Kind::left)
+    const bool rises = variable.kind == VariableKind::time || variable.kind == VariableKind::since;
+    if (rises || variable.kind == VariableKind::left)
       scope.definitions[expr::rate_name(variable.name)] = {
           {}, unit_rate(!rises, binding.method().dynamics_place)};
-    if (variable.kind == Kind::measured_rate)
+    if (variable.kind == VariableKind::measured_rate)
       scope.definitions[expr::rate_name(binding.design->dynamics->measured[variable.of].name)] = {
           {}, named_alone(variable.name, binding.method().dynamics_place)};
   }

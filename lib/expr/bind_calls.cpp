@@ -209,6 +209,9 @@ Bound Binder::bind_composed(const Expression& expression, const Node& node, Comp
       return diagonal(expression, node);
     case Composed::blkdiag:
       return block_diagonal(expression, node);
+    case Composed::horzcat:
+    case Composed::vertcat:
+      return concatenated(expression, node, function == Composed::horzcat);
     case Composed::kron:
       return kronecker(expression, node);
     case Composed::sum:
@@ -345,13 +348,12 @@ Bound Binder::diagonal(const Expression& expression, const Node& node) {
 }
 
 Bound Binder::block_diagonal(const Expression& expression, const Node& node) {
-  std::vector<int> blocks;
+  const std::vector<int> blocks = parts(expression, node);
   std::vector<int> heights;
   std::vector<int> widths;
-  for (const NodePtr& child : node.children) {
-    blocks.push_back(sized(expression, *child, bind(expression, *child)));
-    heights.push_back(shape(blocks.back()).rows);
-    widths.push_back(shape(blocks.back()).cols);
+  for (const int block : blocks) {
+    heights.push_back(shape(block).rows);
+    widths.push_back(shape(block).cols);
   }
   std::vector<int> entries;
   for (std::size_t i = 0; i < blocks.size(); ++i)

@@ -199,22 +199,14 @@ bool Binder::holds(const Expression& expression, const Node& comparison) {
   return true;
 }
 
-/// sum(i in 1..N, j in 1..N, i != j, M): the last argument for all indices that the comparisons
-/// leave.
-Bound Binder::sum(const Expression& expression, const Node& node) {
-  if (node.children.size() == 1) return sum_of_elements(expression, node);
+/// Of f(i in 1..N, j in 1..N, i != j, M): binds the last argument for all indices that the
+/// comparisons leave.
+void Binder::for_indices(const Expression& expression, const Node& node,
+                         const std::function<void(const Bound&)>& take) {
   const Node& term = *node.children.back();
-  std::optional<Bound> total;
   const std::function<void(std::size_t)> from = [&](std::size_t k) {
     const Node& child = *node.children[k];
-    if (&child == &term) {
-      const Bound value = bind(expression, term);
-      Node pair = node;
-      pair.kind = NodeKind::add;
-      pair.children = {node.children.back(), node.children.back()};
-      total = total ? add(expression, pair, Op::add, *total, value) : value;
-      return;
-    }
+    if (&child == &term) return take(bind(expression, term));
     if (child.kind != NodeKind::each) {
       if (holds(expression, child)) from(k + 1);
       return;
@@ -231,12 +223,58 @@ Bound Binder::sum(const Expression& expression, const Node& node) {
       environment_.erase(child.text);
     }
   };
-  if (node.children[0]->kind != NodeKind::each)
-    fail(expression, node, "a sum is written sum(i in 1..N, P(i)), or sum(M) of the elements of M");
   ++open_sums_;
   from(0);
   --open_sums_;
+}
+
+Bound Binder::sum(const Expression& expression, const Node& node) {
+  if (node.children.size() == 1) return sum_of_elements(expression, node);
+  if (node.children[0]->kind != NodeKind::each)
+    fail(expression, node, "a sum is written sum(i in 1..N, P(i)), or sum(M) of the elements of M");
+  std::optional<Bound> total;
+  Node pair = node;
+  pair.kind = NodeKind::add;
+  pair.children = {node.children.back(), node.children.back()};
+  for_indices(expression, node, [&](const Bound& value) {
+    total = total ? add(expression, pair, Op::add, *total, value) : value;
+  });
   return total ? *total : Bound{number(expression, node, "0")};
+}
+
+/// The arguments, or the last one for all indices before it.
+std::vector<int> Binder::parts(const Expression& expression, const Node& node) {
+  std::vector<int> found;
+  if (node.children[0]->kind == NodeKind::each && node.children.size() > 1)
+    for_indices(expression, node, [&](const Bound& value) {
+      found.push_back(sized(expression, *node.children.back(), value));
+    });
+  else
+    for (const NodePtr& child : node.children)
+      found.push_back(sized(expression, *child, bind(expression, *child)));
+  if (found.empty()) fail(expression, node, node.text + ": the indices have no values");
+  return found;
+}
+
+/// The parts side by side, or below each other.
+Bound Binder::concatenated(const Expression& expression, const Node& node, bool side_by_side) {
+  const std::vector<int> blocks = parts(expression, node);
+  std::vector<int> lengths;
+  const auto across = [&](int block) {
+    return side_by_side ? shape(block).rows : shape(block).cols;
+  };
+  for (const int block : blocks) {
+    if (across(block) != across(blocks.front()))
+      fail(expression, node,
+           node.text + ": all parts need as many " + (side_by_side ? "rows" : "columns") +
+               "; one is " + to_string(shape(blocks.front())) + " and another " +
+               to_string(shape(block)));
+    lengths.push_back(side_by_side ? shape(block).cols : shape(block).rows);
+  }
+  const std::vector<int> one = {across(blocks.front())};
+  if (blocks.size() == 1) return {blocks.front()};
+  return {assemble(expression, node, blocks, side_by_side ? static_cast<int>(blocks.size()) : 1,
+                   side_by_side ? one : lengths, side_by_side ? lengths : one)};
 }
 
 /// 1' M 1.

@@ -112,7 +112,9 @@ Bound Binder::bind_kind(const Expression& expression, const Node& node) {
     case NodeKind::range:
       fail(expression, node, "a range is allowed only in an index, such as x(1:2)");
     case NodeKind::each:
-      fail(expression, node, "an index is allowed only in a sum, such as sum(i in 1..N, P(i))");
+      fail(expression, node,
+           "an index is allowed only first in sum, horzcat, vertcat and blkdiag, such as "
+           "sum(i in 1..N, P(i))");
     case NodeKind::within:
       fail(expression, node,
            "a box is allowed only in maximum(f, x in [a, b]) and in minimum(...)");

@@ -1,6 +1,7 @@
 // Internal to expr: the state of one compilation.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -148,6 +149,10 @@ class Binder {
   std::optional<Bound> bind_member_call(const Expression& expression, const Node& node);
   Bound sum(const Expression& expression, const Node& node);
   Bound sum_of_elements(const Expression& expression, const Node& node);
+  void for_indices(const Expression& expression, const Node& node,
+                   const std::function<void(const Bound&)>& take);
+  std::vector<int> parts(const Expression& expression, const Node& node);
+  Bound concatenated(const Expression& expression, const Node& node, bool side_by_side);
   Bound kronecker(const Expression& expression, const Node& node);
   bool holds(const Expression& expression, const Node& comparison);
   std::pair<int, int> range_of(const Expression& expression, const Node& low, const Node& high);

@@ -225,6 +225,7 @@ Component component(const YamlFile& file, const YamlItem& item,
   Component result = copied(file, source, before);
   result.name = item.key;
   result.place = item.place;
+  if (const auto family = map.find("for")) result.indices = indices(file, family);
   const auto read = [&](const char* key, auto& list, auto&& one) {
     Removed removed;
     std::vector<std::decay_t<decltype(list.front())>> own;

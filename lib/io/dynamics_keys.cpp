@@ -19,6 +19,7 @@ constexpr Key kWhile = {"while", "flow set", "the condition under which it flows
 
 constexpr std::array kComponent = {
     Key{"like", "text", "the observer before it that it is a copy of; 'none' removes a part"},
+    Key{"for", "texts", "the indices of a family of observers"},
     kState,
     kMode,
     kOutput,

@@ -102,9 +102,19 @@ model::NoiseText noise(const YamlFile& file, const YamlItem& item) {
   return result;
 }
 
+/// The only one of its kind, which is no family.
+model::Component single(const YamlFile& file, const YamlItem& item,
+                        std::vector<model::MeasuredText>* measured) {
+  model::Component result = component(file, item, {}, measured);
+  if (!result.indices.empty())
+    throw InputError(result.indices.front().place,
+                     "for: a family of observers is an entry of 'observers'");
+  return result;
+}
+
 void read_observers(const YamlFile& file, const std::optional<YamlItem>& one,
                     const std::optional<YamlItem>& several, model::Method& method) {
-  if (one) method.observers.push_back(component(file, *one, {}));
+  if (one) method.observers.push_back(single(file, *one, nullptr));
   if (!several) return;
   for (const YamlItem& item : items_of(file, several, "observers"))
     method.observers.push_back(component(file, item, method.observers));
@@ -129,7 +139,7 @@ void read_dynamics(const YamlFile& file, YamlMap& map, model::Method& method) {
   const auto order = map.find("order");
   const auto inputs = map.find("inputs");
   const auto noises = map.find("noise");
-  if (plant) method.plant = component(file, *plant, {}, &method.measured);
+  if (plant) method.plant = single(file, *plant, &method.measured);
   method.plant.name = "plant";
   read_observers(file, observer, observers, method);
   const auto timer_item = map.find("timer");

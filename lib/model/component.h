@@ -61,6 +61,7 @@ struct FlowSetText {
 
 struct Component {
   std::string name{};  ///< "plant", "observer" or that of one of several
+  std::vector<expr::Index> indices{};  ///< of an observer: it is a family, "for: i in 1..N"
   std::vector<Declaration> states{};
   std::vector<Declaration> modes{};  ///< whole numbers that never flow
   std::vector<Output> outputs{};

@@ -194,6 +194,8 @@ void check_observers(const Method& method) {
     add_inputs(method, names);
     for (const NoiseText& noise : method.noise) names.add(noise.name, "noise", noise.place);
     add_component(observer, names);
+    names.check_indices(observer.indices);
+    if (!observer.indices.empty()) all.reserve_numbered(observer.name, "member", "family");
   }
 }
 

@@ -79,6 +79,44 @@ TEST(DynamicsRuns, WhatIsExpectedIsDecidedToTheAccuracy) {
   EXPECT_NE(coarse.exit, 0) << coarse.out;
 }
 
+/// A family of observers, its members written out, and one observer with a column for each.
+TEST(DynamicsRuns, ABankOfObserversIsThatOfItsMembers) {
+  const Folder folder;
+  const auto errors = [&](const std::string& observers, const std::string& claims) {
+    const std::string text =
+        "problem: bank\n"
+        "method:\n"
+        "  data: {l: {shape: scalar, for: i in 1..N}}\n"
+        "  let: {A: \"[0, 1; -1, 0]\", K(g): \"[2*g; g^2]\"}\n"
+        "  plant: {state: {x: {shape: 2, start: [1, 0]}}, output: {y: x(1)}, flow: {x: A*x}}\n"
+        "  observers:\n" +
+        observers + "  claims: {" + claims +
+        "}\ndata: {l: [2, 5]}\ncampaign: {runs: 3, horizon: 3, initial: {x: {box: [0.5, 1]}}}\n";
+    const Outcome outcome = gainsmith({"verify", folder.file("bank.yaml", text), "--json"});
+    EXPECT_EQ(outcome.exit, 0) << outcome.err;
+    std::vector<double> values;
+    for (const auto& claim : nlohmann::json::parse(outcome.out)["checks"])
+      values.push_back(claim["worst"]["value"]);
+    return values;
+  };
+  const std::string flow = "flow: {z: \"A*z + K(l(";
+  const std::string rest = "))*(y - z(1))\"}}\n";
+  const std::string start = "state: {z: {shape: 2, start: 0}}, ";
+  const std::string claim = "small: {shrinks: norm(x - z), to: 1}";
+  const auto family = errors("    o: {for: i in 1..N, " + start + flow + "i" + rest, claim);
+  EXPECT_EQ(family, errors("    o_1: {" + start + flow + "1" + rest + "    o_2: {" + start + flow +
+                               "2" + rest,
+                           claim));
+  const auto columns = errors(
+      "    o: {state: {z: {shape: 2 x N, start: 0}}, flow: {z: \"horzcat(i in 1..N, A*z(:, i) + "
+      "K(l(i))*(y - z(1, i)))\"}}\n",
+      "first: {shrinks: \"norm(x - z(:, 1))\", to: 1}, second: {shrinks: \"norm(x - z(:, 2))\", "
+      "to: 1}");
+  ASSERT_EQ(family.size(), columns.size());
+  for (std::size_t k = 0; k < family.size(); ++k)
+    EXPECT_NEAR(family[k], columns[k], 1e-9 * columns[k]);
+}
+
 TEST(DynamicsRuns, WhatCannotBeIsRefused) {
   const Folder folder;
   const auto refused = [&](const std::string& campaign, const std::string& message) {

@@ -85,6 +85,15 @@ TEST_F(Families, SumsRunOverTheirIndices) {
   EXPECT_EQ(world("sum(i in 1..2, I) + A(1)"), A(1) + 2 * Matrix::Identity(2, 2));
 }
 
+TEST_F(Families, ConcatenationsRunOverTheirIndices) {
+  EXPECT_EQ(world("horzcat(i in 1..N, i*A(i))"), world("[A(1), 2*A(2), 3*A(3)]"));
+  EXPECT_EQ(world("vertcat(i in 1..N, i != 2, A(i))"), world("[A(1); A(3)]"));
+  EXPECT_EQ(world("blkdiag(i in 1..2, A(i))"), world("blkdiag(A(1), A(2))"));
+  EXPECT_EQ(world("horzcat(A(1), [1; 2])"), world("[A(1), [1; 2]]"));
+  EXPECT_EQ(world("vertcat(i in 2..2, A(i))"), A(2));
+  EXPECT_EQ(world("horzcat(i in 1..3, vertcat(j in 1..2, i*j))"), world("[1, 2, 3; 2, 4, 6]"));
+}
+
 TEST_F(Families, ASumOfOneArgumentIsThatOfItsElements) {
   EXPECT_NEAR(world("sum(A(1))")(0, 0), A(1).sum(), 1e-15);
   EXPECT_EQ(world("sum([1, 2, 3])")(0, 0), 6);
@@ -111,13 +120,18 @@ TEST_F(Families, MistakesAreNamed) {
       {"A(1.5)", "must be a whole number known beforehand, not '1.5'"},
       {"A(1, 2)", "takes 1 indices, not 2"},
       {"A(j)", "there is no dimension or index 'j' here"},
-      {"sum(i in 1..N)", "an index is allowed only in a sum, such as sum(i in 1..N, P(i))"},
+      {"sum(i in 1..N)", "an index is allowed only first in sum, horzcat, vertcat and blkdiag"},
       {"sum(i in 1..x, A(i))", "the end of a range must be a whole number"},
       {"sum(1, A(1))", "a sum is written sum(i in 1..N, P(i))"},
       {"sum(i in 1..N, i, A(i))", "expected a comparison of indices such as i != j"},
       {"sum(N in 1..2, A(1))", "'N' already has a meaning here"},
       {"sum(i in 1..2, sum(i in 1..2, A(i)))", "'i' already has a meaning here"},
-      {"exp(i in 1..2)", "an index is allowed only in a sum"},
+      {"exp(i in 1..2)", "an index is allowed only first in sum"},
+      {"horzcat(A(1), i in 1..2, A(i))", "an index is allowed only first in sum"},
+      {"horzcat(i in 1..N)", "an index is allowed only first in sum"},
+      {"horzcat(i in 2..1, A(i))", "horzcat: the indices have no values"},
+      {"horzcat(A(1), 1)", "all parts need as many rows; one is 2 x 2 and another 1 x 1"},
+      {"vertcat(i in 1..2, ones(1, i))", "all parts need as many columns"},
       {"kron(I, A(1))", "write eye(n)"},
       {"sum(i in 1..1000000000, A(1))", "an index has at most 100000"},
       {"sum(i in 1..2000000000, A(1))", "the end of a range is at most 1000000000"},
