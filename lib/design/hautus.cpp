@@ -273,10 +273,49 @@ std::string unreached_mode_text(const model::Instance& instance) {
   return "";
 }
 
+/// How the only state of a plant moves by itself: its flow, or its new value at the only event.
+const expr::Program* movement_of(const model::Dynamics& dynamics, bool& jumps) {
+  jumps = dynamics.flow.empty();
+  if (dynamics.flow.size() == 1) return &dynamics.flow.front().value.program;
+  if (!jumps || dynamics.reactions.size() != 1) return nullptr;
+  const auto& passes = dynamics.reactions.front().passes;
+  return passes.size() == 1 && passes.front().map.size() == 1
+             ? &passes.front().map.front().value.program
+             : nullptr;
+}
+
+/// A mode of a plant x' = A x or x+ = A x that nothing here is designed to move.
+std::string own_mode_text(const model::Instance& instance) {
+  const model::Design& design = *instance.design;
+  const auto A = instance.values.find("A");
+  if (!design.gains.empty() || !design.dynamics || design.states.size() != 1 ||
+      A == instance.values.end() || !is_declared(design, "A", true) || A->second.size() == 0)
+    return "";
+  bool jumps = false;
+  const expr::Program* const movement = movement_of(*design.dynamics, jumps);
+  if (movement == nullptr || !movement->functions.empty()) return "";
+  const std::string& state = design.states.front().name;
+  const numbers::Matrix slope =
+      Linearised(*movement, state, instance).slope(numbers::Vector::Zero(A->second.rows()));
+  if (slope.size() == 0 || slope != A->second) return "";
+  const numbers::Matrix nothing(0, slope.cols());
+  std::optional<HiddenMode> found;
+  for (const HiddenMode& mode : modes_of(slope, nothing, {}, Modes::all)) {
+    const auto growth = [&](const HiddenMode& of) {
+      return jumps ? std::abs(of.eigenvalue) - 1 : of.eigenvalue.real();
+    };
+    if (growth(mode) >= -mode.accuracy && (!found || growth(mode) > growth(*found))) found = mode;
+  }
+  if (!found) return "";
+  return "a mode of the plant does not decay: eigenvalue " + eigenvalue_text(*found) +
+         " of A in the direction " + direction_text(*found) + "; nothing here moves it";
+}
+
 }  // namespace
 
 std::string hidden_mode_text(const model::Instance& instance) {
   const model::Design& design = *instance.design;
+  if (std::string own = own_mode_text(instance); !own.empty()) return own;
   if (std::string unreached = unreached_mode_text(instance); !unreached.empty()) return unreached;
   if (design.states.empty()) return "";
   for (const std::string name : {"C", "C2"}) {

@@ -30,7 +30,9 @@ std::optional<HiddenMode> hidden_mode(const numbers::Matrix& A, const numbers::M
                                       Modes modes = Modes::not_decaying);
 
 /// The same for the data A (n x n) and C (p x n) of a design that declares them so, as a sentence;
-/// or of (A', B') for the data B, B2 (n x m) through which gains drive the plant. Empty without one.
+/// or of (A', B') for the data B, B2 (n x m) through which gains drive the plant; or the mode of A
+/// that grows most, of a plant whose only state moves by A alone in a design without gains. Empty
+/// without one.
 std::string hidden_mode_text(const model::Instance& instance);
 
 /// The same of the plant's linearisation by its state x, where its output y = h(x) is one of the

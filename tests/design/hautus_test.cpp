@@ -12,7 +12,7 @@ namespace {
 std::string text_for(const std::string& A, const std::string& C) {
   const tests::YamlProblem yaml(
       "problem: p\nmethod:\n  method: m\n  data: {A: n x n, C: p x n}\n"
-      "  unknowns: {P: symmetric n}\n  require: {positive: P > I}\n"
+      "  unknowns: {P: symmetric n}\n  require: {positive: P > I}\n  gains: {L: P}\n"
       "  plant: {state: {x: n}, flow: {x: A*x}}\ndata: {A: " +
       A + ", C: " + C + "}\nno campaign: static\n");
   return hidden_mode_text(yaml.instance);
@@ -59,11 +59,28 @@ TEST(Hautus, WhatAnInputDoesNotReachIsNamedWhereGainsUseIt) {
   const std::string rest = ", B1: \"[0; 0; 0; 1]\", C1: \"[0, 1, 0, 0]\"";
   EXPECT_TRUE(has(text_of_masses("hinf-state-feedback", "B2: \"zeros(4, 1)\"" + rest),
                   "[A - lambda*I, B2] loses rank"));
-  // The input of an analysis may reach what it likes; C2 of a state feedback is not measured.
-  EXPECT_EQ(text_of_masses("h2-norm", "B: \"zeros(4, 1)\", C: \"eye(4)\""), "");
+  // The input of an analysis may reach what it likes.
+  EXPECT_TRUE(has(text_of_masses("h2-norm", "B: \"zeros(4, 1)\", C: \"eye(4)\""),
+                  "a mode of the plant does not decay: eigenvalue 0"));
   EXPECT_TRUE(
       has(text_of_masses("output-feedback", "B2: \"[0; 0; 1; 0]\", C2: \"[1, -1, 0, 0]\"" + rest),
           "in the direction [1; 1; 0; 0], where [A - lambda*I; C2]"));
+}
+
+TEST(Hautus, OfAnAnalysisThePlantsOwnModesAreJudged) {
+  const auto text_of = [](const std::string& method, const std::string& A) {
+    const tests::YamlProblem yaml("problem: p\nmethod: " + method + "\ndata: {A: " + A +
+                                  ", B: [[0], [1]], C: [[1, 0]]}\n");
+    return hidden_mode_text(yaml.instance);
+  };
+  for (const char* method : {"hinf-norm", "h2-norm", "passivity"}) {
+    EXPECT_TRUE(has(text_of(method, "[[0.5, 1], [0, -1]]"), "eigenvalue 0.5 of A")) << method;
+    EXPECT_EQ(text_of(method, "[[-0.5, 2], [-2, -0.1]]"), "") << method;
+  }
+  for (const char* method : {"discrete-hinf-norm", "discrete-h2-norm", "discrete-passivity"}) {
+    EXPECT_TRUE(has(text_of(method, "[[0.5, 1], [0, -1]]"), "eigenvalue -1 of A")) << method;
+    EXPECT_EQ(text_of(method, "[[0.5, 1], [0, -0.9]]"), "") << method;
+  }
 }
 
 TEST(Hautus, NothingIsSaidWithoutAPlantOrWhereAllIsSeen) {
