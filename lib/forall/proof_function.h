@@ -138,7 +138,7 @@ class Function {
         spread.errors.push_back(chord_error(jet, piece.high[i] - piece.low[i]));
         if (jet.order == 2 && jet.derivatives[2].is_known())
           spread.sags.push_back(sag(jet.derivatives[2], piece.high[i] - piece.low[i]));
-        else if (jet.order < 2 && spread.errors.back().isZero(0))
+        else if (jet.order < 2)
           spread.sags.push_back(numbers::exactly<double>(spread.errors.back()));
       }
     } catch (const expr::EvaluationError& error) {
@@ -174,15 +174,12 @@ class Function {
 
   static Matrix chord_error(const numbers::Jet& jet, double width) {
     const Eigen::Index n = jet.value().rows();
-    if (jet.order == 0) return Matrix::Zero(n, n);
+    if (jet.order < 2) return Matrix::Zero(n, n);  // affine: it is its chord
     const double w = width * (1 + 0x1p-50);
-    Matrix error = jet.derivatives[1].rad * (w / 2);
-    if (jet.order == 2) {
-      const auto& bend = jet.derivatives[2];
-      error =
-          error.cwiseMin(((bend.mid.cwiseAbs() + bend.rad) * (w * w / 8 * (1 + 0x1p-50))).eval());
-    }
-    return error * (1 + 0x1p-50);
+    const auto& bend = jet.derivatives[2];
+    const Matrix by_slope = jet.derivatives[1].rad * (w / 2);
+    const Matrix by_bend = (bend.mid.cwiseAbs() + bend.rad) * (w * w / 8 * (1 + 0x1p-50));
+    return by_slope.cwiseMin(by_bend) * (1 + 0x1p-50);
   }
 
   const std::vector<const Variable*>& axes_;

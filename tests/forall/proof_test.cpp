@@ -204,6 +204,53 @@ TEST(ProofTest, KinksInMatrices) {
 }
 
 /// c + cos(40 t) cos(30 s) + 0.1 t + 0.1 s: the minimum is c - 0.99215, near (pi/40, 0).
+/// However wide its interval is, and though the slope varies with the others.
+TEST(ProofTest, WhatIsAffineInAVariableIsJudgedAtItsEnds) {
+  const auto pieces = [](const std::string& text, double limit) {
+    const Domain domain = {interval("t", -0.5, 0.5), interval("u", -limit, limit)};
+    const DomainProof proof = prove(text, domain, {{"limit", number(limit)}});
+    EXPECT_EQ(proof.status, Status::holds) << text << ": " << proof.where;
+    return proof.pieces;
+  };
+  const std::string text = "[1.05*limit, u*cos(t); u*cos(t), 1.05*limit + u*sin(t)^2/20]";
+  EXPECT_LE(pieces(text, 1), 40U);
+  EXPECT_EQ(pieces(text, 1), pieces(text, 1024));
+}
+
+TEST(ProofTest, RandomFormsThatAreAffineInSomeVariables) {
+  std::mt19937 random(17);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const auto matrix = [&] {
+    return Matrix(Matrix::NullaryExpr(3, 3, [&] { return uniform(random); }));
+  };
+  int held = 0, failed = 0;
+  for (int k = 0; k < 40; ++k) {
+    numbers::Values known = {{"A", matrix()},
+                             {"B", matrix()},
+                             {"C", matrix()},
+                             {"m", number(1 + 3 * (uniform(random) + 1))}};
+    const std::string text = "m*eye(3) + He(sin(2*t)*A + u*cos(3*t)*B + u*v*(1 + t)*C)/2";
+    const Domain domain = {interval("t", -1, 1), interval("u", -1, 1), interval("v", -0.5, 1)};
+    const DomainProof proof = prove(text, domain, known);
+    double least = 1;
+    const auto program = testing::program(text, domain, known);
+    for (int i = 0; i < 2000; ++i) {
+      known["t"] = number(uniform(random));
+      known["u"] = number(i % 2 == 0 ? std::copysign(1, uniform(random)) : uniform(random));
+      known["v"] = number(i % 4 < 2 ? (uniform(random) < 0 ? -0.5 : 1) : uniform(random) / 2);
+      least = std::min(least, numbers::smallest_eigenvalue(numbers::evaluate(program, known)));
+    }
+    if (proof.status == Status::holds) {
+      EXPECT_GT(least, 0) << k;
+    }
+    held += proof.status == Status::holds ? 1 : 0;
+    failed += proof.status == Status::fails ? 1 : 0;
+  }
+  EXPECT_GE(held, 5);
+  EXPECT_GE(failed, 5);
+  EXPECT_GE(held + failed, 38);
+}
+
 TEST(ProofTest, BoxesOfSeveralVariables) {
   const Domain box = {interval("t", 0, 1), interval("s", 0, 1)};
   const std::string wave = "c + cos(40*t)*cos(30*s) + 0.1*t + 0.1*s";
