@@ -15,6 +15,9 @@ namespace gainsmith::app {
 
 namespace {
 
+constexpr const char* kLongerHorizon =
+    "the end of a run is compared with its start: a longer campaign.horizon leaves it more time";
+
 /// What JSON has no number for has no value.
 std::optional<double> finite(double value) {
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
@@ -112,9 +115,7 @@ std::string check_text(const verify::CheckReport& check, std::size_t width) {
   text += fmt::format("{} run {}: {} against {} at (t, j) = ({}, {})\n", held ? "nearest" : "worst",
                       check.worst_run, value, bound, brief(worst.t), worst.j);
   if (check.kind == model::ClaimKind::shrinks && worst.violated())
-    text +=
-        "               the end of a run is compared with its start: a longer campaign.horizon "
-        "leaves it more time\n";
+    text += fmt::format("               {}\n", kLongerHorizon);
   if (worst.undecided()) text += "               " + uncertainty_text(check.kind, worst) + "\n";
   if (worst.tolerance > 0)
     text += fmt::format("               within a tolerance of {} {}\n", brief(worst.tolerance),
@@ -295,9 +296,12 @@ std::vector<std::string> campaign_causes(const verify::Report& report,
   std::stable_sort(violated.begin(), violated.end(),
                    [](const auto* a, const auto* b) { return a->worst.score > b->worst.score; });
   for (const verify::CheckReport* check : violated)
-    causes.push_back(fmt::format("claim {} ({}) violated in {}: ", check->name,
-                                 kind_text(check->kind), runs_text(check->violations)) +
-                     violation_text(*check, report) + replay(check->worst_run));
+    causes.push_back(
+        fmt::format("claim {} ({}) violated in {}: ", check->name, kind_text(check->kind),
+                    runs_text(check->violations)) +
+        violation_text(*check, report) +
+        (check->kind == model::ClaimKind::shrinks ? fmt::format("; {}", kLongerHorizon) : "") +
+        replay(check->worst_run));
   return causes;
 }
 

@@ -1,5 +1,6 @@
 #include "gainsmith/job.h"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <exception>
@@ -156,6 +157,12 @@ class Job {
     std::optional<verify::Report> campaign;
     try {
       if (why_no_campaign(gains).empty()) setup = verify::make_setup(instance_, gains);
+      const auto is_stated = [](const claims::Claim& claim) { return claim.stated(); };
+      if (setup && gains.verdict != model::Verdict::yes &&
+          std::ranges::none_of(setup->claims(), is_stated)) {
+        unstated_ = "no claim has a value without " + setup->claims().front().missing.front();
+        setup.reset();
+      }
       if (setup) campaign = verify_gains(*setup);
     } catch (const InputError&) {
       write();
@@ -182,6 +189,7 @@ class Job {
   /// Empty when the method can be simulated and every gain has a value.
   std::string why_no_campaign(const model::Gains& gains) const {
     const model::Design& design = *instance_.design;
+    if (!unstated_.empty()) return unstated_;
     if (!design.no_campaign.empty()) return design.no_campaign;
     if (!design.dynamics) return "the method has no dynamics";
     if (design.claims.empty()) return "the method makes no claims";
@@ -243,6 +251,7 @@ class Job {
   const JobOptions& options_;
   std::string& hash_;
   std::optional<hybrid::Trajectory> first_run_;  ///< where the campaign drew it
+  std::string unstated_;                         ///< why a campaign would judge nothing
 };
 
 /// The path of a problem from the folder of its results; empty for standard input.

@@ -201,6 +201,20 @@ TEST(Better, AReportWithoutAValueKeepsTheGains) {
   EXPECT_EQ(gainsmith({"verify", gains, "--runs", "5"}).exit, 0);
 }
 
+/// Its claim needs the unknowns, which a no leaves without values.
+TEST(Better, RunSaysNoOfAnAnalysisThatHasACampaign) {
+  const Folder folder;
+  const std::string file = folder.file(
+      "p.yaml",
+      "problem: p\nmethod: hinf-norm\ndata: {A: [[0.5, 1], [0, -1]], B: [[0], [1]], C: [[1, 0]]}\n"
+      "campaign: {runs: 5, horizon: 1, initial: {x: {box: [-1, 1]}}}\n");
+  const Outcome outcome = gainsmith({"run", file, "-o", folder.path("out")});
+  EXPECT_EQ(outcome.exit, 1);
+  EXPECT_TRUE(has(outcome.out, "no campaign: no claim has a value without P")) << outcome.out;
+  EXPECT_TRUE(has(outcome.out, "a mode of the plant does not decay: eigenvalue 0.5 of A"))
+      << outcome.out;
+}
+
 /// What jumps enlarge the flows must have forgotten: in flows of equal length the error of the runs
 /// grows where the reported factor is above 1.
 TEST(Better, ALambdaThatIsTooSmallIsSeenInTheReport) {
