@@ -68,7 +68,7 @@ TEST_F(Messages, FunctionsOfOtherLanguagesLeadToTheirNamesHere) {
                                  "reshape",
                                  "hstack",
                                  "vstack",
-                                 "horzcat",
+                                 "hcat",
                                  "block_diag",
                                  "solve",
                                  "dot",
