@@ -273,6 +273,7 @@ double Breaks::distance(std::size_t k, const VectorXd& x, const VectorXd& r) {
 std::optional<std::vector<ode::Break>> Breaks::on(const std::function<const VectorXd&(double)>& x,
                                                   double from, double to, const numbers::Box& box,
                                                   std::vector<double>* near) {
+  constexpr std::size_t kMostKnown = 1 << 14;  // a search near rounding asks for millions
   std::vector<ode::Break> breaks;
   if (none() || !(from < to)) return breaks;
   std::optional<std::array<VectorXd, 3>> points;
@@ -291,6 +292,7 @@ std::optional<std::vector<ode::Break>> Breaks::on(const std::function<const Vect
       for (const VectorXd& point : *points) terms = std::fmax(terms, element(text.terms, point, e));
       const auto difference = [&](double t) {
         if (size == 1) return at(x(t));
+        if (known.size() >= kMostKnown) known.clear();
         const auto [value, fresh] = known.try_emplace(t);
         if (fresh) value->second = value_at(text.value, x(t));
         return value->second.size() > 0 ? value->second(e)
