@@ -423,7 +423,7 @@ Finding ClaimCheck<Scalar>::shrinks(const Track& track) {
                 bounded::unit_roundoff<Scalar>() * bounded::size_of(bound.value);
   const double scale = static_cast<double>(bound.value);
   const Bounded most = eased(bound, bounded::size_of(bound.value), bound.bound);
-  const bool nothing = start.value == Scalar(0) && start.bound == 0;
+  const bool nothing = start.value == Scalar(0);
   const bool lost = track.termination == bounded::Termination::lost;
   const Judgement judgement = lost      ? Judgement::undecided
                               : nothing ? Judgement::held

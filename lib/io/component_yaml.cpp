@@ -247,9 +247,7 @@ Component component(const YamlFile& file, const YamlItem& item,
   read("flow", result.flow, assignment);
   read("jump", result.jump, assignment);
   read("at", result.at, reaction);
-  Removed removed;
-  const auto own_events = map.find("events");
-  overlay(result.events, events(file, own_events, item.key + ".events"), removed);
+  read("events", result.events, event);
   if (const auto frozen = map.find("frozen"))
     result.frozen = file.expression(frozen->value, "frozen");
   if (const auto flow_set = map.find("while")) result.flow_sets = flow_sets(file, flow_set);

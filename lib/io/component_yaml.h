@@ -16,6 +16,8 @@ model::Component component(const YamlFile& file, const YamlItem& item,
                            const std::vector<model::Component>& before,
                            std::vector<model::MeasuredText>* measured = nullptr);
 
+model::EventText event(const YamlFile& file, const YamlItem& item);
+
 /// The events of a mapping.
 std::vector<model::EventText> events(const YamlFile& file, const std::optional<YamlItem>& item,
                                      const std::string& what);

@@ -27,7 +27,7 @@ constexpr std::array kComponent = {
     kFlow,
     kJump,
     Key{"at", "{reaction | 'none'}?", "what it does at events"},
-    kEvents,
+    Key{"events", "{event | 'none'}?", "events of its own"},
     kFrozen,
     kWhile};
 

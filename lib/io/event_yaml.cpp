@@ -42,6 +42,8 @@ void read_lost(const YamlFile& file, const YamlItem& item, model::EventText& eve
   map.finish();
 }
 
+}  // namespace
+
 model::EventText event(const YamlFile& file, const YamlItem& item) {
   if (!item.value.IsMap())
     throw InputError(item.place, "the event '" + item.key +
@@ -84,8 +86,6 @@ model::EventText event(const YamlFile& file, const YamlItem& item) {
   if (lost) read_lost(file, *lost, result);
   return result;
 }
-
-}  // namespace
 
 std::vector<expr::Expression> one_or_two(const YamlFile& file, const YamlItem& item) {
   if (!item.value.IsSequence()) return {file.expression(item.value, item.key)};

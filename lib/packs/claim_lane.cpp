@@ -182,7 +182,7 @@ void ClaimLane::finish() {
     score_ = scale == 0 ? -1 : (last_.value - first_.value) / scale;
   if (claim_->kind != ClaimKind::shrinks) return;
   const double goal = limit_ * first_.value;
-  if (first_.value == 0 && first_.error == 0) {
+  if (first_.value == 0) {
     score_ = -1;
     return;
   }

@@ -79,6 +79,50 @@ TEST(DynamicsRuns, WhatIsExpectedIsDecidedToTheAccuracy) {
   EXPECT_NE(coarse.exit, 0) << coarse.out;
 }
 
+/// Whoever makes the runs, in packs or carefully, linear or not.
+TEST(DynamicsRuns, AValueThatStartsAtZeroHasShrunk) {
+  const Folder folder;
+  for (const std::string pull : {"k*sin(x(1))", "k*x(1)"})
+    for (const std::string value : {"norm(e)", "e'*e", "norm(e)^3", "max(abs(e))"}) {
+      const std::string text =
+          "problem: p\n"
+          "method:\n"
+          "  let: {k: 9.81, f(x): \"[x(2); -" +
+          pull +
+          " - 0.1*x(2)]\"}\n"
+          "  events: {sample: {every: [0.05, 0.2]}}\n"
+          "  noise: {w: {normal: 0.01, new at: sample}}\n"
+          "  plant: {state: {x: {shape: 2, start: [1, 0]}}, output: {y: {value: x(1) + w, at: "
+          "sample}}, "
+          "flow: {x: f(x)}}\n"
+          "  observer: {state: {xh: {shape: 2, start: [1, 0]}}, flow: {xh: f(xh)}, "
+          "at: {sample: {xh: \"xh + [0.1; 0]*(y - xh(1))\"}}}\n"
+          "  signals: {e: x - xh}\n"
+          "  claims: {small: {shrinks: \"" +
+          value +
+          "\", to: 0.5}}\n"
+          "campaign: {horizon: 3, runs: 20}\n";
+      const Outcome outcome = gainsmith({"verify", folder.file("p.yaml", text)});
+      EXPECT_EQ(outcome.exit, 0) << pull << " " << value << outcome.out << outcome.err;
+    }
+}
+
+TEST(DynamicsRuns, ACopyLeavesOutAnEvent) {
+  const Folder folder;
+  const std::string text =
+      "problem: p\n"
+      "method:\n"
+      "  plant: {state: {x: {shape: 1, start: 1}}, output: {y: x}, flow: {x: -x}}\n"
+      "  observers:\n"
+      "    a: {state: {xh: {shape: 1, start: 0}}, mode: {q: 0}, flow: {xh: y - 2*xh}, "
+      "events: {far: {when: q == 0 and xh >= 0.1}}, at: {far: {q: 1}}}\n"
+      "    b: {like: a, events: {far: none}, at: {far: none}}\n"
+      "campaign: {horizon: 2, runs: 1}\n";
+  const Outcome outcome = gainsmith({"check", folder.file("p.yaml", text)});
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+  EXPECT_TRUE(has(outcome.out, "events      a.far\n")) << outcome.out;
+}
+
 /// A family of observers, its members written out, and one observer with a column for each.
 TEST(DynamicsRuns, ABankOfObserversIsThatOfItsMembers) {
   const Folder folder;
