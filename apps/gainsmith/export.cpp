@@ -189,6 +189,10 @@ ExitCode export_gains(const ExportOptions& options) {
   if (text.empty()) {
     content.notes.clear();
     const auto matrices = exports::matrices_of(loaded.gains, content.notes);
+    if (matrices.empty() && options.target != "json")
+      throw InputError({options.gains},
+                       "no gain is a matrix, so there is nothing to write as " + options.target +
+                           "; c, matlab and python have the maps of the observers");
     if (options.target == "csv") {
       write_csv(options, matrices);
     } else {

@@ -195,8 +195,9 @@ void check_observers(const Method& method) {
     for (const NoiseText& noise : method.noise) names.add(noise.name, "noise", noise.place);
     add_component(observer, names);
     names.check_indices(observer.indices);
-    if (!observer.indices.empty()) all.reserve_numbered(observer.name, "member", "family");
   }
+  for (const Component& observer : method.observers)
+    if (!observer.indices.empty()) all.reserve_numbered(observer.name, "member", "family");
 }
 
 }  // namespace

@@ -47,6 +47,8 @@ TEST(ObserverFamilies, MistakesHaveTheirPlace) {
        "'w' is an index here, but it already names"},
       {"observers: {o_1: {state: {v: 1}}, o: {for: i in 1..2, state: {w: 1}}}",
        "'o_1' is the name of a member of o, which is a family"},
+      {"observers: {o: {for: i in 1..2, state: {w: 1}}, o_1: {state: {v: 1}}}",
+       "'o_1' is the name of a member of o, which is a family"},
       {"observers: {o: {for: i in 1..2, state: {w: {shape: 1, start: 0}}, flow: {w: i*q}}}",
        "unknown name 'q'"}};
   for (const auto& [observers, message] : slips) {
