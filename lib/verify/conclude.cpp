@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/stop.h"
 #include "verify/campaign.h"
 #include "verify/statistics.h"
 
@@ -18,7 +19,7 @@ void take_careful(const CampaignPart& part, Tally& tally) {
     ClaimTally& claim = tally.claims[c];
     const auto known = part.repeats.find(claim.run);
     if (known == part.repeats.end() || !known->second.careful) {
-      if (tally.runs < part.facts.asked) continue;  // stopped before
+      if (tally.runs < part.facts.asked || is_stopping()) continue;  // stopped before
       throw std::logic_error("a worst run was not repeated");
     }
     const Repeat::Careful& again = *known->second.careful;

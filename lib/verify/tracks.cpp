@@ -274,9 +274,12 @@ void EventTracks::end(const hybrid::Trajectory& coarse, const hybrid::Trajectory
   ended_early_ = same && !complete;
   const bool breaks = fine.ending == Ending::escaped || fine.ending == Ending::undefined ||
                       fine.ending == Ending::stuck;
+  // When it escapes is no matter.
+  const bool both_escape =
+      doubt_.empty() && coarse.ending == Ending::escaped && fine.ending == Ending::escaped;
   if (same && complete) {
     track_.termination = Termination::horizon;
-  } else if (same && breaks) {
+  } else if ((same && breaks) || both_escape) {
     track_.termination = Termination::broken_off;
   } else {
     track_.termination = Termination::lost;

@@ -41,6 +41,9 @@ TEST(ObserverFamilies, MistakesHaveTheirPlace) {
   const std::vector<std::pair<std::string, std::string>> slips = {
       {"observer: {for: i in 1..2, state: {w: 1}}",
        "a family of observers is an entry of 'observers'"},
+      {"observers: {o: {for: [i in 1..2, k in 1..2], state: {w: 1}}, o_1: {for: k in 1..2, state: "
+       "{w: 1}}}",
+       "'o_1' is the name of a member of o, which is a family"},
       {"observers: {o: {for: i in 2..1, state: {w: 1}}}", "runs from 2 to 1"},
       {"observers: {o: {for: i in 1..k, state: {w: 1}}}", "there is no dimension or index 'k'"},
       {"observers: {o: {for: w in 1..2, state: {w: 1}}}",

@@ -107,6 +107,22 @@ TEST(DynamicsRuns, AValueThatStartsAtZeroHasShrunk) {
     }
 }
 
+/// Two integrations escape a little apart.
+TEST(DynamicsRuns, AnObserverThatEscapesViolatesItsClaims) {
+  const Folder folder;
+  const std::string text =
+      "problem: p\n"
+      "method:\n"
+      "  plant: {state: {x: {shape: 1, start: 1}}, output: {y: x}, flow: {x: -sin(x)}}\n"
+      "  observer: {state: {z: {shape: 1, start: 0}}, flow: {z: -sin(z) - 30*(y - z)}}\n"
+      "  signals: {e: x - z}\n"
+      "  claims: {small: {shrinks: norm(e), to: 0.5}}\n"
+      "campaign: {horizon: 30, runs: 5, initial: {x: {box: [-1, 1]}}}\n";
+  const Outcome outcome = gainsmith({"verify", folder.file("p.yaml", text)});
+  EXPECT_EQ(outcome.exit, 1) << outcome.out << outcome.err;
+  EXPECT_TRUE(has(outcome.out, "violated in 5 of 5 runs")) << outcome.out;
+}
+
 TEST(DynamicsRuns, ACopyLeavesOutAnEvent) {
   const Folder folder;
   const std::string text =

@@ -35,15 +35,15 @@ TEST(SearchTest, ANoAtAHeldScalarIsNoNoOfTheProblem) {
   EXPECT_EQ(gainsmith({"synth", file}).exit, 0);
   const Outcome explained = gainsmith({"explain", file});
   EXPECT_EQ(explained.exit, 3);
-  EXPECT_NE(explained.out.find("verdict     no at b = 0.001, infeasible by a checked certificate; "
+  EXPECT_NE(explained.out.find("verdict     no at b = 1e-06, infeasible by a checked certificate; "
                                "synth also searches b\n"),
             std::string::npos)
       << explained.out;
-  EXPECT_EQ(gainsmith({"explain", file, "--json"}).json()["held"]["b"], 0.001);
-  EXPECT_EQ(gainsmith({"explain", file, "--set", "b=0.001"}).exit, 1);
+  EXPECT_EQ(gainsmith({"explain", file, "--json"}).json()["held"]["b"], 1e-6);
+  EXPECT_EQ(gainsmith({"explain", file, "--set", "b=1e-6"}).exit, 1);
   const Outcome bisected = gainsmith({"bisect", file, "--largest", "alpha", "--in", "1.7", "1.8"});
   EXPECT_EQ(bisected.exit, 3);
-  EXPECT_NE(bisected.out.find("values tried in [1.7, 1.8] at b = 0.001; each is excluded"),
+  EXPECT_NE(bisected.out.find("values tried in [1.7, 1.8] at b = 1e-06; each is excluded"),
             std::string::npos)
       << bisected.out;
 }
