@@ -160,7 +160,7 @@ class Job {
       const auto is_stated = [](const claims::Claim& claim) { return claim.stated(); };
       if (setup && gains.verdict != model::Verdict::yes &&
           std::ranges::none_of(setup->claims(), is_stated)) {
-        unstated_ = "no claim has a value without " + setup->claims().front().missing.front();
+        unstated_ = "no claim can be judged without " + setup->claims().front().missing.front();
         setup.reset();
       }
       if (setup) campaign = verify_gains(*setup);

@@ -273,8 +273,8 @@ std::string unreached_mode_text(const model::Instance& instance) {
   return "";
 }
 
-/// How the only state of a plant moves by itself: its flow, or its new value at the only event.
-const expr::Program* movement_of(const model::Dynamics& dynamics, bool& jumps) {
+/// The equation of the only state of a plant: its flow, or its new value at the only event.
+const expr::Program* state_equation(const model::Dynamics& dynamics, bool& jumps) {
   jumps = dynamics.flow.empty();
   if (dynamics.flow.size() == 1) return &dynamics.flow.front().value.program;
   if (!jumps || dynamics.reactions.size() != 1) return nullptr;
@@ -292,11 +292,11 @@ std::string own_mode_text(const model::Instance& instance) {
       A == instance.values.end() || !is_declared(design, "A", true) || A->second.size() == 0)
     return "";
   bool jumps = false;
-  const expr::Program* const movement = movement_of(*design.dynamics, jumps);
-  if (movement == nullptr || !movement->functions.empty()) return "";
+  const expr::Program* const equation = state_equation(*design.dynamics, jumps);
+  if (equation == nullptr || !equation->functions.empty()) return "";
   const std::string& state = design.states.front().name;
   const numbers::Matrix slope =
-      Linearised(*movement, state, instance).slope(numbers::Vector::Zero(A->second.rows()));
+      Linearised(*equation, state, instance).slope(numbers::Vector::Zero(A->second.rows()));
   if (slope.size() == 0 || slope != A->second) return "";
   const numbers::Matrix nothing(0, slope.cols());
   std::optional<HiddenMode> found;
@@ -308,7 +308,8 @@ std::string own_mode_text(const model::Instance& instance) {
   }
   if (!found) return "";
   return "a mode of the plant does not decay: eigenvalue " + eigenvalue_text(*found) +
-         " of A in the direction " + direction_text(*found) + "; nothing here moves it";
+         " of A in the direction " + direction_text(*found) +
+         "; the design has no gain that changes it";
 }
 
 }  // namespace

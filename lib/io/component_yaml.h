@@ -16,6 +16,7 @@ model::Component component(const YamlFile& file, const YamlItem& item,
                            const std::vector<model::Component>& before,
                            std::vector<model::MeasuredText>* measured = nullptr);
 
+/// One event: "far: {when: norm(xh) >= 3}".
 model::EventText event(const YamlFile& file, const YamlItem& item);
 
 /// The events of a mapping.

@@ -274,7 +274,7 @@ void EventTracks::end(const hybrid::Trajectory& coarse, const hybrid::Trajectory
   ended_early_ = same && !complete;
   const bool breaks = fine.ending == Ending::escaped || fine.ending == Ending::undefined ||
                       fine.ending == Ending::stuck;
-  // When it escapes is no matter.
+  // Two integrations need not escape at the same time.
   const bool both_escape =
       doubt_.empty() && coarse.ending == Ending::escaped && fine.ending == Ending::escaped;
   if (same && complete) {

@@ -210,7 +210,7 @@ TEST(Better, RunSaysNoOfAnAnalysisThatHasACampaign) {
       "campaign: {runs: 5, horizon: 1, initial: {x: {box: [-1, 1]}}}\n");
   const Outcome outcome = gainsmith({"run", file, "-o", folder.path("out")});
   EXPECT_EQ(outcome.exit, 1);
-  EXPECT_TRUE(has(outcome.out, "no campaign: no claim has a value without P")) << outcome.out;
+  EXPECT_TRUE(has(outcome.out, "no campaign: no claim can be judged without P")) << outcome.out;
   EXPECT_TRUE(has(outcome.out, "a mode of the plant does not decay: eigenvalue 0.5 of A"))
       << outcome.out;
 }

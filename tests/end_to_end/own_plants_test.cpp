@@ -320,6 +320,10 @@ INSTANTIATE_TEST_SUITE_P(
             "claims: {kept_by_pull: none, projected: {below: \"max(limits(projected.xh))\", "
             "bound: 1e-9, over: projected.outside}}}",
             luenberger("[1, 0]") + "parameters: {gamma_c: 50, delta_max: 40}\n", ""},
+        Own{"starts_outside_of_the_disc",
+            "{like: constrained-redesign, let: {limits(x): \"x'*x*4 - 1\"}}",
+            luenberger("[1, 0]") + "parameters: {gamma_c: 50, delta_max: 40}\n",
+            "the assumption 'the plant starts in the set'"},
         Own{"half_plane", "constrained-redesign",
             "let: {A: \"[-0.3, 0.2; 0, -0.2]\", L: \"[4; 3]\"}\n"
             "data:\n"
