@@ -1,8 +1,8 @@
-// x' = f(t, x) by SUNDIALS CVODE: steps of its error control, the solution at any time by its dense
-// output.
+// x' = f(t, x) in steps of an error control; within a step the solution is a polynomial.
 //
-// Adams of variable order with fixed-point iterations; where that takes too many steps or does not
-// converge, the flow is stiff and goes on with BDF and Newton's method.
+// The explicit method of order 8 of Dormand and Prince (explicit_steps.h); where what decays fast
+// keeps its steps short, or none is short enough, the flow is stiff and goes on with BDF
+// (implicit_steps.h).
 #pragma once
 
 #include <Eigen/Core>
@@ -12,10 +12,6 @@
 #include <string>
 
 namespace gainsmith::ode {
-
-namespace cvode {
-class Solver;
-}
 
 /// A flow that cannot be continued.
 struct IntegrationError : std::runtime_error {
@@ -65,7 +61,8 @@ class Integrator {
   void within(double t, Eigen::VectorXd& x);
 
  private:
-  std::unique_ptr<cvode::Solver> cvode_;
+  class Methods;
+  std::unique_ptr<Methods> methods_;
   double t_ = 0, last_ = 0;  ///< of a flow of size 0
 };
 

@@ -20,8 +20,11 @@ constexpr int kPatience = 10000;  ///< attempts at one place
 constexpr double kEscape = 1e4;  ///< times the start, and what the flow does at its first rate
 ///< | a flow that has grown by this while its steps fall to nothing escapes
 ///< | JudgedEnds.EscapedMeansLargeOrAtOnce
-constexpr long kStiffFailures = 50;  ///< in a thousand steps
-///< | a flow whose fixed-point iterations fail more often is stiff
+constexpr double kWithin = 16;  ///< times the error at the end of an explicit step
+///< | the error of the polynomial within the step
+///< | Integrator.IsAsAccurateWithinStepsAsAtTheirEnds
+constexpr double kManySteps = 1000;  ///< steps of one flow
+///< | a flow that needs so many more, because its steps are as long as stability permits, is stiff
 ///< | EventFlow.VeryStiffFlowsDoNotStandStill
 constexpr int kMostIterations = 40;  ///< iterations
 ///< | what solves the stages of a Gauss step takes no more

@@ -3,31 +3,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "ode/step_control.h"
+
 namespace gainsmith::packs {
 
 using lanes::kLanes;
-
-namespace {
-
-/// 0.9 e^(-1/8) for the power of 2 above e, within [0.2, 4]: the same on every machine.
-double step_factor(double error) {
-  if (!(error > 0)) return 4;
-  int exponent = 0;
-  std::frexp(error, &exponent);
-  constexpr double eighths[] = {1,
-                                0.917004043204671232,
-                                0.840896415253714543,
-                                0.771105412703970411,
-                                0.707106781186547524,
-                                0.648419777325504832,
-                                0.594603557501360533,
-                                0.545253866332628830};
-  const int part = ((exponent % 8) + 8) % 8;
-  const double factor = 0.9 * std::ldexp(eighths[part], -(exponent - part) / 8);
-  return std::clamp(factor, 0.2, 4.0);
-}
-
-}  // namespace
 
 void LaneSet::step(const LaneValues& from, double share, LaneValues& to, std::uint32_t active,
                    std::uint32_t& faults) {
@@ -104,7 +84,7 @@ bool LaneSet::judge_step(std::size_t l, bool fault) {
   PackLane& lane = *lanes_[l];
   const double error = errors_.at(0, l);
   if (fault || !std::isfinite(error)) return shorten(lane, 0.25);
-  if (error > 1) return shorten(lane, std::min(step_factor(error), 0.9));
+  if (error > 1) return shorten(lane, std::min(ode::step_factor(error), 0.9));
   if (std::any_of(pack_.flats.begin(), pack_.flats.end(),
                   [&](std::size_t k) { return bends(k, l); }))
     return shorten(lane, 0.5);
@@ -217,7 +197,7 @@ bool LaneSet::accept(std::size_t l) {
   fine_.copy_lane(fine_end_, l);
   start_.copy_lane(end_, l);
   coarse_start_.copy_lane(coarse_look_, l);
-  const double wanted = lane.h * step_factor(errors_.at(0, l));
+  const double wanted = lane.h * ode::step_factor(errors_.at(0, l));
   const bool shortened = lane.forced > 0 || lane.h < lane.wanted;
   lane.wanted = shortened ? std::max(lane.wanted, wanted) : wanted;
   if (pack_.system->pulses)

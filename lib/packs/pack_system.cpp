@@ -5,7 +5,7 @@
 #include "expr/branches.h"
 #include "hybrid/breaks.h"
 #include "numbers/scalar_rules.h"
-#include "packs/dormand_prince.h"
+#include "ode/dormand_prince.h"
 #include "packs/jump_code.h"
 #include "packs/sharp_parts.h"
 #include "packs/square_of_norm.h"
@@ -52,11 +52,11 @@ class StepCode {
     ScalarGraph& graph = texts_.graph();
     const Nodes x = texts_.inputs();
     h_ = texts_.beside(0);
-    for (std::size_t stage = 0; stage < kStages; ++stage) {
-      Nodes at = stage == 0 ? x : moved(x, kStageWeights[stage - 1]);
+    for (std::size_t stage = 0; stage < ode::kStages; ++stage) {
+      Nodes at = stage == 0 ? x : moved(x, ode::kStageWeights[stage - 1]);
       k_.push_back(texts_.rates(at));
     }
-    const Nodes end = moved(x, kStageWeights.back());
+    const Nodes end = moved(x, ode::kStageWeights.back());
     Nodes out;
     for (const int row : pack_.rows) out.push_back(end[index(row)]);
     const int relative_factor = graph.multiply(texts_.beside(1), graph.constant(relative));
@@ -71,7 +71,7 @@ class StepCode {
                                    graph.apply(ScalarOp::abs, end[index(row)]));
       const int allowed = graph.add(graph.multiply(absolute_factor, graph.constant(absolute(row))),
                                     graph.multiply(relative_factor, size));
-      const int part5 = graph.divide(weighted(row, kErrorOfOrder5), allowed);
+      const int part5 = graph.divide(weighted(row, ode::kErrorOfOrder5), allowed);
       const int part3 = graph.divide(weighted(row, error_of_order_3()), allowed);
       sum5 = graph.add(sum5, graph.multiply(part5, part5));
       sum3 = graph.add(sum3, graph.multiply(part3, part3));
@@ -93,15 +93,15 @@ class StepCode {
     return false;
   }
 
-  static StageWeights error_of_order_3() {
-    StageWeights weights = kStageWeights.back();
-    weights[0] -= kOrder3Of1;
-    weights[8] -= kOrder3Of9;
-    weights[11] -= kOrder3Of12;
+  static ode::StageWeights error_of_order_3() {
+    ode::StageWeights weights = ode::kStageWeights.back();
+    weights[0] -= ode::kOrder3Of1;
+    weights[8] -= ode::kOrder3Of9;
+    weights[11] -= ode::kOrder3Of12;
     return weights;
   }
 
-  int weighted(int row, const StageWeights& weights) {
+  int weighted(int row, const ode::StageWeights& weights) {
     ScalarGraph& graph = texts_.graph();
     int sum = graph.constant(0);
     for (std::size_t j = 0; j < k_.size(); ++j)
@@ -110,7 +110,7 @@ class StepCode {
     return sum;
   }
 
-  Nodes moved(const Nodes& x, const StageWeights& weights) {
+  Nodes moved(const Nodes& x, const ode::StageWeights& weights) {
     ScalarGraph& graph = texts_.graph();
     Nodes at = x;
     for (const int row : pack_.rows)

@@ -5,7 +5,7 @@
 //                that balance M (numerics/balance.h): after a start they grow as long as the series
 //                of degree 12 agrees to rounding, up to 1/w with w the largest |Im| or Re of an
 //                eigenvalue, so that nothing is stepped over.
-//   integrated   CVODE (integrator.h); the polynomial of each of its own steps.
+//   integrated   the steps of an integrator (integrator.h), and their polynomials.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,0 +1,185 @@
+#include "ode/explicit_steps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "ode/step_control.h"
+#include "ode/tolerances.h"
+
+namespace gainsmith::ode {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr Index kAll = static_cast<Index>(kStages) + 4;
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+
+/// sum_j weights_j k_j.
+template <class Weights, class Stages>
+void add_up(const Weights& weights, const Stages& k, VectorXd& sum) {
+  sum = weights[0] * k.col(0);
+  for (std::size_t j = 1; j < weights.size(); ++j)
+    if (weights[j] != 0) sum += weights[j] * k.col(static_cast<Index>(j));
+}
+
+/// Of e / allowed.
+double mean_square(const VectorXd& e, const Eigen::ArrayXd& allowed) {
+  return (e.array() / allowed).square().mean();
+}
+
+}  // namespace
+
+ExplicitSteps::ExplicitSteps(FlowRate& rate)
+    : rate_(&rate), k_(rate.size(), kAll), terms_(rate.size(), kDegree + 1) {}
+
+void ExplicitSteps::start(double t, const VectorXd& x, double last, double relative,
+                          const VectorXd& absolute, double longest) {
+  from_ = t_ = t;
+  x_ = x;
+  last_ = last;
+  relative_ = relative;
+  absolute_ = absolute;
+  longest_ = longest;
+  short_ = free_ = 0;
+  has_first_ = false;
+  h_ = 0;
+}
+
+Eigen::ArrayXd ExplicitSteps::allowed(const VectorXd& other) const {
+  return absolute_.array() + relative_ * x_.array().abs().max(other.array().abs());
+}
+
+double ExplicitSteps::first_length() {
+  // Hairer, Norsett, Wanner, section II.4, with a power of 2 near the eighth root.
+  const double rest = last_ - t_;
+  const Eigen::ArrayXd scale = allowed(x_);
+  const double size = std::sqrt(mean_square(x_, scale));
+  const double slope = std::sqrt(mean_square(k_.col(0), scale));
+  const double first = std::min(
+      size < 1e-5 || slope < 1e-5 ? 1e-6 * rest : 0.01 * size / slope, std::min(rest, longest_));
+  at_ = x_ + first * k_.col(0);
+  // The time in which x, or its rate, changes by itself.
+  double lasts = 100 * first;
+  if (rate_->at(t_ + first, at_, k_.col(1).data())) {
+    const double changed = std::sqrt(mean_square(k_.col(1) - k_.col(0), scale));
+    if (changed > 0.01 * slope) lasts = first * slope / changed;
+  }
+  return lasts * std::min(1.0, step_factor(kWithin * slope * lasts));
+}
+
+ExplicitSteps::Result ExplicitSteps::step() {
+  if (!has_first_) {
+    if (!rate_->at(t_, x_, k_.col(0).data())) return Result::failed;
+    has_first_ = true;
+    h_ = first_length();
+  }
+  bool rejected = false;
+  while (true) {
+    const double rest = last_ - t_;
+    double h = std::min(h_, longest_);
+    if (h >= rest)
+      h = rest;
+    else if (2 * h > rest)
+      h = rest / 2;
+    if (h < rest && h <= 4 * kEpsilon * std::abs(t_)) return Result::failed;
+    if (!(h > 0)) return Result::failed;
+    if (!try_step(h)) {
+      h_ = h / 4;
+      rejected = true;
+      continue;
+    }
+    const auto [off, is_noise] = error(h);
+    if (!(off <= 1)) {
+      h_ = h * std::min(std::isfinite(off) ? step_factor(off) : 0.2, 0.9);
+      rejected = true;
+      continue;
+    }
+    if (!try_inner(h)) {
+      h_ = h / 4;
+      rejected = true;
+      continue;
+    }
+    const bool kept_short = is_kept_short(h, is_noise);
+    const double factor = step_factor(off);
+    // A step that was cut at the end says little about how long the next one may be.
+    h_ = std::max(h < h_ && !rejected ? h_ : 0, h * (rejected ? std::min(factor, 1.0) : factor));
+    from_ = t_;
+    t_ = h == rest ? last_ : t_ + h;
+    x_ = next_;
+    k_.col(0) = k_.col(kStages);
+    return kept_short ? Result::stiff : Result::made;
+  }
+}
+
+bool ExplicitSteps::try_step(double h) {
+  for (std::size_t stage = 1; stage <= kStages; ++stage) {
+    VectorXd& to = stage == kStages ? next_ : stage + 1 == kStages ? before_next_ : at_;
+    add_up(kStageWeights[stage - 1], k_, to);
+    to = x_ + h * to;
+    if (!rate_->at(t_ + kStageTimes[stage] * h, to, k_.col(static_cast<Index>(stage)).data()))
+      return false;
+  }
+  return true;
+}
+
+ExplicitSteps::Error ExplicitSteps::error(double h) const {
+  const Eigen::ArrayXd scale = allowed(next_);
+  VectorXd order5(x_.size());
+  add_up(kErrorOfOrder5, k_, order5);
+  StageWeights weights = kStageWeights.back();
+  weights[0] -= kOrder3Of1;
+  weights[8] -= kOrder3Of9;
+  weights[11] -= kOrder3Of12;
+  VectorXd order3(x_.size());
+  add_up(weights, k_, order3);
+  const double square5 = mean_square(order5, scale);
+  const double square3 = mean_square(order3, scale);
+  const double both = square5 + 0.01 * square3;
+  if (!(both > 0)) return {};
+  const double part = kWithin * h * square5 / std::sqrt(both);
+  return {part, part > 1e-3 && square5 > 0.1 * square3};
+}
+
+bool ExplicitSteps::try_inner(double h) {
+  for (std::size_t i = 0; i < kInnerStages.size(); ++i) {
+    const std::size_t stage = kStages + 1 + i;
+    add_up(kInnerStages[i], k_, at_);
+    at_ = x_ + h * at_;
+    if (!rate_->at(t_ + kStageTimes[stage] * h, at_, k_.col(static_cast<Index>(stage)).data()))
+      return false;
+  }
+  terms_.col(0) = x_;
+  terms_.col(1) = next_ - x_;
+  terms_.col(2) = h * k_.col(0) - terms_.col(1);
+  terms_.col(3) = terms_.col(1) - h * k_.col(kStages) - terms_.col(2);
+  for (std::size_t i = 0; i < kInnerTerms.size(); ++i) {
+    add_up(kInnerTerms[i], k_, at_);
+    terms_.col(4 + static_cast<Index>(i)) = h * at_;
+  }
+  return true;
+}
+
+bool ExplicitSteps::is_kept_short(double h, bool by_noise) {
+  // |h lambda| at the border of stability (Hairer and Wanner, section IV.2), for fifteen steps.
+  const double moved = (next_ - before_next_).norm();
+  const double changed = (k_.col(kStages) - k_.col(kStages - 1)).norm();
+  if (by_noise || h * changed > 6.1 * moved) {
+    free_ = 0;
+    ++short_;
+  } else if (++free_ == 6) {
+    short_ = 0;
+  }
+  return short_ >= 15 && last_ - t_ > kManySteps * h;
+}
+
+void ExplicitSteps::within(double t, VectorXd& x) const {
+  const double share = t_ > from_ ? (t - from_) / (t_ - from_) : 1;
+  x = terms_.col(kDegree);
+  for (int term = kDegree - 1; term >= 0; --term)
+    x = terms_.col(term) + (term % 2 == 0 ? share : 1 - share) * x;
+}
+
+}  // namespace gainsmith::ode

@@ -1,0 +1,69 @@
+// Steps of the method of order 8 of Dormand and Prince (dormand_prince.h), each with a polynomial of
+// order 7 within.
+//
+// The error of a step is estimated by the embedded methods of orders 5 and 3. It is allowed to be
+// 1/kWithin of the accuracy, since the polynomial is off by more than the end is.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "ode/dormand_prince.h"
+#include "ode/flow_rate.h"
+
+namespace gainsmith::ode {
+
+class ExplicitSteps {
+ public:
+  enum class Result {
+    made,
+    /// Made; but what decays fast, or noise of f, keeps the steps short, and not the error.
+    stiff,
+    failed  ///< no step is short enough
+  };
+  static constexpr int kDegree = 7;
+
+  /// `rate` must outlive it.
+  explicit ExplicitSteps(FlowRate& rate);
+
+  /// As Integrator::start, after FlowRate::begin.
+  void start(double t, const Eigen::VectorXd& x, double last, double relative,
+             const Eigen::VectorXd& absolute, double longest);
+  Result step();
+
+  double t() const { return t_; }
+  const Eigen::VectorXd& x() const { return x_; }
+  /// x at a time of the last step.
+  void within(double t, Eigen::VectorXd& x) const;
+
+ private:
+  using Stages = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic>;
+
+  double first_length();
+  /// Stages 2 to 13 of a step of length h, and its end. False: f has no value.
+  bool try_step(double h);
+  /// Stages 14 to 16, and the polynomial.
+  bool try_inner(double h);
+  struct Error {
+    double part = 0;        ///< of what is allowed
+    bool is_noise = false;  ///< both embedded methods err alike, whatever their orders
+  };
+  Error error(double h) const;
+  /// What an error of each element counts as, between x and `other`.
+  Eigen::ArrayXd allowed(const Eigen::VectorXd& other) const;
+  bool is_kept_short(double h, bool by_noise);
+
+  FlowRate* rate_;
+  Stages k_;              ///< n x 16
+  Eigen::VectorXd x_;     ///< now
+  Eigen::VectorXd at_;    ///< of a stage
+  Eigen::VectorXd next_;  ///< at the end of the step
+  Eigen::VectorXd before_next_;  ///< of stage 12, which is at the same time
+  Eigen::VectorXd absolute_;
+  Stages terms_;  ///< n x 8: of the polynomial
+  double from_ = 0, t_ = 0, last_ = 0, relative_ = 0, longest_ = 0;
+  double h_ = 0;             ///< of the next step
+  bool has_first_ = false;   ///< whether stage 1 of the next step is known
+  int short_ = 0, free_ = 0;  ///< steps in a row that seem stiff, and those after them that do not
+};
+
+}  // namespace gainsmith::ode

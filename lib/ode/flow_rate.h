@@ -1,0 +1,35 @@
+// The right side of x' = f(t, x), with what it met on its way.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+#include "ode/integrator.h"
+
+namespace gainsmith::ode {
+
+class FlowRate {
+ public:
+  FlowRate(Eigen::Index size, Integrator::Rate rate);
+
+  Eigen::Index size() const { return slope_.size(); }
+  /// A flow from x at t to `last`, after which f is not evaluated.
+  void begin(double t, const Eigen::VectorXd& x, double last);
+  /// False: f has no value there, and trouble() says why.
+  bool at(double t, const Eigen::VectorXd& x, double* slope);
+
+  /// Why f had no value last; empty: it had one.
+  const std::string& trouble() const { return trouble_; }
+  void forget_trouble() { trouble_.clear(); }
+  /// x has grown, and at this rate would go on to grow in the time that is left.
+  bool has_escaped(double t, const Eigen::VectorXd& x) const;
+
+ private:
+  Integrator::Rate rate_;
+  Eigen::VectorXd slope_;  ///< where f was evaluated last
+  std::string trouble_;
+  double last_ = 0;
+  double size_ = 0;  ///< of x at the start, and what the flow does in all its time at its first rate
+};
+
+}  // namespace gainsmith::ode

@@ -1,0 +1,37 @@
+// Steps of BDF with Newton's method, of SUNDIALS CVODE: for stiff flows.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "ode/flow_rate.h"
+
+namespace gainsmith::ode {
+
+class ImplicitSteps {
+ public:
+  /// `rate` must outlive it.
+  explicit ImplicitSteps(FlowRate& rate);
+  ~ImplicitSteps();
+
+  /// As Integrator::start, after FlowRate::begin.
+  void start(double t, const Eigen::VectorXd& x, double last, double relative,
+             const Eigen::VectorXd& absolute, double longest);
+  /// A step; false: none is short enough.
+  bool step();
+
+  double t() const;
+  Eigen::VectorXd x() const;
+  /// Of the polynomial of the last step.
+  int degree() const;
+  /// x at a time of the last step.
+  void within(double t, Eigen::VectorXd& x) const;
+  /// The code of the error.
+  int flag() const;
+
+ private:
+  class Solver;
+  std::unique_ptr<Solver> solver_;
+};
+
+}  // namespace gainsmith::ode
