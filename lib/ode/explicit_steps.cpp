@@ -49,25 +49,23 @@ void ExplicitSteps::start(double t, const VectorXd& x, double last, double relat
 }
 
 Eigen::ArrayXd ExplicitSteps::allowed(const VectorXd& other) const {
-  return absolute_.array() + relative_ * x_.array().abs().max(other.array().abs());
+  const double least = forgives_ ? relative_ * x_.lpNorm<Eigen::Infinity>() : 0;
+  return absolute_.array().max(least) + relative_ * x_.array().abs().max(other.array().abs());
 }
 
 double ExplicitSteps::first_length() {
-  // Hairer, Norsett, Wanner, section II.4, with a power of 2 near the eighth root.
-  const double rest = last_ - t_;
-  const Eigen::ArrayXd scale = allowed(x_);
-  const double size = std::sqrt(mean_square(x_, scale));
-  const double slope = std::sqrt(mean_square(k_.col(0), scale));
-  const double first = std::min(
-      size < 1e-5 || slope < 1e-5 ? 1e-6 * rest : 0.01 * size / slope, std::min(rest, longest_));
+  const double most = std::min(last_ - t_, longest_);
+  const auto slope = k_.col(0).array().abs();
+  const auto size = x_.array().abs();
+  // An element changes in the time of x/x' or in that of x'/x'', whichever is longer.
+  Eigen::ArrayXd lasts = (slope > 0).select(size / slope, most);
+  const double first =
+      std::clamp(0.01 * (size > 0).select(lasts, most).minCoeff(), 1e-6 * most, 0.01 * most);
   at_ = x_ + first * k_.col(0);
-  // The time in which x, or its rate, changes by itself.
-  double lasts = 100 * first;
-  if (rate_->at(t_ + first, at_, k_.col(1).data())) {
-    const double changed = std::sqrt(mean_square(k_.col(1) - k_.col(0), scale));
-    if (changed > 0.01 * slope) lasts = first * slope / changed;
-  }
-  return lasts * std::min(1.0, step_factor(kWithin * slope * lasts));
+  if (!rate_->at(t_ + first, at_, k_.col(1).data())) return first;
+  const auto changed = (k_.col(1) - k_.col(0)).array().abs();
+  lasts = lasts.max((changed > 0).select(first * slope / changed, most));
+  return std::min(most, 0.3 * lasts.minCoeff());
 }
 
 ExplicitSteps::Result ExplicitSteps::step() {
@@ -76,33 +74,35 @@ ExplicitSteps::Result ExplicitSteps::step() {
     has_first_ = true;
     h_ = first_length();
   }
-  bool rejected = false;
-  while (true) {
+  forgives_ = false;
+  for (bool rejected = false;; rejected = true) {
     const double rest = last_ - t_;
     double h = std::min(h_, longest_);
     if (h >= rest)
       h = rest;
     else if (2 * h > rest)
       h = rest / 2;
-    if (h < rest && h <= 4 * kEpsilon * std::abs(t_)) return Result::failed;
-    if (!(h > 0)) return Result::failed;
+    if (h < rest && h <= 4 * kEpsilon * std::max(std::abs(t_), rest)) {
+      // An element that has died down, or begins, is no reason to stand still.
+      if (forgives_) return Result::failed;
+      forgives_ = true;
+      h_ = first_length();
+      continue;
+    }
     if (!try_step(h)) {
       h_ = h / 4;
-      rejected = true;
       continue;
     }
     const auto [off, is_noise] = error(h);
     if (!(off <= 1)) {
       h_ = h * std::min(std::isfinite(off) ? step_factor(off) : 0.2, 0.9);
-      rejected = true;
       continue;
     }
     if (!try_inner(h)) {
       h_ = h / 4;
-      rejected = true;
       continue;
     }
-    const bool kept_short = is_kept_short(h, is_noise);
+    const bool kept_short = is_kept_short(h, is_noise || forgives_);
     const double factor = step_factor(off);
     // A step that was cut at the end says little about how long the next one may be.
     h_ = std::max(h < h_ && !rejected ? h_ : 0, h * (rejected ? std::min(factor, 1.0) : factor));

@@ -62,6 +62,7 @@ class ExplicitSteps {
   Stages terms_;  ///< n x 8: of the polynomial
   double from_ = 0, t_ = 0, last_ = 0, relative_ = 0, longest_ = 0;
   double h_ = 0;             ///< of the next step
+  bool forgives_ = false;    ///< in this step all elements may err alike
   bool has_first_ = false;   ///< whether stage 1 of the next step is known
   int short_ = 0, free_ = 0;  ///< steps in a row that seem stiff, and those after them that do not
 };
