@@ -187,7 +187,7 @@ Matrix ClockedFlow::series_of(const Matrix& at_points) {
 
 ClockedFlow::ClockedFlow(const Coordinates& coordinates, const numbers::Values& constants,
                          const VectorXd& start, const std::vector<Index>& integrals, double longest,
-                         double relative)
+                         double relative, double step)
     : quadratic_(integrals) {
   for (std::size_t i = 0; i < coordinates.list.size(); ++i) {
     const Coordinate& one = coordinates.list[i];
@@ -213,7 +213,7 @@ ClockedFlow::ClockedFlow(const Coordinates& coordinates, const numbers::Values& 
     stack(begin, at, rate);
     const VectorXd scale = sizes(at, rate, longest);
     integrator.start(begin, at, end, relative, kSharper * relative * scale,
-                     std::min(end - begin, longest / kPartsOfFlow));
+                     step * std::min(end - begin, longest / kPartsOfFlow));
     Matrix points(at.size(), degree::shared_flow + 1);
     points.col(degree::shared_flow) = at;
     VectorXd next(at.size());

@@ -32,10 +32,11 @@ class ClockedFlow {
                                                  const numbers::Values& constants,
                                                  const std::vector<Eigen::Index>& integrals);
 
-  /// To a relative accuracy, up to `longest`. IntegrationError where the flow ends before.
+  /// To a relative accuracy, up to `longest`; no step is longer than `step` times 1/32 of that.
+  /// IntegrationError where the flow ends before.
   ClockedFlow(const Coordinates& coordinates, const numbers::Values& constants,
               const Eigen::VectorXd& start, const std::vector<Eigen::Index>& integrals,
-              double longest, double relative);
+              double longest, double relative, double step);
 
   /// All elements at t, from those at the start of a flow; clocks stay as they are.
   void operator()(const Eigen::VectorXd& from, double t, Eigen::VectorXd& to) const;

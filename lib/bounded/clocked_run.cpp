@@ -9,6 +9,7 @@
 #include "bounded/ball.h"
 #include "hybrid/trajectory.h"
 #include "ode/integrator.h"
+#include "ode/tolerances.h"
 
 namespace gainsmith::bounded {
 
@@ -37,15 +38,15 @@ ClockedFlows::ClockedFlows(const SampledSystem& system, const hybrid::Scenario& 
       longest_(system.longest),
       start_(ClockedFlow::start_of(system, scenario, coordinates, constants_, integrals_)) {}
 
-const ClockedFlow* ClockedFlows::to(double relative) {
+const ClockedFlow* ClockedFlows::to(double relative, double step) {
   if (!start_) return nullptr;
   const std::lock_guard lock(mutex_);
-  const auto known = made_.find(relative);
+  const auto known = made_.find({relative, step});
   if (known != made_.end()) return known->second.get();
-  std::unique_ptr<const ClockedFlow>& flow = made_[relative];
+  std::unique_ptr<const ClockedFlow>& flow = made_[{relative, step}];
   try {
     flow = std::make_unique<ClockedFlow>(*coordinates_, constants_, *start_, integrals_, longest_,
-                                         relative);
+                                         relative, step);
   } catch (const ode::IntegrationError&) {
   }
   return flow.get();
@@ -197,7 +198,7 @@ const Track<double>& ClockedSimulator::run(std::uint64_t seed, std::uint64_t run
   rounding_ = rounding == Rounding::up ? 2 : -2;
   flow_first_ = 0;
   copies_[0].flow = flows_->to(relative);
-  copies_[1].flow = flows_->to(kSharper * relative);
+  copies_[1].flow = flows_->to(kSharper * relative, ode::kShorter);
   SampledDraws draws(*system_, *scenario_, seed, run);
   try {
     begin(draws.start());

@@ -37,9 +37,10 @@ class ClockedFlows {
   ClockedFlows(const SampledSystem& system, const hybrid::Scenario& scenario,
                const Coordinates& coordinates, std::vector<Eigen::Index> integrals);
 
-  /// To this relative accuracy; nullptr when the system is not of that kind or its flow cannot be
-  /// integrated so far. May be called from many threads.
-  const ClockedFlow* to(double relative);
+  /// To this relative accuracy, in steps that are no longer than this part of the longest; nullptr
+  /// when the system is not of that kind or its flow cannot be integrated so far. May be called from
+  /// many threads.
+  const ClockedFlow* to(double relative, double step = 1);
 
  private:
   const Coordinates* coordinates_;
@@ -48,7 +49,7 @@ class ClockedFlows {
   double longest_;
   std::optional<Eigen::VectorXd> start_;
   std::mutex mutex_;
-  std::map<double, std::unique_ptr<const ClockedFlow>> made_;
+  std::map<std::pair<double, double>, std::unique_ptr<const ClockedFlow>> made_;
 };
 
 /// Simulates run after run; one for each thread. All arguments must outlive it.

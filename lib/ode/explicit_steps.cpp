@@ -16,6 +16,7 @@ namespace {
 
 constexpr Index kAll = static_cast<Index>(kStages) + 4;
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// sum_j weights_j k_j.
 template <class Weights, class Stages>
@@ -32,7 +33,7 @@ double mean_square(const VectorXd& e, const Eigen::ArrayXd& allowed) {
 
 }  // namespace
 
-ExplicitSteps::ExplicitSteps(FlowRate& rate)
+ExplicitSteps::ExplicitSteps(GuardedRate& rate)
     : rate_(&rate), k_(rate.size(), kAll), terms_(rate.size(), kDegree + 1) {}
 
 void ExplicitSteps::start(double t, const VectorXd& x, double last, double relative,
@@ -93,13 +94,16 @@ ExplicitSteps::Result ExplicitSteps::step() {
       h_ = h / 4;
       continue;
     }
-    const auto [off, is_noise] = error(h);
+    auto [off, is_noise] = error(h);
+    if (off <= 1) {
+      if (!try_inner(h)) {
+        h_ = h / 4;
+        continue;
+      }
+      off = std::max(off, inner_error(h));
+    }
     if (!(off <= 1)) {
       h_ = h * std::min(std::isfinite(off) ? step_factor(off) : 0.2, 0.9);
-      continue;
-    }
-    if (!try_inner(h)) {
-      h_ = h / 4;
       continue;
     }
     const bool kept_short = is_kept_short(h, is_noise || forgives_);
@@ -139,7 +143,7 @@ ExplicitSteps::Error ExplicitSteps::error(double h) const {
   const double square3 = mean_square(order3, scale);
   const double both = square5 + 0.01 * square3;
   if (!(both > 0)) return {};
-  const double part = kWithin * h * square5 / std::sqrt(both);
+  const double part = h * square5 / std::sqrt(both);
   return {part, part > 1e-3 && square5 > 0.1 * square3};
 }
 
@@ -160,6 +164,19 @@ bool ExplicitSteps::try_inner(double h) {
     terms_.col(4 + static_cast<Index>(i)) = h * at_;
   }
   return true;
+}
+
+double ExplicitSteps::inner_error(double h) {
+  constexpr double share = 0.6;
+  VectorXd value = terms_.col(kDegree);
+  VectorXd slope = VectorXd::Zero(value.size());
+  for (int term = kDegree - 1; term >= 0; --term) {
+    const double factor = term % 2 == 0 ? share : 1 - share;
+    slope = (term % 2 == 0 ? 1 : -1) * value + factor * slope;
+    value = terms_.col(term) + factor * value;
+  }
+  if (!rate_->at(t_ + share * h, value, at_.data())) return kNever;
+  return kWithin * std::sqrt(mean_square(slope - h * at_, allowed(next_)));
 }
 
 bool ExplicitSteps::is_kept_short(double h, bool by_noise) {

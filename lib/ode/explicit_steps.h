@@ -1,14 +1,14 @@
 // Steps of the method of order 8 of Dormand and Prince (dormand_prince.h), each with a polynomial of
 // order 7 within.
 //
-// The error of a step is estimated by the embedded methods of orders 5 and 3. It is allowed to be
-// 1/kWithin of the accuracy, since the polynomial is off by more than the end is.
+// The error at the end of a step is estimated by the embedded methods of orders 5 and 3, that of the
+// polynomial by what its rate is off from f at one place.
 #pragma once
 
 #include <Eigen/Core>
 
 #include "ode/dormand_prince.h"
-#include "ode/flow_rate.h"
+#include "ode/guarded_rate.h"
 
 namespace gainsmith::ode {
 
@@ -23,9 +23,9 @@ class ExplicitSteps {
   static constexpr int kDegree = 7;
 
   /// `rate` must outlive it.
-  explicit ExplicitSteps(FlowRate& rate);
+  explicit ExplicitSteps(GuardedRate& rate);
 
-  /// As Integrator::start, after FlowRate::begin.
+  /// As Integrator::start, after GuardedRate::begin.
   void start(double t, const Eigen::VectorXd& x, double last, double relative,
              const Eigen::VectorXd& absolute, double longest);
   Result step();
@@ -48,22 +48,24 @@ class ExplicitSteps {
     bool is_noise = false;  ///< both embedded methods err alike, whatever their orders
   };
   Error error(double h) const;
+  /// Of the polynomial, as a part of what is allowed.
+  double inner_error(double h);
   /// What an error of each element counts as, between x and `other`.
   Eigen::ArrayXd allowed(const Eigen::VectorXd& other) const;
   bool is_kept_short(double h, bool by_noise);
 
-  FlowRate* rate_;
-  Stages k_;              ///< n x 16
-  Eigen::VectorXd x_;     ///< now
-  Eigen::VectorXd at_;    ///< of a stage
-  Eigen::VectorXd next_;  ///< at the end of the step
+  GuardedRate* rate_;
+  Stages k_;                     ///< n x 16
+  Eigen::VectorXd x_;            ///< now
+  Eigen::VectorXd at_;           ///< of a stage
+  Eigen::VectorXd next_;         ///< at the end of the step
   Eigen::VectorXd before_next_;  ///< of stage 12, which is at the same time
   Eigen::VectorXd absolute_;
   Stages terms_;  ///< n x 8: of the polynomial
   double from_ = 0, t_ = 0, last_ = 0, relative_ = 0, longest_ = 0;
-  double h_ = 0;             ///< of the next step
-  bool forgives_ = false;    ///< in this step all elements may err alike
-  bool has_first_ = false;   ///< whether stage 1 of the next step is known
+  double h_ = 0;              ///< of the next step
+  bool forgives_ = false;     ///< in this step all elements may err alike
+  bool has_first_ = false;    ///< whether stage 1 of the next step is known
   int short_ = 0, free_ = 0;  ///< steps in a row that seem stiff, and those after them that do not
 };
 

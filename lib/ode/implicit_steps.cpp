@@ -61,7 +61,7 @@ inline SUNContext new_context() {
 
 class ImplicitSteps::Solver {
  public:
-  explicit Solver(FlowRate& rate)
+  explicit Solver(GuardedRate& rate)
       : rate_(&rate),
         x_(Eigen::VectorXd::Zero(rate.size())),
         context_(cvode::new_context()),
@@ -183,7 +183,7 @@ class ImplicitSteps::Solver {
   /// Steps after which the jacobian of the flow is made anew.
   static constexpr long jacobian_lasts = 5;
 
-  FlowRate* rate_;
+  GuardedRate* rate_;
   Eigen::VectorXd x_;
   int flag_ = 0;
   double t_ = 0, last_ = 0, relative_ = 0, longest_ = 0;
@@ -195,7 +195,7 @@ class ImplicitSteps::Solver {
   std::unique_ptr<void, cvode::Freed<cvode::free_memory>> memory_;
 };
 
-ImplicitSteps::ImplicitSteps(FlowRate& rate) : solver_(std::make_unique<Solver>(rate)) {}
+ImplicitSteps::ImplicitSteps(GuardedRate& rate) : solver_(std::make_unique<Solver>(rate)) {}
 ImplicitSteps::~ImplicitSteps() = default;
 
 void ImplicitSteps::start(double t, const Eigen::VectorXd& x, double last, double relative,

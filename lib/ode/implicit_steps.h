@@ -4,17 +4,17 @@
 #include <Eigen/Core>
 #include <memory>
 
-#include "ode/flow_rate.h"
+#include "ode/guarded_rate.h"
 
 namespace gainsmith::ode {
 
 class ImplicitSteps {
  public:
   /// `rate` must outlive it.
-  explicit ImplicitSteps(FlowRate& rate);
+  explicit ImplicitSteps(GuardedRate& rate);
   ~ImplicitSteps();
 
-  /// As Integrator::start, after FlowRate::begin.
+  /// As Integrator::start, after GuardedRate::begin.
   void start(double t, const Eigen::VectorXd& x, double last, double relative,
              const Eigen::VectorXd& absolute, double longest);
   /// A step; false: none is short enough.

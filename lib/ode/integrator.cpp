@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "ode/explicit_steps.h"
-#include "ode/flow_rate.h"
+#include "ode/guarded_rate.h"
 #include "ode/implicit_steps.h"
 #include "ode/tolerances.h"
 
@@ -57,8 +57,8 @@ class Integrator::Methods {
   void advance(double t, Eigen::VectorXd& x) {
     for (int steps = 0; t_ < t; ++steps) {
       if (steps == kPatience)
-        throw IntegrationError(
-            "the flow needs more than " + std::to_string(kPatience) + " steps", t_, false, false);
+        throw IntegrationError("the flow needs more than " + std::to_string(kPatience) + " steps",
+                               t_, false, false);
       step();
     }
     within(t, x);
@@ -74,14 +74,13 @@ class Integrator::Methods {
   [[noreturn]] void fail(const Eigen::VectorXd& x) const {
     const std::string& trouble = rate_.trouble();
     const bool escaped = trouble.empty() && rate_.has_escaped(t_, x);
-    throw IntegrationError(escaped ? "the flow escapes"
-                           : trouble.empty()
-                               ? "the steps of the integration fall to nothing"
-                               : trouble,
+    throw IntegrationError(escaped           ? "the flow escapes"
+                           : trouble.empty() ? "the steps of the integration fall to nothing"
+                                             : trouble,
                            t_, escaped, !trouble.empty());
   }
 
-  FlowRate rate_;
+  GuardedRate rate_;
   ExplicitSteps explicit_;
   std::optional<ImplicitSteps> implicit_;
   bool is_implicit_ = false;  ///< the last step

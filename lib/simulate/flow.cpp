@@ -9,7 +9,8 @@
 namespace gainsmith::simulate {
 
 Accuracy Accuracy::times(double factor) const {
-  return {std::max(relative * factor, ode::kFinest), absolute * factor, absolute_of * factor};
+  return {std::max(relative * factor, ode::kFinest), absolute * factor, absolute_of * factor,
+          factor < 1 ? ode::kShorter * longest : longest};
 }
 
 std::unique_ptr<Flow> make_flow(VectorField& field, const Accuracy& accuracy, double longest,

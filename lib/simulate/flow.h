@@ -21,8 +21,11 @@ struct Accuracy {
   double relative = 1e-10;
   double absolute = 1e-10;
   Eigen::VectorXd absolute_of{};  ///< of each element of the variables; empty: `absolute` of all
+  double longest = 1;             ///< step, as a part of the longest one of a run and of each flow
 
-  /// All of them times a factor; below 1e-13 relative nothing is gained.
+  /// All errors times a factor; below 1e-13 relative nothing is gained. A sharper run takes shorter
+  /// steps even where errors do not ask for them: equal steps of two runs have equal errors, and
+  /// their difference would say nothing.
   Accuracy times(double factor) const;
 };
 

@@ -28,7 +28,8 @@ class IntegratedFlow : public Flow {
     const Eigen::VectorXd absolute = accuracy_.absolute_of.size() > 0
                                          ? field_->gathered(accuracy_.absolute_of)
                                          : Eigen::VectorXd::Constant(y_.size(), accuracy_.absolute);
-    integrator_.start(t, y_, last, accuracy_.relative, absolute * part_, longest_);
+    integrator_.start(t, y_, last, accuracy_.relative, absolute * part_,
+                      accuracy_.longest * std::min(longest_, last - t));
   }
 
   void sharpen(double part) override { part_ = part; }

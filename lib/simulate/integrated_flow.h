@@ -1,4 +1,4 @@
-// Flows that CVODE integrates (flow.h).
+// Flows that are integrated (flow.h).
 #pragma once
 
 #include <memory>

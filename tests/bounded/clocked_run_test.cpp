@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "bounded/sampled_problem.h"
-#include "ode/integrator.h"
 #include "simulate/simulator.h"
 
 namespace gainsmith::bounded {
@@ -15,72 +14,6 @@ namespace {
 using Eigen::VectorXd;
 using model::StartKind;
 using tests::TextProblem;
-
-VectorXd vector(std::initializer_list<double> elements) {
-  VectorXd x(static_cast<Eigen::Index>(elements.size()));
-  std::copy(elements.begin(), elements.end(), x.data());
-  return x;
-}
-
-TEST(Integrator, FollowsAnOscillatorAtItsAccuracy) {
-  ode::Integrator flow(2, [](double, const VectorXd& x, VectorXd& rate) {
-    rate(0) = x(1);
-    rate(1) = -x(0);
-  });
-  double before = 1;
-  for (const double relative : {1e-6, 1e-9, 1e-12}) {
-    flow.start(0, vector({1, 0}), 10, relative, VectorXd::Constant(2, relative), 10);
-    VectorXd x(2);
-    double error = 0;
-    for (int k = 1; k <= 50; ++k) {
-      flow.advance(0.2 * k, x);
-      error =
-          std::max({error, std::abs(x(0) - std::cos(0.2 * k)), std::abs(x(1) + std::sin(0.2 * k))});
-    }
-    EXPECT_LT(error, 1e3 * relative);
-    EXPECT_LT(error, before / 50);
-    before = error;
-  }
-}
-
-/// x' = -k (x - cos t) - sin t has the solution cos t; k = 1e7 over 10 s is 1e8 steps of Adams.
-TEST(Integrator, GoesOnWithStiffSteps) {
-  int calls = 0;
-  ode::Integrator flow(1, [&](double t, const VectorXd& x, VectorXd& rate) {
-    ++calls;
-    rate(0) = -1e7 * (x(0) - std::cos(t)) - std::sin(t);
-  });
-  flow.start(0, vector({1}), 10, 1e-8, VectorXd::Constant(1, 1e-8), 10);
-  VectorXd x(1);
-  flow.advance(10, x);
-  EXPECT_NEAR(x(0), std::cos(10), 1e-6);
-  EXPECT_LT(calls, 100000);
-}
-
-TEST(Integrator, SaysWhereAFlowEnds) {
-  ode::Integrator escape(1,
-                         [](double, const VectorXd& x, VectorXd& rate) { rate(0) = x(0) * x(0); });
-  escape.start(0, vector({1}), 5, 1e-9, VectorXd::Constant(1, 1e-12), 5);
-  VectorXd x(1);
-  try {
-    escape.advance(2, x);
-    ADD_FAILURE() << x(0);
-  } catch (const ode::IntegrationError& error) {
-    EXPECT_NEAR(error.t, 1, 1e-6);
-  }
-  ode::Integrator without(1, [](double t, const VectorXd&, VectorXd& rate) {
-    if (t > 0.5) throw InputError({"f", 1, 1}, "no value here");
-    rate(0) = 1;
-  });
-  without.start(0, vector({0}), 5, 1e-9, VectorXd::Constant(1, 1e-12), 5);
-  try {
-    without.advance(2, x);
-    ADD_FAILURE() << x(0);
-  } catch (const ode::IntegrationError& error) {
-    EXPECT_NE(std::string(error.what()).find("no value here"), std::string::npos);
-    EXPECT_NEAR(error.t, 0.5, 1e-6);
-  }
-}
 
 /// x' = [0 1; -1 -s] x + [0; s], s since the last jump: against the careful simulator.
 TEST(ClockedRun, SharesFlowsThatAreLinearButForClocks) {

@@ -130,7 +130,7 @@ struct Integrated {
 };
 
 /// Pulses between long steps, rounding that a map blows up, states that begin at 0 with terms that
-/// cancel, flows too fast to follow.
+/// cancel, flows of which a part is over in 1e-11 of a step.
 TEST(Campaign, IntegratedFlowsAreNoCauseOfWrongVerdicts) {
   using enum CampaignVerdict;
   const Integrated cases[] = {
@@ -140,7 +140,7 @@ TEST(Campaign, IntegratedFlowsAreNoCauseOfWrongVerdicts) {
       {"0", "-0.01*y*abs(y)", "x + 0.1", "where(x > 0.3, where(x < 0.35, 3*y, y), y)", "5",
        undecided},
       {"1 - x^2", "-0.1*y + 1e-3*(1 - cos(x))", "x", "y", "1", held},
-      {"-1e12*sin(x)", "-0.1*y*abs(y) + x - x", "x", "y + 1e-3*x^2", "1", undecided}};
+      {"-1e12*sin(x)", "-0.1*y*abs(y) + x - x", "x", "y + 1e-3*x^2", "1", held}};
   for (const Integrated& one : cases) {
     TextProblem problem;
     problem.state("x", "scalar").state("y", "scalar").timer("1", "1", "1", "1").runs(1);
@@ -199,7 +199,7 @@ TEST(Campaign, IntegratedErrorsOfWhatGrowsAreUndecided) {
   TextProblem problem;
   problem.state("z", "scalar").state("zh", "scalar").timer("1", "1", "1", "1");
   problem.flow({{"z", "3*z + cos(z)"}, {"zh", "3*zh + cos(zh) - (4 + tau)*(zh - z)"}});
-  problem.runs(1).horizon("5").nonincreasing("error", "(z - zh)^2");
+  problem.runs(1).horizon("12").nonincreasing("error", "(z - zh)^2");
   const Report report = run(problem);
   EXPECT_EQ(report.verdict, CampaignVerdict::undecided);
   EXPECT_EQ(report.violations, 0U);

@@ -1,4 +1,4 @@
-#include "ode/flow_rate.h"
+#include "ode/guarded_rate.h"
 
 #include <algorithm>
 #include <exception>
@@ -8,18 +8,17 @@
 
 namespace gainsmith::ode {
 
-FlowRate::FlowRate(Eigen::Index size, Integrator::Rate rate)
+GuardedRate::GuardedRate(Eigen::Index size, Integrator::Rate rate)
     : rate_(std::move(rate)), slope_(Eigen::VectorXd::Zero(size)) {}
 
-void FlowRate::begin(double t, const Eigen::VectorXd& x, double last) {
+void GuardedRate::begin(double t, const Eigen::VectorXd& x, double last) {
   last_ = last;
   size_ = x.lpNorm<Eigen::Infinity>();
   Eigen::VectorXd slope(x.size());
-  if (at(t, x, slope.data()))
-    size_ = std::max(size_, (last - t) * slope.lpNorm<Eigen::Infinity>());
+  if (at(t, x, slope.data())) size_ = std::max(size_, (last - t) * slope.lpNorm<Eigen::Infinity>());
 }
 
-bool FlowRate::at(double t, const Eigen::VectorXd& x, double* slope) {
+bool GuardedRate::at(double t, const Eigen::VectorXd& x, double* slope) {
   try {
     rate_(std::min(t, last_), x, slope_);
   } catch (const std::exception& error) {
@@ -34,7 +33,7 @@ bool FlowRate::at(double t, const Eigen::VectorXd& x, double* slope) {
   return true;
 }
 
-bool FlowRate::has_escaped(double t, const Eigen::VectorXd& x) const {
+bool GuardedRate::has_escaped(double t, const Eigen::VectorXd& x) const {
   const double now = x.lpNorm<Eigen::Infinity>();
   return size_ > 0 && now > kEscape * size_ &&
          (last_ - t) * slope_.lpNorm<Eigen::Infinity>() > kEscape * now;

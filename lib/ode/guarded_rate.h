@@ -8,9 +8,9 @@
 
 namespace gainsmith::ode {
 
-class FlowRate {
+class GuardedRate {
  public:
-  FlowRate(Eigen::Index size, Integrator::Rate rate);
+  GuardedRate(Eigen::Index size, Integrator::Rate rate);
 
   Eigen::Index size() const { return slope_.size(); }
   /// A flow from x at t to `last`, after which f is not evaluated.
@@ -29,7 +29,8 @@ class FlowRate {
   Eigen::VectorXd slope_;  ///< where f was evaluated last
   std::string trouble_;
   double last_ = 0;
-  double size_ = 0;  ///< of x at the start, and what the flow does in all its time at its first rate
+  double size_ =
+      0;  ///< of x at the start, and what the flow does in all its time at its first rate
 };
 
 }  // namespace gainsmith::ode
