@@ -213,7 +213,7 @@ ClockedFlow::ClockedFlow(const Coordinates& coordinates, const numbers::Values& 
     stack(begin, at, rate);
     const VectorXd scale = sizes(at, rate, longest);
     integrator.start(begin, at, end, relative, kSharper * relative * scale,
-                     step * std::min(end - begin, longest / kPartsOfFlow));
+                     step * (end - begin) / 2);
     Matrix points(at.size(), degree::shared_flow + 1);
     points.col(degree::shared_flow) = at;
     VectorXd next(at.size());

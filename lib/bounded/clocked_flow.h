@@ -32,7 +32,7 @@ class ClockedFlow {
                                                  const numbers::Values& constants,
                                                  const std::vector<Eigen::Index>& integrals);
 
-  /// To a relative accuracy, up to `longest`; no step is longer than `step` times 1/32 of that.
+  /// To a relative accuracy, up to `longest`; no step is longer than `step` times half of a piece.
   /// IntegrationError where the flow ends before.
   ClockedFlow(const Coordinates& coordinates, const numbers::Values& constants,
               const Eigen::VectorXd& start, const std::vector<Eigen::Index>& integrals,

@@ -66,7 +66,7 @@ double ExplicitSteps::first_length() {
   if (!rate_->at(t_ + first, at_, k_.col(1).data())) return first;
   const auto changed = (k_.col(1) - k_.col(0)).array().abs();
   lasts = lasts.max((changed > 0).select(first * slope / changed, most));
-  return std::min(most, 0.3 * lasts.minCoeff());
+  return std::clamp(0.3 * lasts.minCoeff(), first, most);
 }
 
 ExplicitSteps::Result ExplicitSteps::step() {

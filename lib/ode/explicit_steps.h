@@ -32,6 +32,7 @@ class ExplicitSteps {
 
   double t() const { return t_; }
   const Eigen::VectorXd& x() const { return x_; }
+  Eigen::VectorXd slope() const { return k_.col(0); }
   /// x at a time of the last step.
   void within(double t, Eigen::VectorXd& x) const;
 

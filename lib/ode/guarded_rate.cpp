@@ -33,10 +33,11 @@ bool GuardedRate::at(double t, const Eigen::VectorXd& x, double* slope) {
   return true;
 }
 
-bool GuardedRate::has_escaped(double t, const Eigen::VectorXd& x) const {
+bool GuardedRate::has_escaped(double t, const Eigen::VectorXd& x,
+                              const Eigen::VectorXd& slope) const {
   const double now = x.lpNorm<Eigen::Infinity>();
   return size_ > 0 && now > kEscape * size_ &&
-         (last_ - t) * slope_.lpNorm<Eigen::Infinity>() > kEscape * now;
+         (last_ - t) * slope.lpNorm<Eigen::Infinity>() > kEscape * now;
 }
 
 }  // namespace gainsmith::ode

@@ -22,11 +22,11 @@ class GuardedRate {
   const std::string& trouble() const { return trouble_; }
   void forget_trouble() { trouble_.clear(); }
   /// x has grown, and at this rate would go on to grow in the time that is left.
-  bool has_escaped(double t, const Eigen::VectorXd& x) const;
+  bool has_escaped(double t, const Eigen::VectorXd& x, const Eigen::VectorXd& slope) const;
 
  private:
   Integrator::Rate rate_;
-  Eigen::VectorXd slope_;  ///< where f was evaluated last
+  Eigen::VectorXd slope_;  ///< as f writes it
   std::string trouble_;
   double last_ = 0;
   double size_ =

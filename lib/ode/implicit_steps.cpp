@@ -64,6 +64,7 @@ class ImplicitSteps::Solver {
   explicit Solver(GuardedRate& rate)
       : rate_(&rate),
         x_(Eigen::VectorXd::Zero(rate.size())),
+        slope_(x_),
         context_(cvode::new_context()),
         vector_(cvode::fused(cvode::made(N_VNew_Serial(rate.size(), context_.get())))),
         absolute_(cvode::made(N_VNew_Serial(rate.size(), context_.get()))),
@@ -111,8 +112,7 @@ class ImplicitSteps::Solver {
   }
 
   double t() const { return t_; }
-  int flag() const { return flag_; }
-  Eigen::VectorXd x() const { return values(vector_); }
+  bool has_escaped() const { return rate_->has_escaped(t_, values(vector_), slope_); }
 
   int degree() const {
     int order = 1;
@@ -137,7 +137,7 @@ class ImplicitSteps::Solver {
   /// implicit step leaps over a pole.
   bool fails_beside_the_flow() const {
     return (flag_ == CV_TOO_MUCH_WORK || flag_ == CV_ERR_FAILURE || flag_ == CV_CONV_FAILURE) &&
-           rate_->trouble().empty() && !rate_->has_escaped(t_, values(vector_));
+           rate_->trouble().empty() && !has_escaped();
   }
 
   /// An element that has died down in a stiff flow is noise of the iteration: then all count alike.
@@ -161,10 +161,9 @@ class ImplicitSteps::Solver {
   /// or by a tenth. With all the time that is left rounding would make the first step too long.
   double end_of_first() {
     x_ = values(vector_);
-    Eigen::VectorXd slope(x_.size());
-    if (!rate_->at(t_, x_, slope.data())) return last_;
+    if (!rate_->at(t_, x_, slope_.data())) return last_;
     const double fastest =
-        (slope.array().abs() / (0.1 * x_.array().abs() + values(absolute_).array())).maxCoeff();
+        (slope_.array().abs() / (0.1 * x_.array().abs() + values(absolute_).array())).maxCoeff();
     constexpr double least = 1e3 * std::numeric_limits<double>::epsilon();
     return std::min(last_, t_ + std::max(10 / fastest, least * std::abs(t_)));
   }
@@ -177,14 +176,16 @@ class ImplicitSteps::Solver {
   static int at(double t, N_Vector x, N_Vector slope, void* self) {
     auto& solver = *static_cast<Solver*>(self);
     solver.x_ = Eigen::Map<const Eigen::VectorXd>(NV_DATA_S(x), solver.x_.size());
-    return solver.rate_->at(t, solver.x_, NV_DATA_S(slope)) ? 0 : 1;
+    if (!solver.rate_->at(t, solver.x_, NV_DATA_S(slope))) return 1;
+    solver.slope_ = Eigen::Map<const Eigen::VectorXd>(NV_DATA_S(slope), solver.x_.size());
+    return 0;
   }
 
   /// Steps after which the jacobian of the flow is made anew.
   static constexpr long jacobian_lasts = 5;
 
   GuardedRate* rate_;
-  Eigen::VectorXd x_;
+  Eigen::VectorXd x_, slope_;  ///< where f was evaluated last, and its value
   int flag_ = 0;
   double t_ = 0, last_ = 0, relative_ = 0, longest_ = 0;
   double first_end_ = 0;  ///< up to where the first step may lead
@@ -204,9 +205,8 @@ void ImplicitSteps::start(double t, const Eigen::VectorXd& x, double last, doubl
 }
 bool ImplicitSteps::step() { return solver_->step(); }
 double ImplicitSteps::t() const { return solver_->t(); }
-Eigen::VectorXd ImplicitSteps::x() const { return solver_->x(); }
+bool ImplicitSteps::has_escaped() const { return solver_->has_escaped(); }
 int ImplicitSteps::degree() const { return solver_->degree(); }
-int ImplicitSteps::flag() const { return solver_->flag(); }
 void ImplicitSteps::within(double t, Eigen::VectorXd& x) const { solver_->within(t, x); }
 
 }  // namespace gainsmith::ode

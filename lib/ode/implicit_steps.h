@@ -21,13 +21,12 @@ class ImplicitSteps {
   bool step();
 
   double t() const;
-  Eigen::VectorXd x() const;
+  /// Whether x has grown, and goes on at the rate that f was evaluated to last.
+  bool has_escaped() const;
   /// Of the polynomial of the last step.
   int degree() const;
   /// x at a time of the last step.
   void within(double t, Eigen::VectorXd& x) const;
-  /// The code of the error.
-  int flag() const;
 
  private:
   class Solver;

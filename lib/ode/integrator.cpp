@@ -41,12 +41,13 @@ class Integrator::Methods {
       next_is_implicit_ = result != ExplicitSteps::Result::made;
       if (result != ExplicitSteps::Result::failed) return {from, t_, ExplicitSteps::kDegree};
       // An implicit step leaps over a pole, and over where f has no value.
-      if (!rate_.trouble().empty() || rate_.has_escaped(t_, explicit_.x())) fail(explicit_.x());
+      if (rate_.has_escaped(t_, explicit_.x(), explicit_.slope())) fail(true);
+      if (!rate_.trouble().empty()) fail(false);
       start_implicit(explicit_.x());
     }
     const bool made = implicit_->step();
     t_ = implicit_->t();
-    if (!made) fail(implicit_->x());
+    if (!made) fail(rate_.trouble().empty() && implicit_->has_escaped());
     return {from, t_, implicit_->degree()};
   }
 
@@ -71,13 +72,12 @@ class Integrator::Methods {
     is_implicit_ = next_is_implicit_ = true;
   }
 
-  [[noreturn]] void fail(const Eigen::VectorXd& x) const {
+  [[noreturn]] void fail(bool escaped) const {
     const std::string& trouble = rate_.trouble();
-    const bool escaped = trouble.empty() && rate_.has_escaped(t_, x);
-    throw IntegrationError(escaped           ? "the flow escapes"
-                           : trouble.empty() ? "the steps of the integration fall to nothing"
-                                             : trouble,
-                           t_, escaped, !trouble.empty());
+    const std::string why = escaped           ? "the flow escapes"
+                            : trouble.empty() ? "the steps of the integration fall to nothing"
+                                              : trouble;
+    throw IntegrationError(why, t_, escaped, !escaped && !trouble.empty());
   }
 
   GuardedRate rate_;

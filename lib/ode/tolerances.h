@@ -20,7 +20,8 @@ constexpr int kPatience = 10000;  ///< attempts at one place
 constexpr double kEscape = 1e4;  ///< times the start, and what the flow does at its first rate
 ///< | a flow that has grown by this while its steps fall to nothing escapes
 ///< | JudgedEnds.EscapedMeansLargeOrAtOnce
-constexpr double kWithin = 0.25;  ///< times what the rate of a step's polynomial is off at 0.6 of it
+constexpr double kWithin =
+    0.25;  ///< times what the rate of a step's polynomial is off at 0.6 of it
 ///< | the error of the polynomial
 ///< | Integrator.IsAsAccurateWithinStepsAsAtTheirEnds
 constexpr double kShorter = 0.6;  ///< times the longest step
