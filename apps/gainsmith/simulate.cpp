@@ -65,8 +65,11 @@ std::string claims_text(const std::vector<verify::ReplayedClaim>& claims, bool e
       text +=
           fmt::format("  {:<12} {}\n", claim.name,
                       early ? "undecided: never checked, as the run ends before"
-                            : "held: never checked, as the run does not reach the time or event "
-                              "of the claim");
+                      : finding.judgement == claims::Judgement::undecided
+                          ? "undecided: never checked, as a more accurate run ends before; smaller "
+                            "campaign.accuracy may help"
+                          : "held: never checked, as the run does not reach the time or event "
+                            "of the claim");
       continue;
     }
     if (finding.ended) {
@@ -124,9 +127,12 @@ std::string notes_text(const model::Design& design, const std::vector<std::uint6
 std::string judged_text(const std::vector<judge::Fault>& faults) {
   if (faults.empty()) return "  judged: the run satisfies the texts\n";
   std::string text;
-  for (const judge::Fault& fault : faults)
-    text += fmt::format("  judged: t = {}: {} ({} > {})\n", brief(fault.t), fault.what,
-                        brief(fault.size), brief(fault.allowed));
+  for (const judge::Fault& fault : faults) {
+    text += fmt::format("  judged: t = {}: {}", brief(fault.t), fault.what);
+    if (fault.size != 0 || fault.allowed != 0)
+      text += fmt::format(" ({} > {})", brief(fault.size), brief(fault.allowed));
+    text += '\n';
+  }
   return text;
 }
 

@@ -49,6 +49,26 @@ Simulated simulated(const std::string& campaign) {
           std::count(outcome.out.begin(), outcome.out.end(), '\n')};
 }
 
+/// A state of 1e-15 beside the absolute accuracy of 1e-10, so that the repeated run escapes.
+TEST(DynamicsRuns, AClaimThatOneOfBothRunsDoesNotComeToIsUndecided) {
+  const Folder folder;
+  const std::string problem =
+      folder.file("small.yaml",
+                  "problem: small\n"
+                  "method:\n"
+                  "  method: small\n"
+                  "  plant:\n"
+                  "    state: {x: {shape: 1, start: 2e-15}}\n"
+                  "    flow: {x: \"15*(-x - 1e15*x^2 + 1e-15*(1.5 + sin(t)))\"}\n"
+                  "  events: {fin: {at: [9.5]}}\n"
+                  "  claims: {low: {below: x, bound: 1e-16, over: fin}}\n"
+                  "campaign: {horizon: 10}\n");
+  const Outcome replayed = gainsmith({"simulate", problem, "-o", folder.path("run.csv")});
+  EXPECT_EQ((replayed.out + replayed.err).find("held"), std::string::npos) << replayed.out;
+  const Outcome verified = gainsmith({"verify", problem});
+  EXPECT_EQ(verified.out.find("held"), std::string::npos) << verified.out;
+}
+
 TEST(DynamicsRuns, TheAccuracyIsThatOfTheCampaign) {
   const Simulated usual = simulated("seed: 1");
   const Simulated coarse = simulated("accuracy: {relative: 1e-4}");
