@@ -20,15 +20,14 @@ constexpr int kPatience = 10000;  ///< attempts at one place
 constexpr double kEscape = 1e4;  ///< times the start, and what the flow does at its first rate
 ///< | a flow that has grown by this while its steps fall to nothing escapes
 ///< | JudgedEnds.EscapedMeansLargeOrAtOnce
-constexpr double kWithin =
-    0.25;  ///< times what the rate of a step's polynomial is off at 0.6 of it
-///< | the error of the polynomial
+constexpr double kWithin = 0.25;  ///< times what a polynomial's rate is off
+///< | the error of the polynomial of a step, by its rate at 0.6 of the step
 ///< | Integrator.IsAsAccurateWithinStepsAsAtTheirEnds
 constexpr double kShorter = 0.6;  ///< times the longest step
 ///< | the longest one of a run that is repeated with smaller errors
 ///< | ClockedRun.BoundsHoldTheErrorOfAClosedForm
 constexpr double kManySteps = 1000;  ///< steps of one flow
-///< | a flow that needs so many more, because its steps are as long as stability permits, is stiff
+///< | a flow is stiff that needs so many more in steps as long as stability or noise permits
 ///< | EventFlow.VeryStiffFlowsDoNotStandStill
 constexpr int kMostIterations = 40;  ///< iterations
 ///< | what solves the stages of a Gauss step takes no more
