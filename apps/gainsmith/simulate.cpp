@@ -61,20 +61,17 @@ std::string claims_text(const std::vector<verify::ReplayedClaim>& claims, bool e
   std::string text;
   for (const verify::ReplayedClaim& claim : claims) {
     const claims::Finding& finding = claim.finding;
+    if (finding.ended) {
+      text += fmt::format("  {:<12} {}: the run {}\n", claim.name, to_string(finding.judgement),
+                          end_text(finding));
+      continue;
+    }
     if (!finding.looked) {
       text +=
           fmt::format("  {:<12} {}\n", claim.name,
                       early ? "undecided: never checked, as the run ends before"
-                      : finding.judgement == claims::Judgement::undecided
-                          ? "undecided: never checked, as a more accurate run ends before; smaller "
-                            "campaign.accuracy may help"
-                          : "held: never checked, as the run does not reach the time or event "
-                            "of the claim");
-      continue;
-    }
-    if (finding.ended) {
-      text += fmt::format("  {:<12} {}: the run {}\n", claim.name, to_string(finding.judgement),
-                          end_text(finding));
+                            : "held: never checked, as the run does not reach the time or event "
+                              "of the claim");
       continue;
     }
     const bool so_far = early && finding.judgement == claims::Judgement::held;

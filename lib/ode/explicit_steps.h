@@ -33,7 +33,7 @@ class ExplicitSteps {
   double t() const { return t_; }
   const Eigen::VectorXd& x() const { return x_; }
   Eigen::VectorXd slope() const { return k_.col(0); }
-  /// x at a time of the last step.
+  /// x at a time of the last step, or at the start.
   void within(double t, Eigen::VectorXd& x) const;
 
  private:

@@ -18,7 +18,7 @@ class GuardedRate {
   /// False: f has no value there, and trouble() says why.
   bool at(double t, const Eigen::VectorXd& x, double* slope);
 
-  /// Why f had no value last; empty: it had one.
+  /// Why f had no value, the last time that it had none; empty: it had one since forget_trouble().
   const std::string& trouble() const { return trouble_; }
   void forget_trouble() { trouble_.clear(); }
   /// x has grown, and at this rate would go on to grow in the time that is left.
@@ -29,8 +29,8 @@ class GuardedRate {
   Eigen::VectorXd slope_;  ///< as f writes it
   std::string trouble_;
   double last_ = 0;
-  double size_ =
-      0;  ///< of x at the start, and what the flow does in all its time at its first rate
+  /// Of x at the start, and of what the flow does in all its time at its first rate.
+  double size_ = 0;
 };
 
 }  // namespace gainsmith::ode

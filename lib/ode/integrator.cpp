@@ -14,8 +14,6 @@ class Integrator::Methods {
  public:
   Methods(Eigen::Index size, Rate rate) : rate_(size, std::move(rate)), explicit_(rate_) {}
 
-  void reset() { next_is_implicit_ = false; }
-
   void start(double t, const Eigen::VectorXd& x, double last, double relative,
              const Eigen::VectorXd& absolute, double longest) {
     last_ = last;
@@ -94,10 +92,6 @@ Integrator::Integrator(Eigen::Index size, Rate rate)
 Integrator::Integrator(Integrator&&) noexcept = default;
 Integrator& Integrator::operator=(Integrator&&) noexcept = default;
 Integrator::~Integrator() = default;
-
-void Integrator::reset() {
-  if (methods_) methods_->reset();
-}
 
 void Integrator::start(double t, const Eigen::VectorXd& x, double last, double relative,
                        const Eigen::VectorXd& absolute, double longest) {

@@ -34,9 +34,6 @@ class Integrator {
   Integrator& operator=(Integrator&&) noexcept;
   ~Integrator();
 
-  /// Forgets that a flow was stiff.
-  void reset();
-
   /// From x at t on. `absolute`: the error of each element that counts as `relative` of it, > 0. f
   /// is not evaluated after `last`, and no step is longer than `longest`: what lasts less may be
   /// stepped over.

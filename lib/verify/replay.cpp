@@ -275,13 +275,9 @@ Replay replay_run(const Setup& setup, std::uint64_t seed, std::uint64_t run, dou
   if (result.run.ending == hybrid::Ending::interrupted) return result;
   if (judged) result.faults = faults_of(result.run, events, seed, run);
   if (events.judged.empty()) return result;
-  RunVerdict verdict = Judge(setup)(seed, run);
-  for (std::size_t k = 0; k < verdict.findings.size(); ++k) {
-    claims::Finding& finding = verdict.findings[k];
-    // What the more accurate run did not come to is not known.
-    if (!finding.looked && verdict.unfinished()) finding.judgement = claims::Judgement::undecided;
-    result.claims.push_back({events.judged[k].name, finding});
-  }
+  const std::vector<claims::Finding> findings = Judge(setup)(seed, run).findings;
+  for (std::size_t k = 0; k < findings.size(); ++k)
+    result.claims.push_back({events.judged[k].name, findings[k]});
   return result;
 }
 

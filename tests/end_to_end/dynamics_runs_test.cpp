@@ -69,6 +69,23 @@ TEST(DynamicsRuns, AClaimThatOneOfBothRunsDoesNotComeToIsUndecided) {
   EXPECT_EQ(verified.out.find("held"), std::string::npos) << verified.out;
 }
 
+TEST(DynamicsRuns, AClaimThatAnEscapeKeepsFromItsEventIsViolated) {
+  const Folder folder;
+  const std::string problem =
+      folder.file("escape.yaml",
+                  "problem: escape\n"
+                  "method:\n"
+                  "  method: escape\n"
+                  "  plant: {state: {x: {shape: scalar, start: 0}}, flow: {x: 1 + x^2}}\n"
+                  "  events: {fin: {at: [9.5]}}\n"
+                  "  claims: {low: {below: x, bound: 1, over: fin}}\n"
+                  "campaign: {horizon: 10}\n");
+  const Outcome replayed = gainsmith({"simulate", problem, "-o", folder.path("run.csv")});
+  EXPECT_NE((replayed.out + replayed.err).find("low          violated"), std::string::npos)
+      << replayed.out;
+  EXPECT_NE(gainsmith({"verify", problem}).out.find("violated in 1 of 1"), std::string::npos);
+}
+
 TEST(DynamicsRuns, TheAccuracyIsThatOfTheCampaign) {
   const Simulated usual = simulated("seed: 1");
   const Simulated coarse = simulated("accuracy: {relative: 1e-4}");

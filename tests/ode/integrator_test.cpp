@@ -80,7 +80,14 @@ TEST(Integrator, DoesNotStandStillAtAnElementThatIsNothing) {
       2, [](double t, const VectorXd& x, VectorXd& slope) { slope << -x(0), t == 0 ? -7.0 : 0.0; });
   integrator.start(0, Eigen::Vector2d(1, 0), 3, 1e-10, Eigen::Vector2d(1e-12, 1e-40), 3);
   VectorXd x(2);
-  integrator.advance(3, x);
+  integrator.advance(0, x);
+  EXPECT_EQ(x(0), 1);
+  Integrator::Step step;
+  for (int steps = 0; step.to < 3 && steps < 100; ++steps) {
+    step = integrator.step();
+    EXPECT_EQ(step.degree, 7) << "implicit from " << step.from;
+  }
+  integrator.within(3, x);
   EXPECT_NEAR(x(0), std::exp(-3), 1e-9);
   EXPECT_NEAR(x(1), 0, 1e-9);
 }
@@ -113,9 +120,6 @@ TEST(Integrator, SaysWhatEndsAFlow) {
       end([](double, const VectorXd& x, VectorXd& slope) { slope(0) = x(0) * x(0); });
   EXPECT_TRUE(pole.escaped) << pole.what();
   EXPECT_NEAR(pole.t, 1, 1e-3);
-  const IntegrationError root =
-      end([](double, const VectorXd& x, VectorXd& slope) { slope(0) = -std::sqrt(x(0) - 0.5); });
-  EXPECT_TRUE(root.undefined || std::string(root.what()) == "none") << root.what();
   const IntegrationError thrown = end([](double t, const VectorXd&, VectorXd& slope) {
     if (t > 2) throw std::runtime_error("no value beyond 2");
     slope(0) = 1;
