@@ -219,8 +219,10 @@ bool LaneSet::arrive_at_root(std::size_t l, std::size_t target) {
                        coarse_start_.at(PackSystem::watch_values, target, l)) /
                       coarse_start_.at(PackSystem::watch_rates, target, l);
   if (!std::isfinite(lane.coarse_shift)) return open(Why::sign);
-  move(l, coarse_, coarse_start_, lane.coarse_shift);
+  move(l, coarse_, start_, lane.coarse_shift);
   lane.moved = true;
+  // The next flow may be about as long.
+  lane.wanted = std::min(lane.wanted, 2 * (lane.t - lane.flow_start));
   keep_before(l);
   lane.phase = Phase::look;
   return !lane.due || begin_jump(l);

@@ -153,8 +153,20 @@ class LaneSet {
             quarter_.at(values, k, l),
             three_quarters_.at(values, k, l)};
   }
-  /// The first root on the step of what is relevant. False: a sign is not certain.
+  struct Root {
+    double share = 0;  ///< of the step
+    std::size_t watch = 0;
+  };
+  /// The first root on the step that decides about an event, a flow set or a branch. False: a sign
+  /// is not certain.
   bool find_root(std::size_t l, int& target, double& share);
+  bool choose_root(PackLane& lane, int& target, double& share);
+  /// Whether anything depends on the side of a watch, with the others on these sides.
+  bool decides(std::size_t w, const PackLane& lane, const Sides& before, const Sides& after) const;
+  /// Of what may be 0 at the start of the step: the side that it is on a moment later; 0: that is
+  /// not certain.
+  std::int8_t left_side(std::size_t w, std::size_t l, const std::array<double, 6>& b,
+                        double error) const;
   bool arrives(const PackLane& lane) const {
     return (lane.forced == 0 && lane.h == lane.stop - lane.t) ||
            lane.stop - (lane.t + lane.h) <= hybrid::kOneInstant * lane.stop;
@@ -189,7 +201,8 @@ class LaneSet {
   std::vector<std::size_t> times_;
   std::vector<std::vector<std::size_t>> since_, left_;  ///< by event: elements
   Eigen::VectorXd scratch_;
-  Why why_ = Why::claim;  ///< of the lane that is left open
+  std::vector<Root> roots_;  ///< on the step of a lane
+  Why why_ = Why::claim;     ///< of the lane that is left open
   std::vector<std::optional<PackLane>> lanes_;
   std::uint64_t seed_ = 0, first_ = 0;
   std::vector<std::uint64_t> waiting_;  ///< the runs that are to be made, from the last

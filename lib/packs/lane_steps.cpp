@@ -120,6 +120,8 @@ bool LaneSet::judge_step(std::size_t l, bool fault) {
 bool LaneSet::find_root(std::size_t l, int& target, double& share) {
   PackLane& lane = *lanes_[l];
   std::fill(lane.zero.begin(), lane.zero.end(), 0);
+  std::fill(lane.passed.begin(), lane.passed.end(), 0);
+  roots_.clear();
   for (std::size_t w = 0; w < pack_.watches.size(); ++w) {
     if (lane.relevant[w] == 0 || !pack_.watches[w].moves) continue;
     const StepPolynomial along(samples(PackSystem::watch_values, PackSystem::watch_rates, w, l));
@@ -137,17 +139,50 @@ bool LaneSet::find_root(std::size_t l, int& target, double& share) {
       lane.zero[w] = error;
       continue;
     }
-    const bool crosses = known != 0 && side * b[5] < -error && crosses_once(b, side);
-    if (!crosses || lane.target >= 0) return false;
-    const double at = along.root(known);
-    const double apart = std::abs(at - share) * lane.h;
-    if (share <= 1 && apart <= hybrid::kHardly * horizon_) return open(Why::order);
-    if (at < share) {
-      share = at;
+    const int from = known != 0 ? known : left_side(w, l, b, error);
+    if (from == 0 || !(from * b[5] < -error) || !crosses_once(b, from)) return false;
+    lane.sides[w] = static_cast<std::int8_t>(from);
+    roots_.push_back({along.root(from), w});
+  }
+  return roots_.empty() || choose_root(lane, target, share);
+}
+
+bool LaneSet::choose_root(PackLane& lane, int& target, double& share) {
+  std::sort(roots_.begin(), roots_.end(),
+            [](const Root& one, const Root& other) { return one.share < other.share; });
+  Sides sides = lane.sides;
+  for (std::size_t k = 0; k < roots_.size(); ++k) {
+    const double next = k + 1 < roots_.size() ? roots_[k + 1].share : lane.target >= 0 ? 1 : 2;
+    if ((next - roots_[k].share) * lane.h <= hybrid::kHardly * horizon_) return open(Why::order);
+    const std::size_t w = roots_[k].watch;
+    const Sides before = sides;
+    sides[w] = static_cast<std::int8_t>(-sides[w]);
+    if (decides(w, lane, before, sides)) {
       target = static_cast<int>(w);
+      share = roots_[k].share;
+      return lane.target < 0;
     }
+    lane.passed[w] = 1;
   }
   return true;
+}
+
+bool LaneSet::decides(std::size_t w, const PackLane& lane, const Sides& before,
+                      const Sides& after) const {
+  if (is_crossing_[w] || !pack_.watches[w].branches.empty() || lane.undetermined) return true;
+  const auto changes = [&](const WatchedCondition& condition) {
+    const Truth is = truth(condition, pack_.watches, after);
+    return is == Truth::unknown || is != truth(condition, pack_.watches, before);
+  };
+  return std::any_of(pack_.flow_sets.begin(), pack_.flow_sets.end(), changes) ||
+         std::any_of(pack_.events.begin(), pack_.events.end(),
+                     [&](const PackEvent& one) { return one.when && changes(*one.when); });
+}
+
+std::int8_t LaneSet::left_side(std::size_t w, std::size_t l, const std::array<double, 6>& b,
+                               double error) const {
+  const std::int8_t side = lanes_[l]->undetermined ? std::int8_t{0} : leaving_side(w, l);
+  return side * b[1] > error ? side : std::int8_t{0};
 }
 
 bool LaneSet::ends_at_root(const PackLane& lane, std::size_t w, const std::array<double, 6>& b,
@@ -252,7 +287,7 @@ void LaneSet::find_new_sides(std::size_t l) {
       lane.zero[w] = std::max(error, 2 * value);
     } else if (lane.zero[w] > 0) {
       lane.sides[w] = 0;
-    } else if (lane.relevant[w] == 0 || lane.sides[w] == 0) {
+    } else if (lane.relevant[w] == 0 || lane.sides[w] == 0 || lane.passed[w] != 0) {
       lane.sides[w] = value > error ? sign_of(end_.at(PackSystem::watch_values, w, l)) : 0;
     }
   }

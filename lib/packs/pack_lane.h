@@ -25,6 +25,7 @@ struct PackLane {
         sides(pack.watches.size(), 0),
         before(pack.watches.size(), 0),
         zero(pack.watches.size(), 0),
+        passed(pack.watches.size(), 0),
         relevant(pack.watches.size(), 0),
         signs(pack.events.size(), 0),
         crossed(pack.events.size(), 0),
@@ -54,6 +55,7 @@ struct PackLane {
   Sides sides;
   std::vector<double> before;  ///< by watch: its value before the last change
   std::vector<double> zero;  ///< by watch: within which it is 0 where a flow has ended at its root
+  std::vector<char> passed;  ///< by watch: it has changed its side on this step
   std::vector<char> relevant;      ///< by watch, in this flow
   bool undetermined = false;       ///< a condition hangs on a side that the next step tells
   std::vector<std::int8_t> signs;  ///< by event with a crossing: the last sign that was not 0

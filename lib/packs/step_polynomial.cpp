@@ -10,7 +10,7 @@ namespace {
 
 using Coefficients = std::array<double, 6>;
 
-/// Of a root: how near to it the search ends.
+/// A search for a root ends so near to it, or where the value is such a part of the coefficients.
 constexpr double kRootWithin = 4e-16;
 
 /// The first `level` coefficients of one degree less, at a share (de Casteljau).
@@ -93,12 +93,14 @@ double StepPolynomial::rise() const { return rise_of(b_, 6); }
 bool StepPolynomial::falls(double margin) const { return falls_within(b_, margin, 6); }
 
 double StepPolynomial::root(int side) const {
-  double low = 0, high = 1, at = 0.5;
+  double low = 0, high = 1, at = 0.5, size = 0;
+  for (const double one : b_) size = std::fmax(size, std::abs(one));
   for (int k = 0; k < 100; ++k) {
     Coefficients b = b_;
     for (std::size_t level = b.size() - 1; level > 1; --level) step_down(b, level, at);
     const double slope = 5 * (b[1] - b[0]);
     step_down(b, 1, at);
+    if (std::abs(b[0]) <= kRootWithin * size) break;
     (side * b[0] > 0 ? low : high) = at;
     const double next = at - b[0] / slope;
     const double before = std::exchange(at, next > low && next < high ? next : (low + high) / 2);

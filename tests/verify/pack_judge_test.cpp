@@ -216,6 +216,26 @@ method:
     both: {below: "x(1) + y(1)", bound: 4}
 campaign: {runs: 96, horizon: 20, initial: {x: {box: ["[1; -1]", "[4; 1]"]}}}
 )yaml"},
+    // Where it touches the ground its height is 0 up to rounding, of either sign.
+    {"a ball that an observer sees where it touches the ground", R"yaml(problem: p
+method:
+  method: m
+  events: {hit: {when: x(1) <= 0 and x(2) <= 0}}
+  plant:
+    state: {x: {shape: 2, start: "[4; 2]"}}
+    output: {y: x(1)}
+    flow: {x: "[x(2); -9.81]"}
+    at: {hit: {x: "[-x(1); -0.8*x(2)]"}}
+  observer:
+    state: {xh: {shape: 2, start: 0}}
+    flow: {xh: "[xh(2); -9.81]"}
+    at: {hit: {xh: "[-xh(1); -0.8*xh(2)] - [-1; -0.1487]*(xh(1) - y)"}}
+  claims:
+    converges: {shrinks: norm(x - xh), to: 1e-7}
+    high: {below: "x(1)", bound: 3.5}
+    far: {above: "xh(1)", bound: -4, over: hit}
+campaign: {runs: 96, horizon: 20, initial: {x: {box: ["[2; -2]", "[4; 2]"]}, xh: {box: [-3, 3]}}}
+)yaml"},
     {"a ball that comes to rest", R"yaml(problem: p
 method:
   method: m
