@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "hybrid/tolerances.h"
 
@@ -39,12 +40,26 @@ bool ZenoDetector::settles(std::size_t period) const {
   return (change.array().abs() <= kSteady * sizes_.array()).all();
 }
 
+double ZenoDetector::last(std::size_t period) const {
+  return std::accumulate(lengths_.end() - static_cast<std::ptrdiff_t>(period), lengths_.end(), 0.0);
+}
+
+/// Whether little may be left: a steady factor is no smaller than the last ratio by more than
+/// kSteady.
+bool ZenoDetector::is_near(std::size_t period) const {
+  if (lengths_.size() <= period) return false;
+  const double r = lengths_.back() / lengths_[lengths_.size() - 1 - period] - kSteady;
+  return r < 1 && last(period) * r <= kLeftOver * t_ * (1 - r);
+}
+
 std::optional<double> ZenoDetector::accumulation() const {
-  for (std::size_t period = 1; period <= longest_period; ++period)
+  for (std::size_t period = 1; period <= longest_period; ++period) {
+    if (!is_near(period)) continue;
     for (std::size_t ratios = kRatios; ratios >= kFewestRatios; --ratios)
       if (const auto left = steady_rest(period, ratios);
           left && (*left <= kNothingLeft * t_ || (*left <= kLeftOver * t_ && settles(period))))
         return t_ + *left;
+  }
   return std::nullopt;
 }
 
@@ -65,9 +80,7 @@ std::optional<double> ZenoDetector::steady_rest(std::size_t period, std::size_t 
   const double all = lengths_.back() / lengths_[lengths_.size() - 1 - periods * period];
   if (ratios < kRatios && all > kLeftOver) return std::nullopt;
   const double r = std::pow(all, 1 / static_cast<double>(periods));
-  double last = 0;
-  for (std::size_t k = 1; k <= period; ++k) last += lengths_[lengths_.size() - k];
-  return last * r / (1 - r);
+  return last(period) * r / (1 - r);
 }
 
 std::vector<std::size_t> ZenoDetector::events() const {

@@ -42,6 +42,9 @@ class ZenoDetector {
   static constexpr std::size_t longest_period = 3;
   std::optional<double> steady_rest(std::size_t period, std::size_t ratios) const;
   bool settles(std::size_t period) const;
+  bool is_near(std::size_t period) const;
+  /// The sum of the last lengths.
+  double last(std::size_t period) const;
 
   const System* system_;
   std::vector<Eigen::Index> rows_;  ///< of states and modes

@@ -76,22 +76,18 @@ void ClaimLane::at(double t, const Reading& reading, std::optional<std::size_t> 
   compare(value, reading.terms, change == 0, is_rounding);
 }
 
-void ClaimLane::along(double t, const StepSamples& samples, const Reading& end, bool breaks,
-                      bool halved) {
+void ClaimLane::along(double t, const StepSamples& samples, const StepPolynomial& along,
+                      const Reading& end, bool breaks, bool halved) {
   const Known value = known(end, false);
   if (claim_->over || !counts(t)) return;
   const bool stays = samples.start.rate == 0 && samples.middle.rate == 0 && samples.end.rate == 0;
   const bool same = (stays || end.fine == end.coarse) && looked_ && value.value == last_.value &&
                     samples.middle.value == samples.start.value;
   if (!looked_ || same) return compare(value, end.terms, same, halved);
-  const auto signed_of = [&](Sample one) { return Sample{sign_ * one.value, sign_ * one.rate}; };
-  const StepSamples own{
-      samples.length,         signed_of(samples.start), signed_of(samples.middle),
-      signed_of(samples.end), sign_ * samples.quarter,  sign_ * samples.three_quarters};
   if (claim_->kind == ClaimKind::nonincreasing)
-    compare({own.middle.value, value.error}, end.terms, false, true);
+    compare({samples.middle.value, value.error}, end.terms, false, true);
   compare(value, end.terms, false, halved);
-  compare_within(own, value, end.terms, breaks);
+  compare_within(samples, sign_ < 0 ? along.negated() : along, value, end.terms, breaks);
 }
 
 /// The value at a point where the claim is made.
@@ -134,9 +130,9 @@ void ClaimLane::compare(Known value, double terms, bool same, bool crowded) {
   if (is_close && !violated_) open_ = true;
 }
 
-/// The value between the points of a step.
-void ClaimLane::compare_within(const StepSamples& samples, Known end, double terms, bool breaks) {
-  const StepPolynomial along(samples);
+/// The value between the points of a step. `along`: as it is compared, with sign_.
+void ClaimLane::compare_within(const StepSamples& samples, const StepPolynomial& along, Known end,
+                               double terms, bool breaks) {
   // Where the value branches it goes up and down no faster than at the points.
   const double rate = std::max(
       {std::abs(samples.start.rate), std::abs(samples.middle.rate), std::abs(samples.end.rate)});

@@ -29,9 +29,10 @@ class ClaimLane {
              double limit, double terms = 0);
   /// The start of a run, or the state after a jump of `event`.
   void at(double t, const Reading& reading, std::optional<std::size_t> event);
-  /// A step up to t. `end`: there. `breaks`: whether the value may branch on it. `halved`: it ends
+  /// A step up to t, `along` through its samples. `end`: there. `breaks`: whether the value may branch on it. `halved`: it ends
   /// nearer to its start than errors ask for, so that a value may hardly have changed.
-  void along(double t, const StepSamples& samples, const Reading& end, bool breaks, bool halved);
+  void along(double t, const StepSamples& samples, const StepPolynomial& along, const Reading& end,
+             bool breaks, bool halved);
   void finish();
 
   bool open() const { return open_; }
@@ -48,7 +49,8 @@ class ClaimLane {
   bool counts(double t) const { return t >= claim_->after; }
   Known known(const Reading& reading, bool jumped);
   void compare(Known value, double terms, bool same, bool crowded);
-  void compare_within(const StepSamples& samples, Known end, double terms, bool breaks);
+  void compare_within(const StepSamples& samples, const StepPolynomial& along, Known end,
+                      double terms, bool breaks);
   void check_parting(double value, double difference, double terms);
   /// How near a value comes to what it must not exceed (claims::Finding::score), by their roots where
   /// they are squares.

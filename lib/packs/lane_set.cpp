@@ -25,6 +25,7 @@ LaneSet::LaneSet(const PackSystem& pack)
       look_(*pack.look),
       look_coarse_(*pack.look_coarse),
       look_between_(*pack.look_between),
+      polynomials_(*pack.polynomials),
       begin_(*pack.start),
       coarse_(pack.whole),
       fine_(pack.whole),

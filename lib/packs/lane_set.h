@@ -140,18 +140,18 @@ class LaneSet {
   static double choose_length(PackLane& lane);
   bool shorten(PackLane& lane, double factor);
   bool judge_step(std::size_t l, bool fault);
-  /// One of the values of looks with its rate, over the step.
-  StepSamples samples(PackSystem::LookResult values, PackSystem::LookResult rates, std::size_t k,
-                      std::size_t l) const {
+  /// The polynomials of claims and watches over the step.
+  void follow(std::uint32_t active);
+  StepPolynomial along_claim(std::size_t claim, std::size_t l) { return {polynomials_, claim, l}; }
+  StepPolynomial along_watch(std::size_t watch, std::size_t l) {
+    return {polynomials_, pack_.claims.size() + watch, l};
+  }
+  StepSamples claim_samples(std::size_t claim, std::size_t l) const {
     const auto at = [&](const LaneLook& seen) {
-      return Sample{seen.at(values, k, l), seen.at(rates, k, l)};
+      return Sample{seen.at(PackSystem::claim_values, claim, l),
+                    seen.at(PackSystem::claim_rates, claim, l)};
     };
-    return {lanes_[l]->h,
-            at(start_),
-            at(middle_),
-            at(end_),
-            quarter_.at(values, k, l),
-            three_quarters_.at(values, k, l)};
+    return {lanes_[l]->h, at(start_), at(middle_), at(end_)};
   }
   struct Root {
     double share = 0;  ///< of the step
@@ -187,7 +187,7 @@ class LaneSet {
 
   const PackSystem& pack_;
   double horizon_;
-  lanes::LaneMachine step_, look_, look_coarse_, look_between_, begin_;
+  lanes::LaneMachine step_, look_, look_coarse_, look_between_, polynomials_, begin_;
   std::vector<lanes::LaneMachine> jumps_;
   std::vector<std::optional<lanes::LaneMachine>> lost_;
   LaneValues coarse_, fine_;  ///< now

@@ -41,6 +41,33 @@ void LaneSet::look_between(bool mirrored, LaneLook& seen, std::uint32_t active) 
   look(look_between_, between_, seen, active);
 }
 
+void LaneSet::follow(std::uint32_t active) {
+  using Polynomials = StepPolynomials;
+  std::copy_n(lengths_.row(0), kLanes, polynomials_.input(0));
+  const auto give = [&](std::size_t value, PackSystem::LookResult values,
+                        PackSystem::LookResult rates, std::size_t k) {
+    const auto copy = [&](const LaneLook& seen, PackSystem::LookResult of,
+                          Polynomials::InputOfValue which) {
+      std::copy_n(seen.of[of].row(k), kLanes,
+                  polynomials_.input(Polynomials::input_of(value, which)));
+    };
+    copy(start_, values, Polynomials::start);
+    copy(start_, rates, Polynomials::start_rate);
+    copy(middle_, values, Polynomials::middle);
+    copy(middle_, rates, Polynomials::middle_rate);
+    copy(end_, values, Polynomials::end);
+    copy(end_, rates, Polynomials::end_rate);
+    copy(quarter_, values, Polynomials::quarter);
+    copy(three_quarters_, values, Polynomials::three_quarters);
+  };
+  const std::size_t claims = pack_.claims.size();
+  for (std::size_t c = 0; c < claims; ++c)
+    give(c, PackSystem::claim_values, PackSystem::claim_rates, c);
+  for (std::size_t w = 0; w < pack_.watches.size(); ++w)
+    give(claims + w, PackSystem::watch_values, PackSystem::watch_rates, w);
+  polynomials_.run(active);
+}
+
 void LaneSet::step_all(std::uint32_t mask) {
   for (std::size_t l = 0; l < kLanes; ++l) lengths_.at(0, l) = 0;
   each(mask, [&](std::size_t l) { lengths_.at(0, l) = choose_length(*lanes_[l]); });
@@ -58,6 +85,7 @@ void LaneSet::step_all(std::uint32_t mask) {
   look_between(false, quarter_, mask);
   look_between(true, three_quarters_, mask);
   faults |= quarter_.faults | three_quarters_.faults;
+  follow(mask);
   each(mask, [&](std::size_t l) {
     const bool fault = (faults >> l & 1U) != 0;
     const bool many = ++lanes_[l]->steps > kMostSteps && !open(Why::steps);
@@ -124,7 +152,7 @@ bool LaneSet::find_root(std::size_t l, int& target, double& share) {
   roots_.clear();
   for (std::size_t w = 0; w < pack_.watches.size(); ++w) {
     if (lane.relevant[w] == 0 || !pack_.watches[w].moves) continue;
-    const StepPolynomial along(samples(PackSystem::watch_values, PackSystem::watch_rates, w, l));
+    const StepPolynomial along = along_watch(w, l);
     const double error =
         std::max(error_of(w, l, start_, coarse_start_), error_of(w, l, end_, coarse_look_)) +
         along.error();
@@ -209,7 +237,7 @@ bool LaneSet::accept(std::size_t l) {
   const double now = at_stop ? lane.stop : lane.t + lane.h;
   lane.claims_before = lane.claims;
   for (std::size_t c = 0; c < lane.claims.size(); ++c) {
-    lane.claims[c].along(now, samples(PackSystem::claim_values, PackSystem::claim_rates, c, l),
+    lane.claims[c].along(now, claim_samples(c, l), along_claim(c, l),
                          reading(c, l, end_, coarse_look_), may_branch(c, l),
                          lane.halvings > 0 || 2 * lane.h < lane.wanted);
     if (!lane.claims[c].open()) continue;

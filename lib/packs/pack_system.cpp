@@ -9,6 +9,7 @@
 #include "packs/jump_code.h"
 #include "packs/sharp_parts.h"
 #include "packs/square_of_norm.h"
+#include "packs/step_polynomial.h"
 #include "packs/tolerances.h"
 
 namespace gainsmith::packs {
@@ -349,6 +350,7 @@ std::unique_ptr<const PackSystem> make_pack_system(const hybrid::System& system,
         if (!look.add(set.where, pack->flow_sets.emplace_back())) return nullptr;
     add_switches(look, *pack);
     look.make();
+    pack->polynomials.emplace(StepPolynomials::code(pack->claims.size() + pack->watches.size()));
     pack->start.emplace(start_code(*pack, claims));
   } catch (const numbers::NoFormula&) {
     return nullptr;

@@ -90,6 +90,8 @@ struct PackSystem {
   /// At the points of steps; at the end of the coarser run, without rates and terms of claims; and
   /// between the points, values alone.
   std::optional<lanes::LaneCode> look, look_coarse, look_between;
+  /// Of claims, then of watches, over a step (step_polynomial.h).
+  std::optional<lanes::LaneCode> polynomials;
 
   /// Results of `step`.
   enum StepResult : std::size_t { end, error };

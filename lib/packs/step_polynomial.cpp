@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace gainsmith::packs {
 
@@ -11,7 +12,7 @@ namespace {
 using Coefficients = std::array<double, 6>;
 
 /// A search for a root ends so near to it, or where the value is such a part of the coefficients.
-constexpr double kRootWithin = 4e-16;
+constexpr double kRootWithin = 2e-15;
 
 /// The first `level` coefficients of one degree less, at a share (de Casteljau).
 void step_down(Coefficients& b, std::size_t level, double share) {
@@ -61,21 +62,60 @@ bool falls_within(const Coefficients& b, double margin, int depth) {
 
 }  // namespace
 
-StepPolynomial::StepPolynomial(const StepSamples& samples) {
-  const auto& [length, start, middle, end, quarter, three_quarters] = samples;
-  b_[0] = start.value;
-  b_[1] = start.value + length * start.rate / 5;
-  b_[4] = end.value - length * end.rate / 5;
-  b_[5] = end.value;
-  const double sum = (32 * middle.value - b_[0] - 5 * b_[1] - 5 * b_[4] - b_[5]) / 10;
-  const double difference =
-      (3.2 * length * middle.rate + b_[0] + 3 * b_[1] - 3 * b_[4] - b_[5]) / 2;
-  b_[2] = (sum - difference) / 2;
-  b_[3] = (sum + difference) / 2;
-  const double fifth = b_[5] - 5 * b_[4] + 10 * b_[3] - 10 * b_[2] + 5 * b_[1] - b_[0];
-  error_ = std::fmax(
-      0.15 / 32 * std::abs(fifth),
-      2 * std::fmax(std::abs((*this)(0.25) - quarter), std::abs((*this)(0.75) - three_quarters)));
+lanes::LaneCode StepPolynomials::code(std::size_t count) {
+  using numbers::ScalarOp;
+  numbers::ScalarGraph graph;
+  const auto times = [&](double factor, int a) {
+    return graph.multiply(graph.constant(factor), a);
+  };
+  const auto input = [&](std::size_t k) { return graph.input(static_cast<int>(k)); };
+  const int length = input(0);
+  std::vector<std::vector<int>> results;
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto of = [&](InputOfValue which) { return input(input_of(k, which)); };
+    const auto weighted = [&](const Coefficients& weights, const std::array<int, 6>& b) {
+      int sum = times(weights[0], b[0]);
+      for (std::size_t i = 1; i < b.size(); ++i) sum = graph.add(times(weights[i], b[i]), sum);
+      return sum;
+    };
+    std::array<int, 6> b{};
+    b[0] = of(start);
+    b[5] = of(end);
+    b[1] = graph.add(graph.multiply(length, times(0.2, of(start_rate))), b[0]);
+    b[4] = graph.subtract(b[5], graph.multiply(length, times(0.2, of(end_rate))));
+    // The value in the middle gives the sum of both others, the rate there their difference.
+    const int others = graph.add(graph.add(b[0], b[5]), times(5, graph.add(b[1], b[4])));
+    const int sum = times(0.05, graph.subtract(times(32, of(middle)), others));
+    const int apart = graph.add(graph.subtract(b[0], b[5]), times(3, graph.subtract(b[1], b[4])));
+    const int difference =
+        times(0.25, graph.add(graph.multiply(length, times(3.2, of(middle_rate))), apart));
+    b[2] = graph.subtract(sum, difference);
+    b[3] = graph.add(sum, difference);
+    constexpr Coefficients quarter_weights = {243.0 / 1024, 405.0 / 1024, 270.0 / 1024,
+                                              90.0 / 1024,  15.0 / 1024,  1.0 / 1024};
+    const auto off = [&](const std::array<int, 6>& from, InputOfValue which) {
+      return graph.apply(ScalarOp::abs, graph.subtract(weighted(quarter_weights, from), of(which)));
+    };
+    const std::array<int, 6> mirrored = {b[5], b[4], b[3], b[2], b[1], b[0]};
+    const int fifth = graph.apply(ScalarOp::abs, weighted({-1, 5, -10, 10, -5, 1}, b));
+    const int most = graph.apply(ScalarOp::maximum, off(b, quarter), off(mirrored, three_quarters));
+    const int error = graph.apply(ScalarOp::maximum, times(0.15 / 32, fifth), times(2, most));
+    results.push_back({b[1], b[2], b[3], b[4], error});
+  }
+  return {graph, results, 1 + count * inputs};
+}
+
+StepPolynomial::StepPolynomial(lanes::LaneMachine& made, std::size_t value, std::size_t lane) {
+  b_[0] = made.input(StepPolynomials::input_of(value, StepPolynomials::start))[lane];
+  b_[5] = made.input(StepPolynomials::input_of(value, StepPolynomials::end))[lane];
+  for (std::size_t k = 1; k < 5; ++k) b_[k] = made.result(value, k - 1)[lane];
+  error_ = made.result(value, 4)[lane];
+}
+
+StepPolynomial StepPolynomial::negated() const {
+  StepPolynomial other = *this;
+  for (double& one : other.b_) one = -one;
+  return other;
 }
 
 double StepPolynomial::operator()(double share) const {
@@ -93,7 +133,12 @@ double StepPolynomial::rise() const { return rise_of(b_, 6); }
 bool StepPolynomial::falls(double margin) const { return falls_within(b_, margin, 6); }
 
 double StepPolynomial::root(int side) const {
-  double low = 0, high = 1, at = 0.5, size = 0;
+  // The coefficients are near the polynomial: it comes to 0 about where they do.
+  std::size_t beyond = 2;
+  while (beyond + 1 < b_.size() && side * b_[beyond] > 0) ++beyond;
+  const double before_it = side * b_[beyond - 1];
+  const double part = before_it > 0 ? before_it / (before_it - side * b_[beyond]) : 0.5;
+  double low = 0, high = 1, at = (static_cast<double>(beyond - 1) + part) / 5, size = 0;
   for (const double one : b_) size = std::fmax(size, std::abs(one));
   for (int k = 0; k < 100; ++k) {
     Coefficients b = b_;

@@ -3,6 +3,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+
+#include "lanes/machine.h"
 
 namespace gainsmith::packs {
 
@@ -12,11 +15,10 @@ struct Sample {
   double rate = 0;
 };
 
-/// A value over a step. The values at its quarters serve to see how far the quintic is off.
+/// A value over a step.
 struct StepSamples {
   double length = 0;
   Sample start, middle, end;
-  double quarter = 0, three_quarters = 0;
 };
 
 /// What the quintic is at a quarter of a step of length 1, and at three quarters with start and end
@@ -26,10 +28,35 @@ struct QuarterWeights {
   static constexpr double rates[] = {9.0 / 256, -9.0 / 64, -3.0 / 256};
 };
 
+/// The quintics of `count` values over the steps of all lanes.
+///
+/// Inputs: the length of the step; of each value as InputOfValue says, `input_of`.
+/// Result k: the coefficients B_1 ... B_4 of value k and its error (StepPolynomial).
+struct StepPolynomials {
+  enum InputOfValue : std::size_t {
+    start,
+    start_rate,
+    middle,
+    middle_rate,
+    end,
+    end_rate,
+    quarter,
+    three_quarters,
+    inputs
+  };
+  static std::size_t input_of(std::size_t value, InputOfValue which) {
+    return 1 + value * inputs + which;
+  }
+  static lanes::LaneCode code(std::size_t count);
+};
+
 class StepPolynomial {
  public:
-  explicit StepPolynomial(const StepSamples& samples);
+  /// Of a machine that has run StepPolynomials::code.
+  StepPolynomial(lanes::LaneMachine& made, std::size_t value, std::size_t lane);
 
+  /// With the opposite sign.
+  StepPolynomial negated() const;
   /// B_0 ... B_5 on [0, 1], the share of the step.
   const std::array<double, 6>& coefficients() const { return b_; }
   double operator()(double share) const;
@@ -37,7 +64,7 @@ class StepPolynomial {
   /// The largest of its values, or hardly more.
   double highest() const;
   /// An estimate of how far it is from what it interpolates, with a margin: twice what it is off
-  /// at the quarters; at least what the quartic without the rate at the end would miss, times
+  /// at the quarters of the step; at least what the quartic without the rate at the end would miss, times
   /// 0.15.
   double error() const { return error_; }
   /// By how much it rises in all, wherever it does; hardly less than that is said.

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "packs/polynomial_through.h"
+
 namespace gainsmith::packs {
 namespace {
 
@@ -28,10 +30,9 @@ struct Follower {
     lane.at(0, {value(0.0), value(0.0), std::abs(value(0.0))}, {});
     const auto at = [&](double t) { return Sample{value(t), rate(t)}; };
     for (double t = 0; t < end - length / 2; t += length)
-      lane.along(t + length,
-                 {length, at(t), at(t + length / 2), at(t + length), value(t + length / 4),
-                  value(t + 3 * length / 4)},
-                 reading(value(t + length)), false, false);
+      lane.along(t + length, {length, at(t), at(t + length / 2), at(t + length)},
+                 polynomial_through(value, rate, t, length), reading(value(t + length)), false,
+                 false);
     lane.finish();
     return lane;
   }

@@ -5,15 +5,10 @@
 #include <cmath>
 #include <random>
 
+#include "packs/polynomial_through.h"
+
 namespace gainsmith::packs {
 namespace {
-
-template <class Value, class Rate>
-StepPolynomial through(const Value& value, const Rate& rate, double from, double length) {
-  const auto at = [&](double t) { return Sample{value(t), rate(t)}; };
-  return StepPolynomial({length, at(from), at(from + length / 2), at(from + length),
-                         value(from + length / 4), value(from + 3 * length / 4)});
-}
 
 TEST(StepPolynomial, IsTheQuinticItself) {
   std::mt19937 random(1);
@@ -27,7 +22,7 @@ TEST(StepPolynomial, IsTheQuinticItself) {
     const auto rate = [&](double t) {
       return a[1] + t * (2 * a[2] + t * (3 * a[3] + t * (4 * a[4] + t * 5 * a[5])));
     };
-    const StepPolynomial along = through(value, rate, -0.4, 1.3);
+    const StepPolynomial along = polynomial_through(value, rate, -0.4, 1.3);
     double highest = -INFINITY;
     for (int i = 0; i <= 1000; ++i) {
       const double share = i / 1000.0;
@@ -48,13 +43,14 @@ TEST(StepPolynomial, EstimatesItsErrorWithAMargin) {
       return rate * std::cos(rate * t + 0.3) - rate * std::exp(-rate * t);
     };
     for (double from = 0; from < 3; from += 0.1) {
-      const StepPolynomial along = through(value, slope, from, 0.5);
+      const StepPolynomial along = polynomial_through(value, slope, from, 0.5);
       double worst = 0;
       for (int i = 0; i <= 100; ++i)
         worst = std::max(worst, std::abs(along(i / 100.0) - value(from + i / 200.0)));
       // Where the fifth difference passes 0 the error is not 0: a step has a neighbour's estimate.
-      const double around = std::max({along.error(), through(value, slope, from - 0.2, 0.5).error(),
-                                      through(value, slope, from + 0.2, 0.5).error()});
+      const double around =
+          std::max({along.error(), polynomial_through(value, slope, from - 0.2, 0.5).error(),
+                    polynomial_through(value, slope, from + 0.2, 0.5).error()});
       EXPECT_LE(worst, around);
     }
   }
@@ -63,39 +59,40 @@ TEST(StepPolynomial, EstimatesItsErrorWithAMargin) {
 TEST(StepPolynomial, AddsUpItsRises) {
   const auto falls = [](double t) { return 1 - t - t * t; };
   const auto falls_at = [](double t) { return -1 - 2 * t; };
-  EXPECT_EQ(through(falls, falls_at, 0, 1).rise(), 0);
+  EXPECT_EQ(polynomial_through(falls, falls_at, 0, 1).rise(), 0);
   // Down by 1/4 to t = 1/2, then up by as much.
   const auto dips = [](double t) { return t * t - t; };
   const auto dips_at = [](double t) { return 2 * t - 1; };
-  EXPECT_NEAR(through(dips, dips_at, 0, 1).rise(), 0.25, 1e-3);
+  EXPECT_NEAR(polynomial_through(dips, dips_at, 0, 1).rise(), 0.25, 1e-3);
   // A short rise just after the start.
   const auto short_rise = [](double t) { return 1e-4 * t - t * t; };
   const auto short_rate = [](double t) { return 1e-4 - 2 * t; };
-  EXPECT_GT(through(short_rise, short_rate, 0, 1).rise(), 2.5e-9);
+  EXPECT_GT(polynomial_through(short_rise, short_rate, 0, 1).rise(), 2.5e-9);
 }
 
 TEST(StepPolynomial, FallsAsMuchAsItDoes) {
   // The rate is -1 + 0.99 sin^2: coefficients rise, the value does not.
   const auto value = [](double t) { return -t + 0.99 * (t / 2 - std::sin(6 * t) / 12); };
   const auto rate = [](double t) { return -1 + 0.99 * std::pow(std::sin(3 * t), 2); };
-  const StepPolynomial along = through(value, rate, 0, 1);
+  const StepPolynomial along = polynomial_through(value, rate, 0, 1);
   EXPECT_FALSE(along.falls(0.05));
-  const StepPolynomial half = through(value, rate, 0.35, 0.3);
+  const StepPolynomial half = polynomial_through(value, rate, 0.35, 0.3);
   EXPECT_TRUE(half.falls(0.3 * 0.005));
   EXPECT_FALSE(half.falls(0.3 * 0.02));
-  EXPECT_TRUE(through([](double t) { return -t; }, [](double) { return -1.0; }, 0, 1).falls(0.9));
+  EXPECT_TRUE(polynomial_through([](double t) { return -t; }, [](double) { return -1.0; }, 0, 1)
+                  .falls(0.9));
 }
 
 TEST(StepPolynomial, FindsItsRoot) {
   const auto value = [](double t) { return 0.3 - t + t * t * t; };
   const auto rate = [](double t) { return -1 + 3 * t * t; };
-  const StepPolynomial along = through(value, rate, 0, 0.5);
+  const StepPolynomial along = polynomial_through(value, rate, 0, 0.5);
   EXPECT_NEAR(value(0.5 * along.root(1)), 0, 1e-15);
   // From 0 up and back.
   const auto flies = [](double t) { return 3 * t - 5 * t * t; };
   const auto flies_at = [](double t) { return 3 - 10 * t; };
-  EXPECT_NEAR(through(flies, flies_at, 0, 8).root(1), 0.6 / 8, 1e-15);
-  EXPECT_NEAR(through(flies, flies_at, 0.2, 8).root(1), 0.4 / 8, 1e-15);
+  EXPECT_NEAR(polynomial_through(flies, flies_at, 0, 8).root(1), 0.6 / 8, 1e-15);
+  EXPECT_NEAR(polynomial_through(flies, flies_at, 0.2, 8).root(1), 0.4 / 8, 1e-15);
 }
 
 }  // namespace
