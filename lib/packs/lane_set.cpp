@@ -1,6 +1,7 @@
 #include "packs/lane_set.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "base/stop.h"
 
@@ -73,15 +74,18 @@ void LaneSet::run_waiting(const PackAccuracy& accuracy) {
   lanes_.resize(kLanes);
   while (true) {
     check_stop();
-    if (const std::uint32_t stepping = in(Phase::step)) {
-      step_all(stepping);
-      continue;
-    }
-    refill();
-    if (const std::uint32_t jumping = in(Phase::jump)) {
+    const std::uint32_t stepping = in(Phase::step);
+    // Few that step wait for the others.
+    const bool many = 2 * std::popcount(stepping) >= static_cast<int>(kLanes);
+    if (!many) refill();
+    const std::uint32_t jumping = many ? 0 : in(Phase::jump);
+    const std::uint32_t looking = many ? 0 : in(Phase::look);
+    if (jumping != 0) {
       jump_all(jumping);
-    } else if (const std::uint32_t looking = in(Phase::look)) {
+    } else if (looking != 0) {
       look_all(looking);
+    } else if (stepping != 0) {
+      step_all(stepping);
     } else {
       break;
     }

@@ -21,7 +21,7 @@ constexpr double kFirstStep = 1e-3;  ///< of the horizon | the first step of a r
         ///< Systems/PackRuns.AgreeWithCarefulRuns
 constexpr double kShortestStep = 1e-10;  ///< of the horizon | a run with a shorter step is left to the
         ///< careful one | UnusualRuns.AreLeftOpen
-constexpr int kMostSteps = 3000;  ///< steps in one flow | the same of a longer one |
+constexpr int kMostSteps = 20000;  ///< steps in one flow | the same of a longer one |
         ///< UnusualRuns.AreLeftOpen
 constexpr int kMostLooks = 200;  ///< looks at one instant | a flow whose branches change without end is
         ///< left to the careful run | UnusualRuns.AreLeftOpen
