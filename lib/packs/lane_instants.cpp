@@ -183,7 +183,8 @@ bool LaneSet::begin_flow(std::size_t l) {
   for (const PackClaim& claim : pack_.claims)
     if (claim.after > lane.t) lane.stop = std::min(lane.stop, claim.after);
   lane.flow_start = lane.t;
-  lane.chain = lane.looks = lane.steps = 0;
+  lane.looks = lane.steps = 0;
+  lane.has_jumped = false;
   lane.largest.setZero();
   lane.phase = Phase::step;
   forget_root(lane);
@@ -230,7 +231,7 @@ bool LaneSet::arrive_at_root(std::size_t l, std::size_t target) {
 
 bool LaneSet::begin_jump(std::size_t l) {
   PackLane& lane = *lanes_[l];
-  if (ends_in_zeno_ && lane.chain == 0 && lane.t > lane.flow_start) {
+  if (ends_in_zeno_ && !lane.has_jumped && lane.t > lane.flow_start) {
     for (Eigen::Index k = 0; k < pack_.system->size; ++k)
       scratch_(k) = fine_.at(static_cast<std::size_t>(k), l);
     lane.zeno.push(lane.t, lane.t - lane.flow_start, *lane.due, scratch_, lane.largest);
@@ -241,7 +242,8 @@ bool LaneSet::begin_jump(std::size_t l) {
     if (lane.zeno.chatters()) return open(Why::jumps);
   }
   lane.phase = Phase::jump;
-  return ++lane.chain <= kMostChain || open(Why::jumps);
+  lane.has_jumped = true;
+  return true;
 }
 
 bool LaneSet::arrive_at_stop(std::size_t l) {

@@ -47,9 +47,9 @@ struct PackLane {
   int halvings = 0;
   int target = -1;  ///< the watch whose root a step goes to
   int retakes = 0;
-  int steps = 0;  ///< in this flow
-  int looks = 0;  ///< at this instant
-  int chain = 0;  ///< jumps at this instant
+  int steps = 0;            ///< in this flow
+  int looks = 0;            ///< at this instant
+  bool has_jumped = false;  ///< at this instant
   hybrid::EventClocks clocks;
   hybrid::NoiseDraws noise;
   Sides sides;

@@ -4,8 +4,8 @@
 // run. Each run is made twice over the same steps, once in whole and once in half steps: what they
 // differ by is the error of the first, 256 times that of the second, of which values are taken.
 //
-//   steps    to clocks and the horizon exactly; a step on which a watched difference comes to 0 is
-//            taken again to its root
+//   steps    to clocks and the horizon exactly; a step on which a watched difference comes to 0, and
+//            decides something by that, is taken again to its root
 //   roots    the finer run jumps where it is; the other one is moved along its flow to its own root,
 //            jumps there, and is moved back, to first order: so their difference knows of the error
 //            of the event's time

@@ -23,10 +23,8 @@ constexpr double kShortestStep = 1e-10;  ///< of the horizon | a run with a shor
         ///< careful one | UnusualRuns.AreLeftOpen
 constexpr int kMostSteps = 20000;  ///< steps in one flow | the same of a longer one |
         ///< UnusualRuns.AreLeftOpen
-constexpr int kMostLooks = 200;  ///< looks at one instant | a flow whose branches change without end is
-        ///< left to the careful run | UnusualRuns.AreLeftOpen
-constexpr int kMostChain = 64;  ///< jumps without a flow between them | the same of a longer chain |
-        ///< UnusualRuns.AreLeftOpen
+constexpr int kMostLooks = 1000;  ///< looks at one instant | a chain of more jumps, or a flow whose
+        ///< branches change without end, is left to the careful run | UnusualRuns.AreLeftOpen
 constexpr int kMostHalvings = 4;  ///< times | a step is halved so often where a sign is not certain
         ///< on it | UnusualRuns.AreLeftOpen
 constexpr double kScore = 0.02;  ///< relative, and absolute | how near a run comes to its bound is known

@@ -47,8 +47,8 @@ TEST(UnusualRuns, AreLeftOpen) {
              at: {back: {x: "[0; x(2)]"}})",
                                  "2", R"(["[-1; 0]", "[-0.5; 0]"])")),
             40U);
-  // A chain of a hundred jumps at one time.
-  EXPECT_EQ(open_runs(problem_of("go: {when: x(1) > 1 and x(2) < 100}",
+  // A chain of three thousand jumps at one time.
+  EXPECT_EQ(open_runs(problem_of("go: {when: x(1) > 1 and x(2) < 3000}",
                                  R"(state: {x: {shape: 2}}, flow: {x: "[1; 0]"},
              at: {go: {x: "[x(1); x(2) + 1]"}})",
                                  "2", R"(["[0; 0]", "[0.5; 0]"])")),
