@@ -156,6 +156,7 @@ class LaneSet {
   struct Root {
     double share = 0;  ///< of the step
     std::size_t watch = 0;
+    std::int8_t from = 0;  ///< the side that it leaves
   };
   /// The first root on the step that decides about an event, a flow set or a branch. False: a sign
   /// is not certain.

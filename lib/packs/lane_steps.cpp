@@ -167,10 +167,9 @@ bool LaneSet::find_root(std::size_t l, int& target, double& share) {
       lane.zero[w] = error;
       continue;
     }
-    const int from = known != 0 ? known : left_side(w, l, b, error);
+    const std::int8_t from = known != 0 ? lane.sides[w] : left_side(w, l, b, error);
     if (from == 0 || !(from * b[5] < -error) || !crosses_once(b, from)) return false;
-    lane.sides[w] = static_cast<std::int8_t>(from);
-    roots_.push_back({along.root(from), w});
+    roots_.push_back({along.root(from), w, from});
   }
   return roots_.empty() || choose_root(lane, target, share);
 }
@@ -178,16 +177,17 @@ bool LaneSet::find_root(std::size_t l, int& target, double& share) {
 bool LaneSet::choose_root(PackLane& lane, int& target, double& share) {
   std::sort(roots_.begin(), roots_.end(),
             [](const Root& one, const Root& other) { return one.share < other.share; });
+  for (const Root& root : roots_) lane.sides[root.watch] = root.from;
   Sides sides = lane.sides;
   for (std::size_t k = 0; k < roots_.size(); ++k) {
+    const auto& [share_of_root, w, from] = roots_[k];
     const double next = k + 1 < roots_.size() ? roots_[k + 1].share : lane.target >= 0 ? 1 : 2;
-    if ((next - roots_[k].share) * lane.h <= hybrid::kHardly * horizon_) return open(Why::order);
-    const std::size_t w = roots_[k].watch;
+    if ((next - share_of_root) * lane.h <= hybrid::kHardly * horizon_) return open(Why::order);
     const Sides before = sides;
-    sides[w] = static_cast<std::int8_t>(-sides[w]);
+    sides[w] = static_cast<std::int8_t>(-from);
     if (decides(w, lane, before, sides)) {
       target = static_cast<int>(w);
-      share = roots_[k].share;
+      share = share_of_root;
       return lane.target < 0;
     }
     lane.passed[w] = 1;
