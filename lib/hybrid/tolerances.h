@@ -26,10 +26,13 @@ constexpr double kAddedUp = 1e-12;  ///< relative
 constexpr double kOneInstant = 1e-14;  ///< of the time
 ///< | times that differ by less are one instant
 ///< | EventRun.AClockAtTheEndOfAStepFiresOnce
-constexpr double kHardly = 1e-9;  ///< of the horizon; of the time so far for steps
-///< | a time in which a run hardly advances: flows that chatter, switches that slide, steps that
-///< have become too short, what a flow may be outside of `while` after a jump
+constexpr double kHardly = 1e-9;  ///< of the horizon
+///< | a time in which a run hardly advances: flows that chatter, switches that slide, what a flow
+///< may be outside of `while` after a jump
 ///< | JudgedEnds.ChatteringMeansShortFlows
+constexpr double kSlow = 1e-6;  ///< of the time so far
+///< | ten thousand steps of a flow that advance less have become too short
+///< | EventEnding.StepsThatHardlyAdvanceEndARun
 constexpr std::size_t kAtOnce = 8;  ///< switches of a flow
 ///< | so many within hardly any time slide; a kink that changes so often at one time is passed over
 ///< | JudgedEnds.ChatteringMeansShortFlows

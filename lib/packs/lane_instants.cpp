@@ -223,8 +223,9 @@ bool LaneSet::arrive_at_root(std::size_t l, std::size_t target) {
   move(l, coarse_, start_, lane.coarse_shift);
   lane.moved = true;
   // The next flow may be about as long.
-  lane.wanted =
-      std::min(lane.wanted, std::max(2 * (lane.t - lane.flow_start), hybrid::kHardly * horizon_));
+  if (lane.due)
+    lane.wanted =
+        std::min(lane.wanted, std::max(2 * (lane.t - lane.flow_start), hybrid::kHardly * horizon_));
   keep_before(l);
   lane.phase = Phase::look;
   return !lane.due || begin_jump(l);

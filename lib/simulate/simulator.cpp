@@ -139,6 +139,7 @@ class EventRun {
     check_stop();
     if (chain_ == 0) watch_zeno(event);
     sliding_.jumped();
+    slow_steps_ = 0;
     const VectorXd before = values_;
     const bool lost = system_.dynamics.events[event].lost > 0 && due_.clocks().loses(event);
     values_ = maps_(event, lost, before, places());
@@ -321,9 +322,9 @@ class EventRun {
     }
   }
 
-  /// Steps without end that hardly advance.
+  /// Steps of a flow without end that hardly advance.
   void watch_progress() {
-    if (t_ - slow_since_ > hybrid::kHardly * t_) {
+    if (t_ - slow_since_ > hybrid::kSlow * t_) {
       slow_since_ = t_;
       slow_steps_ = 0;
     }
@@ -331,7 +332,7 @@ class EventRun {
       throw RunEnd(hybrid::Ending::lost,
                    fmt::format("the steps have become too short: {} of them for {} "
                                "of the time so far",
-                               ode::kPatience, brief(hybrid::kHardly)));
+                               ode::kPatience, brief(hybrid::kSlow)));
   }
 
   const hybrid::System& system_;

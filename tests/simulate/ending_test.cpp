@@ -74,6 +74,16 @@ TEST(EventEnding, TextsWithoutAValueNameTheirPlace) {
   expect_says(at, "test:1:1");
 }
 
+TEST(EventEnding, StepsThatHardlyAdvanceEndARun) {
+  // It comes to 0 at t = 1.118 and does not rest there: its rate has the norm 1.
+  EventProblem problem;
+  problem.state("x", {2, 1}, "[1; 0.5]").flow("x", "-x/norm(x)");
+  const hybrid::Trajectory run = run_to(problem.system(), 3);
+  EXPECT_EQ(run.ending, hybrid::Ending::lost);
+  EXPECT_NEAR(run.end, 1.118034, 1e-4);
+  expect_says(run, "too short");
+}
+
 TEST(EventEnding, LeavingTheFlowSetSaysWhy) {
   EventProblem problem;
   problem.state("x", {}, "0").flow("x", "cos(t)").flow_set("x <= 0.5", "too far");
