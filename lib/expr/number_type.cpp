@@ -15,7 +15,7 @@ void outside_domain(Op op, double value) {
   constexpr double kHardlyNegative = 1e-9;
   const bool is_hardly = op == Op::sqrt && value < 0 && value > -kHardlyNegative;
   throw EvaluationError(to_string(op) + " of " + brief(value) +
-                        (is_hardly ? "; of what is 0 up to rounding write sqrt(max(0, ...))" : ""));
+                        (is_hardly ? " (where that is rounding, write sqrt(max(..., 0)))" : ""));
 }
 
 void not_finite(Op op) {

@@ -29,8 +29,9 @@ class ClaimLane {
              double limit, double terms = 0);
   /// The start of a run, or the state after a jump of `event`.
   void at(double t, const Reading& reading, std::optional<std::size_t> event);
-  /// A step up to t, `along` through its samples. `end`: there. `breaks`: whether the value may branch on it. `halved`: it ends
-  /// nearer to its start than errors ask for, so that a value may hardly have changed.
+  /// A step up to t, `along` through its samples. `end`: there. `breaks`: whether the value may
+  /// branch on it. `halved`: it ends nearer to its start than errors ask for, so that a value may
+  /// hardly have changed.
   void along(double t, const StepSamples& samples, const StepPolynomial& along, const Reading& end,
              bool breaks, bool halved);
   void finish();

@@ -75,14 +75,15 @@ void LaneSet::run_waiting(const PackAccuracy& accuracy) {
   while (true) {
     check_stop();
     const std::uint32_t stepping = in(Phase::step);
+    if (2 * std::popcount(stepping) >= static_cast<int>(kLanes)) {
+      step_all(stepping);
+      continue;
+    }
     // Few that step wait for the others.
-    const bool many = 2 * std::popcount(stepping) >= static_cast<int>(kLanes);
-    if (!many) refill();
-    const std::uint32_t jumping = many ? 0 : in(Phase::jump);
-    const std::uint32_t looking = many ? 0 : in(Phase::look);
-    if (jumping != 0) {
+    refill();
+    if (const std::uint32_t jumping = in(Phase::jump)) {
       jump_all(jumping);
-    } else if (looking != 0) {
+    } else if (const std::uint32_t looking = in(Phase::look)) {
       look_all(looking);
     } else if (stepping != 0) {
       step_all(stepping);

@@ -162,8 +162,8 @@ class LaneSet {
   /// is not certain.
   bool find_root(std::size_t l, int& target, double& share);
   bool choose_root(PackLane& lane, int& target, double& share);
-  /// Whether anything depends on the side of a watch, with the others on these sides.
-  bool decides(std::size_t w, const PackLane& lane, const Sides& before, const Sides& after) const;
+  /// Whether anything depends on the side of a watch, with the others on the sides `sides_`.
+  bool decides(std::size_t w, const PackLane& lane);
   /// Of what may be 0 at the start of the step: the side that it is on a moment later; 0: that is
   /// not certain.
   std::int8_t left_side(std::size_t w, std::size_t l, const std::array<double, 6>& b,
@@ -203,6 +203,7 @@ class LaneSet {
   std::vector<std::vector<std::size_t>> since_, left_;  ///< by event: elements
   Eigen::VectorXd scratch_;
   std::vector<Root> roots_;  ///< on the step of a lane
+  Sides sides_;              ///< between two of them
   Why why_ = Why::claim;     ///< of the lane that is left open
   std::vector<std::optional<PackLane>> lanes_;
   std::uint64_t seed_ = 0, first_ = 0;

@@ -178,29 +178,30 @@ bool LaneSet::choose_root(PackLane& lane, int& target, double& share) {
   std::sort(roots_.begin(), roots_.end(),
             [](const Root& one, const Root& other) { return one.share < other.share; });
   for (const Root& root : roots_) lane.sides[root.watch] = root.from;
-  Sides sides = lane.sides;
+  sides_ = lane.sides;
   for (std::size_t k = 0; k < roots_.size(); ++k) {
-    const auto& [share_of_root, w, from] = roots_[k];
+    const std::size_t w = roots_[k].watch;
     const double next = k + 1 < roots_.size() ? roots_[k + 1].share : lane.target >= 0 ? 1 : 2;
-    if ((next - share_of_root) * lane.h <= hybrid::kHardly * horizon_) return open(Why::order);
-    const Sides before = sides;
-    sides[w] = static_cast<std::int8_t>(-from);
-    if (decides(w, lane, before, sides)) {
+    if ((next - roots_[k].share) * lane.h <= hybrid::kHardly * horizon_) return open(Why::order);
+    if (decides(w, lane)) {
       target = static_cast<int>(w);
-      share = share_of_root;
+      share = roots_[k].share;
       return lane.target < 0;
     }
     lane.passed[w] = 1;
+    sides_[w] = static_cast<std::int8_t>(-sides_[w]);
   }
   return true;
 }
 
-bool LaneSet::decides(std::size_t w, const PackLane& lane, const Sides& before,
-                      const Sides& after) const {
+bool LaneSet::decides(std::size_t w, const PackLane& lane) {
   if (is_crossing_[w] || !pack_.watches[w].branches.empty() || lane.undetermined) return true;
   const auto changes = [&](const WatchedCondition& condition) {
-    const Truth is = truth(condition, pack_.watches, after);
-    return is == Truth::unknown || is != truth(condition, pack_.watches, before);
+    const Truth before = truth(condition, pack_.watches, sides_);
+    sides_[w] = static_cast<std::int8_t>(-sides_[w]);
+    const Truth after = truth(condition, pack_.watches, sides_);
+    sides_[w] = static_cast<std::int8_t>(-sides_[w]);
+    return after == Truth::unknown || after != before;
   };
   return std::any_of(pack_.flow_sets.begin(), pack_.flow_sets.end(), changes) ||
          std::any_of(pack_.events.begin(), pack_.events.end(),

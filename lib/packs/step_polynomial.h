@@ -64,8 +64,8 @@ class StepPolynomial {
   /// The largest of its values, or hardly more.
   double highest() const;
   /// An estimate of how far it is from what it interpolates, with a margin: twice what it is off
-  /// at the quarters of the step; at least what the quartic without the rate at the end would miss, times
-  /// 0.15.
+  /// at the quarters of the step; at least what the quartic without the rate at the end would
+  /// miss, times 0.15.
   double error() const { return error_; }
   /// By how much it rises in all, wherever it does; hardly less than that is said.
   double rise() const;

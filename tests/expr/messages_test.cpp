@@ -247,7 +247,7 @@ TEST_F(Messages, OperationsWithoutAResultAreShownWhereTheyStand) {
   expect("log(zero)", 1, {"log of 0"});
   expect("sqrt(-delta)", 1, {"sqrt of -0.1"});
   expect("sqrt(-1e-17*delta)", 1,
-         {"sqrt of -1e-18; of what is 0 up to rounding write sqrt(max(0, ...))"});
+         {"sqrt of -1e-18 (where that is rounding, write sqrt(max(..., 0)))"});
   expect("(-delta)^0.5", 1, {"power is not a finite number"});
   expect("big*big", 1, {"product is not a finite number"});
   expect("1 + exp(big)", 5, {"exp is not a finite number"});
