@@ -28,9 +28,9 @@ claims::Judgement judgement_from(const JsonReader& reader) {
   return word(reader, std::array{held, violated, undecided});
 }
 
-bounded::Termination termination_from(const JsonReader& reader) {
-  using enum bounded::Termination;
-  return word(reader, std::array{horizon, diverged, lost, jump_limit, undefined, broken_off});
+claims::Termination termination_from(const JsonReader& reader) {
+  using enum claims::Termination;
+  return word(reader, std::array{horizon, lost, broken_off});
 }
 
 model::ClaimKind kind_from(const JsonReader& reader) {
@@ -60,10 +60,8 @@ Json finding_json(const claims::Finding& finding) {
           {"t", bits(finding.t)},
           {"j", finding.j},
           {"floor", bits(finding.floor)},
-          {"digits", finding.digits},
           {"looked", finding.looked},
           {"ended", finding.ended},
-          {"estimated", finding.estimated},
           {"disputed", finding.disputed},
           {"tolerance", bits(finding.tolerance)}};
 }
@@ -78,10 +76,8 @@ claims::Finding finding_from(const JsonReader& reader) {
   finding.t = from_bits(reader.at("t"));
   finding.j = static_cast<std::int64_t>(reader.at("j").count());
   finding.floor = from_bits(reader.at("floor"));
-  finding.digits = reader.at("digits").whole();
   finding.looked = reader.at("looked").truth();
   finding.ended = reader.at("ended").truth();
-  finding.estimated = reader.at("estimated").truth();
   finding.disputed = reader.at("disputed").truth();
   finding.tolerance = from_bits(reader.at("tolerance"));
   return finding;
@@ -174,7 +170,6 @@ Json to_json(const verify::CampaignFacts& facts) {
                    {"seed", facts.seed},
                    {"confidence", bits(facts.confidence)},
                    {"horizon", bits(facts.horizon)},
-                   {"integrated", facts.integrated},
                    {"many_at_once", facts.many_at_once}};
   if (facts.different) document["different_runs"] = *facts.different;
   document["events"] = facts.events;
@@ -191,7 +186,6 @@ verify::CampaignFacts facts_from(const JsonReader& reader) {
   facts.seed = reader.at("seed").count();
   facts.confidence = from_bits(reader.at("confidence"));
   facts.horizon = from_bits(reader.at("horizon"));
-  facts.integrated = reader.at("integrated").truth();
   facts.many_at_once = reader.at("many_at_once").truth();
   if (reader.has("different_runs")) facts.different = reader.at("different_runs").count();
   facts.events = texts_from(reader.at("events"));

@@ -56,7 +56,7 @@ std::string runs_text(std::uint64_t runs) {
 
 /// Whether nothing is known of the value any more.
 bool has_parted(const claims::Finding& finding) {
-  return finding.estimated && !std::isfinite(finding.rounding);
+  return !std::isfinite(finding.rounding);
 }
 
 /// With as many digits as tell them apart.
@@ -77,13 +77,8 @@ std::string uncertainty_text(model::ClaimKind kind, const claims::Finding& findi
   if (has_parted(finding))
     return "two computations that differ in accuracy and in their last places have parted by "
            "then, or the text branches too often";
-  const std::string how =
-      finding.estimated ? "by two integrations" : fmt::format("in {} digits", finding.digits);
-  const std::string known =
-      std::isfinite(finding.rounding)
-          ? fmt::format("known to {} {}", brief(finding.rounding, 2), how)
-          : fmt::format("{} the bound on the error is larger than all numbers", how);
-  return fmt::format("{}: nothing is certain of {} {} {}", known, brief(finding.value),
+  return fmt::format("known to {} by two integrations: nothing is certain of {} {} {}",
+                     brief(finding.rounding, 2), brief(finding.value),
                      kind == model::ClaimKind::above ? ">=" : "<=", brief(finding.bound));
 }
 
@@ -121,15 +116,14 @@ std::string check_text(const verify::CheckReport& check, std::size_t width) {
     text += fmt::format("               within a tolerance of {} {}\n", brief(worst.tolerance),
                         bounded && worst.bound == 0 ? "of the largest terms" : "of the bound");
   if (check.floor > 0)
-    text += fmt::format("               checked down to {} of the {}: the {} no larger drop\n",
-                        brief(check.floor, 2), bounded ? "largest terms" : "start",
-                        worst.estimated ? "integration shows" : "digits show");
+    text += fmt::format("               checked down to {} of the {}: the integration shows no larger drop\n",
+                        brief(check.floor, 2), bounded ? "largest terms" : "start");
   return text;
 }
 
 /// Why a run did not reach the horizon.
-std::string ending_text(bounded::Termination termination, const std::string& message) {
-  if (termination == bounded::Termination::lost && !message.empty()) return message;
+std::string ending_text(claims::Termination termination, const std::string& message) {
+  if (termination == claims::Termination::lost && !message.empty()) return message;
   return to_string(termination) + (message.empty() ? "" : ", " + message);
 }
 
@@ -141,7 +135,7 @@ std::string unfinished_text(const verify::Report& report) {
 std::string reason_text(const verify::Report& report) {
   const verify::UndecidedRun& first = *report.first_undecided;
   const claims::Finding& finding = first.finding;
-  if (first.termination != bounded::Termination::horizon)
+  if (first.termination != claims::Termination::horizon)
     return fmt::format("it ends at t = {}, before the horizon: {}", brief(finding.t),
                        ending_text(first.termination, first.message));
   const verify::CheckReport& check = report.checks[first.check];
@@ -169,7 +163,7 @@ std::string undecided_text(const verify::Report& report, const std::string& gain
   std::string text =
       fmt::format("  {} of {} undecided; {} run {}: {}\n", report.undecided, runs_text(report.runs),
                   report.undecided == 1 ? "it is" : "first", first.run, reason_text(report));
-  if (first.termination == bounded::Termination::horizon) text += advice_text(report);
+  if (first.termination == claims::Termination::horizon) text += advice_text(report);
   if (first.run != report.worst_run)
     text += fmt::format("  see         gainsmith simulate {} --run {} --seed {}\n", gains_file,
                         first.run, report.seed);
@@ -236,7 +230,6 @@ model::CampaignRecord campaign_record(const verify::Report& report, const std::s
     record.first_undecided = {report.first_undecided->run, reason_text(report)};
   record.worst_run = report.worst_run;
   record.repeated = report.repeated;
-  record.integrated = report.integrated;
   record.confirmed = report.confirmed;
   record.different_runs = report.different;
   if (!report.different) {
@@ -273,8 +266,8 @@ std::string campaign_line(const model::CampaignRecord& record) {
                        record.different_runs ? " (nothing is drawn)" : "", worst);
   if (record.verdict == model::CampaignVerdict::violated)
     return fmt::format(
-        "violated in {} of {}{}, confirmed {}", record.violations, runs_text(record.runs), worst,
-        record.integrated ? "more accurately" : fmt::format("in {} digits", kQuadDigits));
+        "violated in {} of {}{}, confirmed more accurately", record.violations,
+        runs_text(record.runs), worst);
   return fmt::format("undecided in {} of {}{}", record.undecided + record.violations,
                      runs_text(record.runs), worst);
 }

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
-#include <type_traits>
 #include <utility>
 
 #include "claims/tolerances.h"
@@ -12,75 +12,51 @@ namespace gainsmith::claims {
 
 namespace {
 
-using bounded::Bounded;
-using bounded::Track;
-using Eigen::Index;
+constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
 
-template <class Scalar>
-constexpr bool is_double = std::is_same_v<Scalar, double>;
+bool is_number(const Bounded& value) { return !std::isnan(value.value); }
 
-template <class Scalar>
-int digits_of() {
-  return is_double<Scalar> ? kDoubleDigits : kQuadDigits;
+/// Whether a sample is there for the sake of one value.
+bool is_own(const Track& track, std::size_t sample) {
+  return !track.sampled_for.empty() && track.sampled_for[sample] != Track::kForAll;
 }
 
-template <class Scalar>
-bool is_number(const Bounded<Scalar>& value) {
-  using std::isnan;
-  return !isnan(value.value);
-}
+/// The part of a value at the start below which what is undecided is noise, by the accuracy of the
+/// integration.
+double noise_floor(double accuracy) { return std::max(accuracy, kNoiseOfRuns); }
 
-/// What is certain of value <= bound.
-template <class Scalar>
-Judgement compare(const Bounded<Scalar>& value, const Bounded<Scalar>& bound) {
-  if (!is_number(value) || !is_number(bound))
-    return is_double<Scalar> ? Judgement::undecided : Judgement::violated;
-  const double excess = static_cast<double>(value.value - bound.value);
-  const double rounding = (value.bound + bound.bound) * bounded::kBoundSlack +
-                          2 * bounded::unit_roundoff<Scalar>() * std::abs(excess);
+/// What is certain of value <= bound. `holds`: it is known to be so.
+Judgement compare(const Bounded& value, const Bounded& bound, bool holds) {
+  if (holds) return Judgement::held;
+  if (!is_number(value) || !is_number(bound)) return Judgement::undecided;
+  const double excess = value.value - bound.value;
+  const double rounding = value.bound + bound.bound + 2 * kUnit * std::abs(excess);
   if (excess > rounding) return Judgement::violated;
   if (excess <= -rounding || (excess <= 0 && value.bound + bound.bound == 0))
     return Judgement::held;
   return Judgement::undecided;
 }
 
-template <class Scalar>
-Finding finding_at(const Track<Scalar>& track, std::size_t sample, const Bounded<Scalar>& value,
-                   const Bounded<Scalar>& bound, double scale, Judgement judgement) {
+Finding finding_at(const Track& track, std::size_t sample, const Bounded& value,
+                   const Bounded& bound, double scale, Judgement judgement) {
   Finding finding;
   finding.judgement = judgement;
-  finding.value = static_cast<double>(value.value);
-  finding.bound = static_cast<double>(bound.value);
+  finding.value = value.value;
+  finding.bound = bound.value;
   // What overflowed bounds nothing; a difference of two such is no number.
   finding.rounding = value.bound + bound.bound;
-  if (std::isnan(finding.rounding)) finding.rounding = bounded::no_bound();
+  if (std::isnan(finding.rounding)) finding.rounding = std::numeric_limits<double>::infinity();
   finding.t = track.t[sample];
   finding.j = track.j[sample];
-  finding.digits = digits_of<Scalar>();
-  finding.estimated = track.accuracy > 0;
-  const double excess = static_cast<double>(value.value - bound.value);
+  finding.estimated = true;
+  const double excess = value.value - bound.value;
   const bool violated = judgement == Judgement::violated;
   if (std::isnan(excess) || (violated && scale == 0)) {
-    finding.score = bounded::no_bound();
+    finding.score = std::numeric_limits<double>::infinity();
   } else {
     finding.score = scale == 0 ? -1 : excess / std::abs(scale);
   }
   return finding;
-}
-
-template <class Scalar>
-Bounded<Scalar> sum(const Bounded<Scalar>& a, const Bounded<Scalar>& b) {
-  Bounded<Scalar> result{a.value + b.value, a.bound + b.bound};
-  if (a.value != Scalar(0) && b.value != Scalar(0))
-    result.bound += bounded::unit_roundoff<Scalar>() * bounded::size_of(result.value);
-  return result;
-}
-
-template <class Scalar>
-std::optional<Value<Scalar>> make_value(const std::optional<JudgedFunction>& function,
-                                        const bounded::BoundedSystem<Scalar>& system) {
-  if (!function) return std::nullopt;
-  return Value<Scalar>(*function, system);
 }
 
 }  // namespace
@@ -97,147 +73,92 @@ std::string to_string(Judgement judgement) {
   return "?";
 }
 
-JudgedClaim judged_claim(const Claim& claim, const std::function<JudgedFunction()>& next) {
-  JudgedClaim judged;
-  judged.name = claim.name;
-  judged.kind = claim.kind;
-  judged.value = next();
-  if (claim.flow_cost) judged.flow_cost = next();
-  if (claim.jump_cost) judged.jump_cost = next();
-  if (claim.factor) judged.factor = next();
-  if (claim.bound) judged.bound = next();
-  judged.after = claim.after;
-  judged.over = claim.over;
-  judged.tolerance = claim.tolerance;
-  return judged;
-}
-
-template <class Scalar>
-ClaimCheck<Scalar>::ClaimCheck(const JudgedClaim& claim,
-                               const bounded::BoundedSystem<Scalar>& system)
-    : claim_(&claim),
-      system_(&system),
-      value_(claim.value, system),
-      jump_cost_(make_value(claim.jump_cost, system)),
-      factor_(make_value(claim.factor, system)),
-      bound_(make_value(claim.bound, system)),
-      terms_(make_value(claim.terms, system)) {
-  if (claim.flow_cost && !claim.integral && !claim.accumulated)
-    flow_cost_.emplace(*claim.flow_cost, system);
-}
-
-template <class Scalar>
-Finding ClaimCheck<Scalar>::operator()(const Track& track) {
-  Finding finding = judged(track);
+Finding ClaimCheck::operator()(const Track& track, bool holds) const {
+  Finding finding = judged(track, holds);
   finding.tolerance = claim_->tolerance;
   return finding;
 }
 
-template <class Scalar>
-Finding ClaimCheck<Scalar>::judged(const Track& track) {
+Finding ClaimCheck::judged(const Track& track, bool holds) const {
   switch (claim_->kind) {
     case model::ClaimKind::nonincreasing:
-      return nonincreasing(track);
+      return nonincreasing(track, holds);
     case model::ClaimKind::cost:
-      return cost(track);
+      return cost(track, holds);
     case model::ClaimKind::shrinks:
-      return shrinks(track);
+      return shrinks(track, holds);
     case model::ClaimKind::below:
     case model::ClaimKind::above:
-      return bounded(track);
+      return bounded(track, holds);
   }
   return {};
 }
 
 /// What must not be exceeded, and what the tolerance forgives: a part of a size, known up to an
 /// error.
-template <class Scalar>
-Bounded<Scalar> ClaimCheck<Scalar>::eased(const Bounded& bound, double size, double error) const {
+Bounded ClaimCheck::eased(const Bounded& bound, double size, double error) const {
   if (claim_->tolerance == 0) return bound;
   const double forgiven = claim_->tolerance * size;
-  const double rounded = bounded::unit_roundoff<double>() * forgiven +
-                         bounded::unit_roundoff<Scalar>() * bounded::size_of(bound.value);
-  return {bound.value + Scalar(forgiven), bound.bound + claim_->tolerance * error + 2 * rounded};
-}
-
-/// Whether a sample is there for the sake of one value.
-template <class Scalar>
-bool ClaimCheck<Scalar>::is_own(const Track& track, std::size_t sample) const {
-  return !track.sampled_for.empty() && track.sampled_for[sample] != Track::kForAll;
+  const double rounded = kUnit * (forgiven + std::abs(bound.value));
+  return {bound.value + forgiven, bound.bound + claim_->tolerance * error + 2 * rounded};
 }
 
 /// Whether it may lie so near the one before that no value has changed in between.
-template <class Scalar>
-bool ClaimCheck<Scalar>::is_crowded(const Track& track, std::size_t sample) const {
+bool ClaimCheck::is_crowded(const Track& track, std::size_t sample) const {
   return is_own(track, sample) ||
          (!track.within_instant.empty() && track.within_instant[sample] != 0);
 }
 
 /// Whether it is there for the sake of another.
-template <class Scalar>
-bool ClaimCheck<Scalar>::is_of_another(const Track& track, std::size_t sample) const {
-  return is_own(track, sample) && track.sampled_for[sample] != claim_->sampled_for;
+bool ClaimCheck::is_of_another(const Track& track, std::size_t sample) const {
+  return is_own(track, sample) && track.sampled_for[sample] != claim_->value;
 }
 
-template <class Scalar>
-bool ClaimCheck<Scalar>::counts(const Track& track, std::size_t sample) const {
+bool ClaimCheck::counts(const Track& track, std::size_t sample) const {
   if (track.t[sample] < claim_->after || is_of_another(track, sample)) return false;
   if (!claim_->over) return true;
   return sample > 0 && track.moves[sample - 1].jump &&
          track.moves[sample - 1].event == *claim_->over;
 }
 
-template <class Scalar>
-std::vector<Bounded<Scalar>> ClaimCheck<Scalar>::values(const Track& track) {
+std::vector<Bounded> ClaimCheck::values(const Track& track) const {
   std::vector<Bounded> values;
   for (std::size_t k = 0; k < track.samples(); ++k)
-    values.push_back(k > 0 && !claim_->value.varies(track.moves[k - 1].jump) ? values.back()
-                                                                             : value_(track, k));
+    values.push_back(k > 0 && claim_->is_still && !track.moves[k - 1].jump
+                         ? values.back()
+                         : track.at(k, claim_->value));
   return values;
 }
 
 /// Whether the value at a sample may differ from that at one before, the last that counts.
-template <class Scalar>
-bool ClaimCheck<Scalar>::may_change(const Track& track, std::size_t before, std::size_t sample,
-                                    const std::vector<Bounded>& v) const {
+bool ClaimCheck::may_change(const Track& track, std::size_t before, std::size_t sample,
+                            const std::vector<Bounded>& v) const {
   if (claim_->over) return true;
   bool jump = false;
   bool varies = false;
   for (std::size_t k = before; k < sample; ++k) {
     jump = jump || track.moves[k].jump;
-    varies = varies || claim_->value.varies(track.moves[k].jump);
+    varies = varies || track.moves[k].jump || !claim_->is_still;
   }
   if (!varies) return false;
   const auto is_fixed = [&](std::size_t k) {
     const auto size = static_cast<std::size_t>(track.size);
     return !track.is_fixed.empty() &&
-           track.is_fixed[k * size + static_cast<std::size_t>(claim_->sampled_for)] != 0;
+           track.is_fixed[k * size + static_cast<std::size_t>(claim_->value)] != 0;
   };
   const bool same = v[sample].value == v[before].value;
   if (is_fixed(sample) && is_fixed(before) && same) return false;
   // Jumps of others leave it bit by bit.
-  return !(jump && track.accuracy > 0 && same);
+  return !(jump && same);
 }
 
-namespace {
-
-/// The part of a value at the start below which what is undecided is noise, by the accuracy of the
-/// integration; 0: flows are not integrated.
-double noise_floor(double accuracy) { return accuracy > 0 ? std::max(accuracy, kNoiseOfRuns) : 0; }
-
-}  // namespace
-
-template <class Scalar>
-Finding ClaimCheck<Scalar>::nonincreasing(const Track& track) {
+Finding ClaimCheck::nonincreasing(const Track& track, bool holds) const {
   const std::vector<Bounded> v = values(track);
   std::size_t first = 0;
   while (first < v.size() && !counts(track, first)) ++first;
   if (first == v.size()) return nothing_counts(track);
-  const double scale = static_cast<double>(v[first].value);
-  const bool integrated = track.accuracy > 0;
-  const double floor = integrated          ? kFloorOfAccuracy * track.accuracy
-                       : is_double<Scalar> ? 0
-                                           : kFloorOfDigits;
+  const double scale = v[first].value;
+  const double floor = kFloorOfAccuracy * track.accuracy;
   Bounded low = v[first];   // with the smallest value - bound
   Bounded high = v[first];  // with the smallest value + bound
   std::size_t last = first;
@@ -248,19 +169,17 @@ Finding ClaimCheck<Scalar>::nonincreasing(const Track& track) {
     const bool moves = may_change(track, last, k, v);
     last = k;
     if (!moves) continue;
-    Judgement judgement = compare(v[k], eased(high, bounded::size_of(high.value), high.bound));
+    Judgement judgement = compare(v[k], eased(high, std::abs(high.value), high.bound), holds);
     if (judgement != Judgement::violated) {
-      judgement = compare(v[k], eased(low, bounded::size_of(low.value), low.bound));
+      judgement = compare(v[k], eased(low, std::abs(low.value), low.bound), holds);
       if (judgement == Judgement::violated) judgement = Judgement::undecided;
     }
     if (judgement == Judgement::undecided && is_crowded(track, k) && is_number(v[k]) &&
-        static_cast<double>(v[k].value - high.value) <= kGrown * (v[k].bound + high.bound))
+        v[k].value - high.value <= kGrown * (v[k].bound + high.bound))
       judgement = Judgement::held;
-    const double top = bounded::size_of(v[k].value) + v[k].bound;
-    const double least = judgement == Judgement::undecided
-                             ? std::max(floor, noise_floor(track.accuracy))
-                         : integrated ? floor
-                                      : 0;
+    const double top = std::abs(v[k].value) + v[k].bound;
+    const double least =
+        judgement == Judgement::undecided ? noise_floor(track.accuracy) : floor;
     if (judgement != Judgement::held && scale != 0 && top <= least * std::abs(scale)) {
       noise = std::max(noise, top / std::abs(scale));
     } else if (judgement != Judgement::held) {
@@ -268,53 +187,48 @@ Finding ClaimCheck<Scalar>::nonincreasing(const Track& track) {
       const auto rank = [](const Finding& one) { return std::pair(one.violated(), one.score); };
       if (!worst || rank(found) > rank(*worst)) worst = found;
     }
-    if (v[k].value - low.value < Scalar(v[k].bound - low.bound)) low = v[k];
-    if (v[k].value - high.value < Scalar(high.bound - v[k].bound)) high = v[k];
+    if (v[k].value - low.value < v[k].bound - low.bound) low = v[k];
+    if (v[k].value - high.value < high.bound - v[k].bound) high = v[k];
   }
   if (!worst && !is_number(v[first]))
-    worst = finding_at(track, first, v[first], v[first], scale, compare(v[first], v[first]));
+    worst = finding_at(track, first, v[first], v[first], scale, compare(v[first], v[first], holds));
   if (!worst) worst = finding_at(track, last, v[last], v[first], scale, Judgement::held);
   worst->floor = noise;
   return *worst;
 }
 
-template <class Scalar>
-Finding ClaimCheck<Scalar>::nothing_counts(const Track& track) const {
+Finding ClaimCheck::nothing_counts(const Track& track) const {
   Finding finding;
   finding.looked = false;
-  finding.score = -bounded::no_bound();
+  finding.score = -std::numeric_limits<double>::infinity();
   finding.t = track.t.back();
   finding.j = track.j.back();
-  finding.digits = digits_of<Scalar>();
-  finding.estimated = track.accuracy > 0;
+  finding.estimated = true;
   return finding;
 }
 
 /// The sizes of the terms of the value at samples that count, with their errors; 0 at the others.
 /// Without terms they are those of the value itself.
-template <class Scalar>
-std::vector<double> ClaimCheck<Scalar>::term_sizes(const Track& track,
-                                                   const std::vector<Bounded>& v) {
+std::vector<double> ClaimCheck::term_sizes(const Track& track,
+                                           const std::vector<Bounded>& v) const {
   std::vector<double> sizes(v.size(), 0);
   for (std::size_t k = 0; k < v.size(); ++k) {
     if (!counts(track, k) || !is_number(v[k])) continue;
-    const Bounded terms = terms_ ? (*terms_)(track, k) : v[k];
-    sizes[k] = bounded::size_of(terms.value) + v[k].bound;
+    const Bounded terms = claim_->terms ? track.at(k, *claim_->terms) : v[k];
+    sizes[k] = std::abs(terms.value) + v[k].bound;
   }
   return sizes;
 }
 
 /// The value against the bound b at every sample that counts; `above` is `below` of what is
 /// negated.
-template <class Scalar>
-Finding ClaimCheck<Scalar>::bounded(const Track& track) {
+Finding ClaimCheck::bounded(const Track& track, bool holds) const {
   const std::vector<Bounded> v = values(track);
-  const Bounded b = (*bound_)(track, 0);
+  const Bounded b = track.at(0, *claim_->bound);
   const bool above = claim_->kind == model::ClaimKind::above;
   // The same in all runs, so that their scores are compared as their values are.
-  const double scale = b.value == Scalar(0) ? 1 : bounded::size_of(b.value);
-  const std::vector<double> sizes =
-      b.value == Scalar(0) ? term_sizes(track, v) : std::vector<double>();
+  const double scale = b.value == 0 ? 1 : std::abs(b.value);
+  const std::vector<double> sizes = b.value == 0 ? term_sizes(track, v) : std::vector<double>();
   double largest = 0;
   for (const double size : sizes)
     if (std::isfinite(size)) largest = std::max(largest, size);
@@ -325,17 +239,17 @@ Finding ClaimCheck<Scalar>::bounded(const Track& track) {
   };
   for (std::size_t k = 0; k < v.size(); ++k) {
     if (!counts(track, k)) continue;
-    const bool zero = b.value == Scalar(0);
+    const bool zero = b.value == 0;
     const double size = zero ? sizes[k] : scale;
     const double error = zero ? 2 * v[k].bound : b.bound;
     const Judgement judgement =
-        above ? compare(b, eased(v[k], size, error)) : compare(v[k], eased(b, size, error));
+        above ? compare(b, eased(v[k], size, error), holds) : compare(v[k], eased(b, size, error), holds);
     Finding found = finding_at(track, k, above ? b : v[k], above ? v[k] : b, scale, judgement);
     if (above) std::swap(found.value, found.bound);
     const double part = largest > 0 ? sizes[k] / largest : 1;
     const bool drowned =
         found.undecided() && is_number(v[k]) && part <= noise_floor(track.accuracy);
-    const bool nothing = judgement != Judgement::held && track.accuracy > 0 &&
+    const bool nothing = judgement != Judgement::held &&
                          (part <= kFloorOfAccuracy * track.accuracy || drowned);
     if (nothing) noise = std::max(noise, part);
     if (!nothing && (!worst || rank(found) > rank(*worst))) worst = found;
@@ -345,95 +259,47 @@ Finding ClaimCheck<Scalar>::bounded(const Track& track) {
   return *worst;
 }
 
-template <class Scalar>
-Bounded<Scalar> ClaimCheck<Scalar>::rest_cost(const Track& track, std::size_t move) {
-  const bounded::Series<Scalar>& series = system_->steps.rest_integrals[*claim_->integral];
-  const double sigma = series.share(track.moves[move].step.length);
-  series.sum(sigma, rest_form_.matrix);
-  // As if all errors of the sum were rounding of its elements.
-  const double share = sigma / bounded::unit_roundoff<Scalar>();
-  rest_form_.sizes.resize(series.errors.rows(), series.errors.cols());
-  for (Index e = 0; e < series.errors.size(); ++e)
-    rest_form_.sizes(e) = bounded::size_of(rest_form_.matrix(e)) + share * series.errors(e);
-  return bounded::value_of<Scalar>(rest_form_, track.state(move), track.bound(move));
-}
-
-template <class Scalar>
-Bounded<Scalar> ClaimCheck<Scalar>::step_cost(const Track& track, std::size_t move) {
-  if (!claim_->flow_cost || claim_->accumulated) return {};
-  if (flow_cost_) return (*flow_cost_)(track, move);
-  const bounded::FlowStep& step = track.moves[move].step;
-  if (step.level == bounded::FlowStep::kRest) return rest_cost(track, move);
-  const auto& integrals = system_->steps.integrals[*claim_->integral];
-  return bounded::value_of<Scalar>(integrals[static_cast<std::size_t>(step.level)],
-                                   track.state(move), track.bound(move));
-}
-
-template <class Scalar>
-std::vector<Bounded<Scalar>> ClaimCheck<Scalar>::running_cost(const Track& track) {
-  std::vector<Bounded> cost(track.samples());
-  for (std::size_t k = 0; k + 1 < track.samples(); ++k) {
-    Bounded more;
-    if (!track.moves[k].jump) {
-      more = step_cost(track, k);
-    } else if (jump_cost_) {
-      more = (*jump_cost_)(track, k);
-    }
-    cost[k + 1] = sum(cost[k], more);
-  }
-  if (!claim_->accumulated) return cost;
-  for (std::size_t k = 0; k < track.samples(); ++k)
-    cost[k] =
-        sum(cost[k], {track.state(k)(*claim_->accumulated), track.bound(k)(*claim_->accumulated)});
-  return cost;
-}
-
-template <class Scalar>
-Finding ClaimCheck<Scalar>::cost(const Track& track) {
-  const std::vector<Bounded> c = running_cost(track);
-  const Bounded bound = value_(track, 0);
-  const Bounded most = eased(bound, bounded::size_of(bound.value), bound.bound);
-  const double scale = static_cast<double>(bound.value);
+Finding ClaimCheck::cost(const Track& track, bool holds) const {
+  const Bounded bound = track.at(0, claim_->value);
+  const Bounded most = eased(bound, std::abs(bound.value), bound.bound);
+  const double scale = bound.value;
   std::optional<Finding> worst;
   const auto rank = [](const Finding& one) {
     return std::tuple(one.violated(), one.undecided(), one.score);
   };
-  for (std::size_t k = 0; k < c.size(); ++k) {
+  for (std::size_t k = 0; k < track.samples(); ++k) {
     if (is_of_another(track, k)) continue;
-    const Finding found = finding_at(track, k, c[k], bound, scale, compare(c[k], most));
+    const Bounded cost = track.at(k, *claim_->cost);
+    const Finding found = finding_at(track, k, cost, bound, scale, compare(cost, most, holds));
     if (!worst || rank(found) > rank(*worst)) worst = found;
   }
   const bool held = !worst->violated() && !worst->undecided();
-  const std::size_t last = c.size() - 1;
+  const std::size_t last = track.samples() - 1;
   // Its start, 0, says nothing of a run.
   if (held && worst->value <= 0)
-    worst = finding_at(track, last, c[last], bound, scale, Judgement::held);
+    worst = finding_at(track, last, track.at(last, *claim_->cost), bound, scale, Judgement::held);
   return *worst;
 }
 
-template <class Scalar>
-Finding ClaimCheck<Scalar>::shrinks(const Track& track) {
+Finding ClaimCheck::shrinks(const Track& track, bool holds) const {
   const std::size_t last = track.samples() - 1;
-  const Bounded start = value_(track, 0);
-  const Bounded end = value_(track, last);
-  const Bounded factor = (*factor_)(track, 0);
+  const Bounded start = track.at(0, claim_->value);
+  const Bounded end = track.at(last, claim_->value);
+  const Bounded factor = track.at(0, *claim_->factor);
   Bounded bound{factor.value * start.value, 0};
-  const double size = bounded::size_of(start.value);
-  bound.bound = bounded::size_of(factor.value) * start.bound + factor.bound * (size + start.bound) +
-                bounded::unit_roundoff<Scalar>() * bounded::size_of(bound.value);
-  const double scale = static_cast<double>(bound.value);
-  const Bounded most = eased(bound, bounded::size_of(bound.value), bound.bound);
-  const bool nothing = start.value == Scalar(0);
-  const bool lost = track.termination == bounded::Termination::lost;
+  const double size = std::abs(start.value);
+  bound.bound = std::abs(factor.value) * start.bound + factor.bound * (size + start.bound) +
+                kUnit * std::abs(bound.value);
+  const double scale = bound.value;
+  const Bounded most = eased(bound, std::abs(bound.value), bound.bound);
+  const bool nothing = start.value == 0;
+  const bool lost = track.termination == Termination::lost;
   const Judgement judgement = lost      ? Judgement::undecided
                               : nothing ? Judgement::held
-                                        : compare(end, most);
+                                        : compare(end, most, holds);
   Finding found = finding_at(track, last, end, bound, nothing ? 0 : scale, judgement);
   found.ended = lost;
   return found;
 }
-
-template class ClaimCheck<double>;
-template class ClaimCheck<DoubleDouble>;
 
 }  // namespace gainsmith::claims

@@ -16,8 +16,8 @@
 // `after` a time, the samples before it do not count; `over` an event, only those just after its
 // jumps do. Then v(0) is the first that counts.
 //
-// The comparison is that of real numbers. Each value comes with a bound of its error
-// (bounded/bounded_run.h), which says what of it is certain; nothing else is forgiven:
+// The comparison is that of real numbers. Each value comes with a bound of its error (track.h),
+// which says what of it is certain; nothing else is forgiven:
 //
 //   violated    value - its bound > what it must not exceed + its bound
 //   held        value + its bound <= what it must not exceed - its bound, at every sample
@@ -28,33 +28,25 @@
 // sum of the absolute values of the terms of v, at the sample itself.
 //
 // A value that cannot have changed since the sample before is not compared with itself: all that it
-// depends on is constant along flows, or unchanged by jumps. A value that has no number violates in
-// 31 digits and is undecided in double.
+// depends on is constant along flows, or unchanged by jumps. A value that has no number is
+// undecided.
 //
 // A value that falls by more than its digits can show is noise in the end. Noise is not compared,
-// and Finding::floor says down to where values were:
-//
-//   31 digits                            what is undecided below kFloorOfDigits of v(0)
-//   flows integrated to an accuracy a    what is undecided below the larger of a and kNoiseOfRuns of
-//                                        v(0), and all that is below kFloorOfAccuracy a of v(0), where
-//                                        bounds are estimates
+// and Finding::floor says down to where values were. Of flows that are integrated to an accuracy a
+// it is what is undecided below the larger of a and kNoiseOfRuns of v(0), and all that is below
+// kFloorOfAccuracy a of v(0), since bounds are estimates.
 //
 // In a comparison with a bound of 0 the largest terms of v take the place of v(0), since their sum
 // falls to nothing. Where terms merely cancel, and with any other bound, everything is compared.
-//
-// The integral of a quadratic form over a flow is a quadratic form of its start (step_maps.h). That
-// of any other is bounded over pieces of the flow (flow_integral.h).
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "claims/claims.h"
-#include "claims/flow_integral.h"
-#include "claims/value.h"
+#include "claims/track.h"
 
 namespace gainsmith::claims {
 
@@ -79,8 +71,7 @@ struct Finding {
   /// The largest value, relative to v(0), that was not compared because no digits are left; 0:
   /// none. Of a comparison with a bound that of its terms, relative to the largest.
   double floor = 0;
-  int digits = kDoubleDigits;  ///< of the arithmetic that says so
-  bool looked = true;          ///< false: the run has no sample at which the claim is made
+  bool looked = true;      ///< false: the run has no sample at which the claim is made
   bool ended = false;      ///< the run ends at t, before its horizon, and the claim is left open
   bool estimated = false;  ///< `rounding` is an estimate, of the error of integration too
   bool disputed = false;   ///< the run repeated says otherwise, so that `judgement` is undecided
@@ -91,74 +82,48 @@ struct Finding {
   bool operator==(const Finding&) const = default;
 };
 
-/// A claim whose functions are in the coordinates of the judgement.
+/// A claim over the values of a track, by their numbers.
 struct JudgedClaim {
   std::string name;
   model::ClaimKind kind = model::ClaimKind::nonincreasing;
-  JudgedFunction value;
-  std::optional<JudgedFunction> flow_cost;
-  std::optional<JudgedFunction> jump_cost;
-  std::optional<JudgedFunction> factor;
-  std::optional<JudgedFunction> bound;
-  std::optional<JudgedFunction> terms;  ///< of the value: the sum of their absolute values
-  double after = 0;                     ///< the time from which on samples count
-  std::optional<std::size_t> over{};    ///< the event just after whose jumps alone they do
-  double tolerance = 0;                 ///< relative; 0: nothing is forgiven
-  int sampled_for = -1;  ///< the coordinate that is the value, of samples made for its sake (Track)
-  /// Which integrals of the step maps are those of the flow cost.
-  std::optional<std::size_t> integral;
-  /// The coordinate that is the integral of the flow cost, when the flow is integrated.
-  std::optional<Eigen::Index> accumulated;
+  int value = 0;            ///< samples made for the sake of the claim are those for this value
+  bool is_still = false;    ///< the value keeps its bits along flows
+  std::optional<int> cost;  ///< so far
+  std::optional<int> factor;
+  std::optional<int> bound;
+  std::optional<int> terms;           ///< of the value: the sum of their absolute values
+  double after = 0;                   ///< the time from which on samples count
+  std::optional<std::size_t> over{};  ///< the event just after whose jumps alone they do
+  double tolerance = 0;               ///< relative; 0: nothing is forgiven
 };
 
-/// The claim over functions that `next` gives, in the order of programs_of.
-JudgedClaim judged_claim(const Claim& claim, const std::function<JudgedFunction()>& next);
-
-/// Checks one claim, run after run; one for each thread. All arguments must outlive it.
-template <class Scalar>
+/// Checks one claim, run after run. The claim must outlive it.
 class ClaimCheck {
  public:
-  using Track = bounded::Track<Scalar>;
-  using Bounded = bounded::Bounded<Scalar>;
-
-  ClaimCheck(const JudgedClaim& claim, const bounded::BoundedSystem<Scalar>& system);
+  explicit ClaimCheck(const JudgedClaim& claim) : claim_(&claim) {}
 
   const JudgedClaim& claim() const { return *claim_; }
 
-  Finding operator()(const Track& track);
-
-  /// The claim's value at every sample.
-  std::vector<Bounded> values(const Track& track);
-  /// cost: c at every sample.
-  std::vector<Bounded> running_cost(const Track& track);
+  /// `holds`: the claim is known to hold, and what is not certain counts as held.
+  Finding operator()(const Track& track, bool holds = false) const;
 
  private:
-  Finding judged(const Track& track);
-  Finding nonincreasing(const Track& track);
-  Finding cost(const Track& track);
-  Finding shrinks(const Track& track);
-  Finding bounded(const Track& track);
+  Finding judged(const Track& track, bool holds) const;
+  Finding nonincreasing(const Track& track, bool holds) const;
+  Finding cost(const Track& track, bool holds) const;
+  Finding shrinks(const Track& track, bool holds) const;
+  Finding bounded(const Track& track, bool holds) const;
   Finding nothing_counts(const Track& track) const;
+  std::vector<Bounded> values(const Track& track) const;
   Bounded eased(const Bounded& bound, double size, double error) const;
-  std::vector<double> term_sizes(const Track& track, const std::vector<Bounded>& v);
+  std::vector<double> term_sizes(const Track& track, const std::vector<Bounded>& v) const;
   bool counts(const Track& track, std::size_t sample) const;
-  bool is_own(const Track& track, std::size_t sample) const;
   bool is_crowded(const Track& track, std::size_t sample) const;
   bool is_of_another(const Track& track, std::size_t sample) const;
   bool may_change(const Track& track, std::size_t before, std::size_t sample,
                   const std::vector<Bounded>& v) const;
-  Bounded step_cost(const Track& track, std::size_t move);
-  Bounded rest_cost(const Track& track, std::size_t move);
 
   const JudgedClaim* claim_;
-  const bounded::BoundedSystem<Scalar>* system_;
-  Value<Scalar> value_;
-  std::optional<Value<Scalar>> jump_cost_;
-  std::optional<Value<Scalar>> factor_;
-  std::optional<Value<Scalar>> bound_;
-  std::optional<Value<Scalar>> terms_;
-  std::optional<FlowIntegral<Scalar>> flow_cost_;  ///< when it is no quadratic form
-  bounded::Form<Scalar> rest_form_;                ///< the integral over a rest
 };
 
 }  // namespace gainsmith::claims

@@ -6,7 +6,6 @@
 #include <iterator>
 #include <limits>
 
-#include "bounded/tolerances.h"
 #include "claims/smooth_parts.h"
 #include "claims/tolerances.h"
 #include "numerics/golden_section.h"
@@ -129,7 +128,7 @@ class Rises {
 
   const std::vector<double>& end() {
     if (top_at_ > low_at_ &&
-        top_ - low_ > noise_ * size_ + bounded::kErrorOfDifference * drowned_ && size_ > floor_)
+        top_ - low_ > noise_ * size_ + kErrorOfDifference * drowned_ && size_ > floor_)
       times_.insert(times_.end(), {low_at_, top_at_});
     top_ = low_;
     return times_;
@@ -185,8 +184,8 @@ std::vector<SamplePoint> points_along(const FlowPiece& flow, const SamplePoints&
   const double from = flow.from();
   const double length = flow.to() - from;
   std::vector<SamplePoint> result;
-  for (int part = 1; part <= bounded::kPartsOfFlow; ++part) {
-    const double share = static_cast<double>(part) / bounded::kPartsOfFlow;
+  for (int part = 1; part <= kPartsOfFlow; ++part) {
+    const double share = static_cast<double>(part) / kPartsOfFlow;
     result.push_back({share, from + length * share});
   }
   const auto add = [&](double t, int function) {

@@ -9,21 +9,45 @@
 
 namespace gainsmith::claims {
 
-using Eigen::Index;
 using Eigen::VectorXd;
 
-bounded::BallsOf<double> rounded_once(const numbers::Values& constants) {
-  const auto error = [](double x) {
-    return std::rint(x) == x ? 0 : bounded::unit_roundoff<double>() * std::abs(x);
-  };
-  bounded::BallsOf<double> balls;
+using Enclosed = numbers::Enclosed<double>;
+
+numbers::EnclosedValues<double> rounded_once(const numbers::Values& constants) {
+  constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
+  const auto error = [](double x) { return std::rint(x) == x ? 0 : kUnit * std::abs(x); };
+  numbers::EnclosedValues<double> enclosed;
   for (const auto& [name, value] : constants)
-    balls.emplace(name, bounded::Ball<double>{value, value.unaryExpr(error)});
-  return balls;
+    enclosed.emplace(name, Enclosed{value, value.unaryExpr(error)});
+  return enclosed;
+}
+
+TextBall::Function::Function(const expr::Program& program, const hybrid::StateLayout& layout,
+                             const numbers::EnclosedValues<double>& constants)
+    : evaluator_(program) {
+  for (const hybrid::Slot& slot : layout.slots)
+    if (program.uses(slot.name)) slots_.push_back(slot);
+  for (const hybrid::Slot& slot : slots_)
+    moving_.push_back(
+        numbers::exactly<double>(numbers::Matrix::Zero(slot.shape.rows, slot.shape.cols)));
+  for (const expr::Input& input : program.inputs)
+    if (const auto known = constants.find(input.name);
+        known != constants.end() && !layout.moves(input.name))
+      evaluator_.fix(input.name, known->second);
+  for (std::size_t i = 0; i < slots_.size(); ++i) evaluator_.set(slots_[i].name, moving_[i]);
+}
+
+const Enclosed& TextBall::Function::operator()(const VectorXd& x, const VectorXd& r) {
+  for (std::size_t i = 0; i < slots_.size(); ++i) {
+    const hybrid::Slot& slot = slots_[i];
+    moving_[i].mid.reshaped() = x.segment(slot.offset, slot.shape.size());
+    moving_[i].rad.reshaped() = r.segment(slot.offset, slot.shape.size());
+  }
+  return evaluator_.run();
 }
 
 TextBall::TextBall(const expr::Program& program, RunValue& value, const hybrid::StateLayout& layout,
-                   const bounded::BallsOf<double>& constants)
+                   const numbers::EnclosedValues<double>& constants)
     : value_(&value), function_(program, layout, constants), exact_(VectorXd::Zero(layout.size)) {
   for (const expr::Program* difference : value.differences())
     differences_.emplace_back(*difference, layout, constants);
@@ -31,7 +55,7 @@ TextBall::TextBall(const expr::Program& program, RunValue& value, const hybrid::
 
 double TextBall::rounding(const VectorXd& x) {
   try {
-    const double radius = function_(x.head(exact_.size()), exact_, 0, 0).rad(0);
+    const double radius = function_(x, exact_).rad(0);
     return std::isfinite(radius) ? radius : 0;
   } catch (const InputError&) {
     return 0;
@@ -45,23 +69,21 @@ bool TextBall::is_open(const VectorXd& x, const VectorXd& r) {
 }
 
 bool TextBall::is_open(std::size_t k, const VectorXd& x, const VectorXd& r) {
-  const Index size = exact_.size();
-  const double distance = value_->distance(k, x, r.head(size));
+  const double distance = value_->distance(k, x, r.head(exact_.size()));
   if (distance > kFarBranch) return false;
   try {
-    const bounded::Ball<double>& d = differences_[k](x.head(size), r.head(size), 0, 0);
-    if (!d.rad.allFinite()) return true;
-    return (d.mid.array().abs() <= d.rad.array() * bounded::kBoundSlack && d.rad.array() > 0).any();
+    const Enclosed& d = differences_[k](x, r);
+    if (!d.is_known()) return true;
+    return (d.mid.array().abs() <= d.rad.array() && d.rad.array() > 0).any();
   } catch (const InputError&) {
     return true;
   }
 }
 
-bounded::Bounded<double> TextBall::hull(const VectorXd& x, const VectorXd& r) {
-  const Index size = exact_.size();
+Bounded TextBall::hull(const VectorXd& x, const VectorXd& r) {
   try {
-    const bounded::Ball<double>& ball = function_(x.head(size), r.head(size), 0, 0);
-    return {ball.mid(0), ball.rad(0)};
+    const Enclosed& value = function_(x, r);
+    return {value.mid(0), value.rad(0)};
   } catch (const InputError&) {
     return {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()};
   }

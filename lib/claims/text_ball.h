@@ -1,4 +1,4 @@
-// Errors of a text in double, by running error analysis (bounded/ball.h): what its evaluation
+// Errors of a text in double, by enclosures (numbers/enclosure.h): what its evaluation
 // rounds, and what errors of the variables make of it where it branches. Two runs that are compared
 // do not show either: they round alike, and may both take the wrong branch.
 #pragma once
@@ -6,20 +6,21 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "bounded/bounded_system.h"
 #include "claims/run_values.h"
+#include "claims/track.h"
+#include "numbers/enclosure.h"
 
 namespace gainsmith::claims {
 
 /// Constants with their errors: what is no whole number counts as rounded once, as decimals are.
-bounded::BallsOf<double> rounded_once(const numbers::Values& constants);
+numbers::EnclosedValues<double> rounded_once(const numbers::Values& constants);
 
 /// Of a number as a function of all variables. All arguments must outlive it.
 class TextBall {
  public:
   /// `value` is the program as a function.
   TextBall(const expr::Program& program, RunValue& value, const hybrid::StateLayout& layout,
-           const bounded::BallsOf<double>& constants);
+           const numbers::EnclosedValues<double>& constants);
 
   /// How far the computed value may be from the true one at x; 0 where no bound is known.
   double rounding(const Eigen::VectorXd& x);
@@ -28,14 +29,29 @@ class TextBall {
   /// decides where no bound is known.
   bool is_open(const Eigen::VectorXd& x, const Eigen::VectorXd& r);
   /// All values that it may have then; infinite where no bound is known.
-  bounded::Bounded<double> hull(const Eigen::VectorXd& x, const Eigen::VectorXd& r);
+  Bounded hull(const Eigen::VectorXd& x, const Eigen::VectorXd& r);
 
  private:
+  using Enclosed = numbers::Enclosed<double>;
+
+  /// A program as a function of the variables, each known up to an error.
+  class Function {
+   public:
+    Function(const expr::Program& program, const hybrid::StateLayout& layout,
+             const numbers::EnclosedValues<double>& constants);
+    const Enclosed& operator()(const Eigen::VectorXd& x, const Eigen::VectorXd& r);
+
+   private:
+    std::vector<hybrid::Slot> slots_;  ///< those that the program uses
+    std::vector<Enclosed> moving_;
+    expr::Evaluator<numbers::Enclosure<double>> evaluator_;
+  };
+
   bool is_open(std::size_t k, const Eigen::VectorXd& x, const Eigen::VectorXd& r);
 
   RunValue* value_;
-  bounded::BallFunction<double> function_;
-  std::vector<bounded::BallFunction<double>> differences_;
+  Function function_;
+  std::vector<Function> differences_;
   Eigen::VectorXd exact_;
 };
 

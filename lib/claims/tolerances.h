@@ -4,9 +4,10 @@
 namespace gainsmith::claims {
 
 // clang-format off
-constexpr double kFloorOfDigits = 1e-24;  ///< of the value at the start | in 31 digits nothing
-        ///< below it is compared that is not certain |
-        ///< Noise.InDigitsAnUndecidedComparisonCountsDownToTheirFloor
+constexpr int kPartsOfFlow = 32;  ///< parts | claims are compared at the ends of so many equal
+        ///< parts of an integrated flow | FasterThanTheSteps/NarrowClaims.AreJudgedAsTheyAre
+constexpr double kErrorOfDifference = 4;  ///< factor | the error of the sharper of two runs, of
+        ///< their difference | Campaign.IntegratedFlowsAreNoCauseOfWrongVerdicts
 constexpr double kFloorOfAccuracy = 1e-4;  ///< of the accuracy | nothing below so much of the value
         ///< at the start is compared where flows are integrated |
         ///< Noise.ACertainRiseCountsDownToAPartOfTheAccuracy

@@ -98,8 +98,8 @@ Json to_json(const model::CampaignRecord& record) {
                    {"undecided", record.undecided},
                    {"unfinished", record.unfinished},
                    {"worst_run", record.worst_run},
-                   {record.integrated ? "repeated" : "repeated_in_31_digits", record.repeated},
-                   {record.integrated ? "confirmed" : "confirmed_in_31_digits", record.confirmed},
+                   {"repeated", record.repeated},
+                   {"confirmed", record.confirmed},
                    {"different_runs", optional_json(record.different_runs)},
                    {"confidence", optional_json(record.confidence)},
                    {"violation_probability_at_most", optional_json(record.violation_probability)},
@@ -137,10 +137,8 @@ model::CampaignRecord parse_campaign(const std::string& text, const std::string&
   record.undecided = reader.at("undecided").count();
   record.unfinished = reader.at("unfinished").count();
   record.worst_run = reader.at("worst_run").count();
-  record.integrated = reader.has("repeated");
-  record.repeated = reader.at(record.integrated ? "repeated" : "repeated_in_31_digits").count();
-  for (const JsonReader& run :
-       reader.at(record.integrated ? "confirmed" : "confirmed_in_31_digits").items())
+  record.repeated = reader.at("repeated").count();
+  for (const JsonReader& run : reader.at("confirmed").items())
     record.confirmed.push_back(run.count());
   if (const JsonReader different = reader.at("different_runs"); !different.is_null())
     record.different_runs = different.count();

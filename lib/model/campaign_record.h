@@ -55,7 +55,6 @@ struct CampaignRecord {
   std::optional<OpenRunRecord> first_undecided;
   std::uint64_t worst_run = 0;
   std::uint64_t repeated = 0;
-  bool integrated = false;  ///< repeated more accurately; otherwise in 31 digits
   std::vector<std::uint64_t> confirmed;
   /// How many runs differ, where nothing is drawn; then there is no probability.
   std::optional<std::uint64_t> different_runs;

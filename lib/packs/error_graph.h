@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "bounded/tolerances.h"
+#include "linear/tolerances.h"
 #include "lanes/machine.h"
 #include "packs/length_table.h"
 #include "packs/linear_flow.h"
@@ -55,7 +55,7 @@ class Sizes {
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = 0; j < n; ++j)
         if (size_[i][j] > 0) excess = std::max(excess, size_[i][j] / (w[i] * w[j]));
-    for (double& one : w) one *= std::sqrt(excess) * bounded::kBoundSlack;
+    for (double& one : w) one *= std::sqrt(excess) * linear::kBoundSlack;
     return w;
   }
   /// The errors, as a part of w_i w_j.
@@ -153,10 +153,10 @@ class ErrorGraph {
       for (std::size_t j = 0; j < v.count(); ++j, ++next) {
         const LengthTable::Polynomial& function = table.functions[next];
         made.M.back().push_back(polynomial(table, next, sigma));
-        made.sizes.back().push_back(function.size * bounded::kBoundSlack);
+        made.sizes.back().push_back(function.size * linear::kBoundSlack);
         value = add(multiply(made.M.back().back(), v.value[j]), value);
         added = add(
-            scaled(bounded::kBoundSlack * (function.error + rounding * function.size), v.size[j]),
+            scaled(linear::kBoundSlack * (function.error + rounding * function.size), v.size[j]),
             added);
       }
       made.value.push_back(value);

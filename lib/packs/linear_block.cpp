@@ -15,8 +15,8 @@ BlockBounds block_bounds(const LengthTable& table, std::size_t rank, bool consta
     for (std::size_t j = 0; j < count; ++j) {
       const LengthTable::Polynomial& function = table.functions[i * count + j];
       const auto row = static_cast<Eigen::Index>(i), column = static_cast<Eigen::Index>(j);
-      M(row, column) = function.size * bounded::kBoundSlack;
-      K(row, column) = bounded::kBoundSlack * (function.error + rounding * function.size);
+      M(row, column) = function.size * linear::kBoundSlack;
+      K(row, column) = linear::kBoundSlack * (function.error + rounding * function.size);
     }
   if (constant) M(n - 1, n - 1) = 1;
   BlockBounds bounds{numbers::Matrix::Identity(n, n), numbers::Matrix::Zero(n, n)};
@@ -28,8 +28,8 @@ BlockBounds block_bounds(const LengthTable& table, std::size_t rank, bool consta
     bounds.growth = bounds.growth.cwiseMax(size);
     bounds.added = bounds.added.cwiseMax(added);
   }
-  bounds.growth *= bounded::kBoundSlack;
-  bounds.added *= bounded::kBoundSlack;
+  bounds.growth *= linear::kBoundSlack;
+  bounds.added *= linear::kBoundSlack;
   return bounds;
 }
 

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "bounded/tolerances.h"
+#include "linear/tolerances.h"
 #include "numerics/balance.h"
 
 namespace gainsmith::packs {
@@ -126,7 +126,7 @@ RankFactors rank_factors(const Wide& matrix) {
   Wide X = Wide::Zero(n, std::min(n, columns));
   std::vector<Index> rows;
   std::vector<char> taken(static_cast<std::size_t>(n), 0);
-  const Decimal100 least = Decimal100(largest(matrix)) * Decimal100(bounded::kCoefficientNoise);
+  const Decimal100 least = Decimal100(largest(matrix)) * Decimal100(linear::kCoefficientNoise);
   while (true) {
     Index row = -1, column = -1;
     Decimal100 pivot = least;
@@ -164,7 +164,7 @@ RankFactors rank_factors(const Wide& matrix) {
 
 bool is_semidefinite(Wide Q) {
   const Index n = Q.rows();
-  const Decimal100 noise = Decimal100(largest(Q)) * Decimal100(bounded::kCoefficientNoise);
+  const Decimal100 noise = Decimal100(largest(Q)) * Decimal100(linear::kCoefficientNoise);
   std::vector<char> taken(static_cast<std::size_t>(n), 0);
   for (Index step = 0; step < n; ++step) {
     Index pivot = -1;

@@ -195,7 +195,7 @@ lanes::LaneCode step_code(const LinearSystem& system, const LengthTable& table) 
 std::vector<Nodes> triangulated(const LinearSystem& system, const Carried& carried,
                                 ErrorGraph& graph) {
   const std::size_t r = system.rank;
-  const double spread = std::sqrt(static_cast<double>(r)) * bounded::kBoundSlack;
+  const double spread = std::sqrt(static_cast<double>(r)) * linear::kBoundSlack;
   std::vector<Nodes> columns;  // of the matrix on the left: rows of G, then of b
   for (std::size_t i = 0; i < r; ++i) {
     Nodes& column = columns.emplace_back();
@@ -259,7 +259,7 @@ lanes::LaneCode gather_code(const LinearSystem& system, const LengthTable& table
   ErrorGraph graph(system.model.constant);
   const std::size_t r = system.rank;
   const int scale = graph.input();
-  const int root = graph.scaled(bounded::kBoundSlack, graph.input());
+  const int root = graph.scaled(linear::kBoundSlack, graph.input());
   Carried carried = carried_inputs(system, graph);
   const std::vector<Nodes> R = triangulated(system, carried, graph);
   for (std::size_t i = 0; i < r; ++i) {
@@ -289,7 +289,7 @@ Known end_value(const LinearSystem& system, std::size_t c, const LengthTable& fa
     sum.value = graph.add(graph.multiply(factor, one.value), sum.value);
     const double rounding = 4 * (static_cast<double>(system.model.claims[c].value.size()) + 2) *
                             kUnitRoundoff * function.size;
-    sum.error = graph.add(graph.scaled(function.size * bounded::kBoundSlack, one.error), sum.error);
+    sum.error = graph.add(graph.scaled(function.size * linear::kBoundSlack, one.error), sum.error);
     sum.error = graph.add(graph.scaled(function.error + rounding, graph.abs(one.value)), sum.error);
   }
   return sum;

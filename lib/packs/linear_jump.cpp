@@ -4,14 +4,14 @@
 #include <set>
 #include <string>
 
-#include "bounded/bounded_system.h"
+#include "linear/coordinates.h"
 #include "numbers/degree.h"
 
 namespace gainsmith::packs {
 
 namespace {
 
-using bounded::Coordinates;
+using linear::Coordinates;
 using Eigen::Index;
 
 }  // namespace
@@ -19,7 +19,7 @@ using Eigen::Index;
 struct LinearJump::Clocks {
   const Coordinates* coordinates = nullptr;
   Wide start, reset, rate;  ///< of all coordinates; 0 of those that are no clocks
-  std::vector<std::optional<bounded::WideFunction>> after;  ///< by coordinate; none: unchanged
+  std::vector<std::optional<linear::WideFunction>> after;  ///< by coordinate; none: unchanged
 
   /// Whether clock i is set to a constant by jumps, and starts at one.
   bool add(std::size_t i, const Wide& start_of_all, const std::vector<bool>& same) {
@@ -29,7 +29,7 @@ struct LinearJump::Clocks {
           return coordinates->layout.moves(input.name);
         }))
       return false;
-    bounded::WideFunction value(*jump, coordinates->layout, coordinates->constants);
+    linear::WideFunction value(*jump, coordinates->layout, coordinates->constants);
     const Wide zero = Wide::Zero(coordinates->layout.size, 1);
     reset.middleRows(slot.offset, slot.shape.size()) = value(zero).reshaped();
     for (Index e = slot.offset; e < slot.offset + slot.shape.size(); ++e) {
@@ -50,7 +50,7 @@ std::optional<LinearJump> LinearJump::make(const Coordinates& all, const Wide& s
                                            const std::vector<bool>& same) {
   LinearJump made;
   const Index n = all.layout.size;
-  if (const auto map = bounded::affine_jump(all)) {
+  if (const auto map = linear::affine_jump(all)) {
     for (Index e = 0; e < n; ++e) made.elements_.push_back(e);
     made.constant_.resize(n, n + 1);
     made.constant_ << map->linear, map->constant;
@@ -71,7 +71,7 @@ std::optional<LinearJump> LinearJump::make(const Coordinates& all, const Wide& s
       (is_clock ? clock_elements : made.elements_).push_back(slot.offset + e);
   }
   if (!all.linear(made.elements_, clock_elements).isZero(0)) return std::nullopt;
-  for (const bounded::Coordinate& one : all.list) {
+  for (const linear::Coordinate& one : all.list) {
     clocks.after.emplace_back();
     if (one.clock || !one.jump) continue;
     const auto degrees =
@@ -86,7 +86,7 @@ std::optional<LinearJump> LinearJump::make(const Coordinates& all, const Wide& s
 
 Wide LinearJump::operator()(const Decimal100& length, bool first) const {
   if (!clocks_) return constant_;
-  const bounded::Coordinates& all = *clocks_->coordinates;
+  const linear::Coordinates& all = *clocks_->coordinates;
   const Index n = all.layout.size;
   Wide x = (first ? clocks_->start : clocks_->reset) + clocks_->rate * length;
   Wide map = Wide::Zero(n, n + 1);
@@ -106,7 +106,7 @@ Wide LinearJump::operator()(const Decimal100& length, bool first) const {
       x(j) = Decimal100(0);
     }
   }
-  bounded::remove_noise(map, bounded::largest_of(map));
+  linear::remove_noise(map, linear::largest_of(map));
   std::vector<Index> columns = elements_;
   columns.push_back(n);
   return map(elements_, columns);

@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include "bounded/coordinates.h"
+#include "linear/coordinates.h"
 #include "packs/linear_flow.h"
 
 namespace gainsmith::packs {
@@ -19,7 +19,7 @@ class LinearJump {
  public:
   /// `start`: all coordinates where runs start, of those that start the same in all runs. None when
   /// the jump or the flow is of another kind. The coordinates must outlive it.
-  static std::optional<LinearJump> make(const bounded::Coordinates& coordinates, const Wide& start,
+  static std::optional<LinearJump> make(const linear::Coordinates& coordinates, const Wide& start,
                                         const std::vector<bool>& same);
 
   LinearJump(LinearJump&&) noexcept;

@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "bounded/wide_function.h"
-#include "claims/value.h"
+#include "linear/quadratic_parts.h"
+#include "linear/wide_function.h"
 #include "numbers/degree.h"
 #include "packs/square_of_norm.h"
 #include "packs/tolerances.h"
@@ -15,8 +15,8 @@ namespace gainsmith::packs {
 
 namespace {
 
-using bounded::Coordinates;
-using claims::JudgedFunction;
+using linear::Coordinates;
+using expr::Program;
 using Eigen::Index;
 using hybrid::StateLayout;
 using model::ClaimKind;
@@ -31,7 +31,7 @@ bool is_affine(const expr::Program& program, const StateLayout& layout,
 }
 
 /// Writes rows of `out` for an affine program of x = X [xi; 1].
-void set_rows(const hybrid::Slot& slot, bounded::WideFunction& function, const Wide& X, Wide& out) {
+void set_rows(const hybrid::Slot& slot, linear::WideFunction& function, const Wide& X, Wide& out) {
   const Index last = X.cols() - 1;
   const Index rows = slot.shape.size();
   const Wide still = X.col(last);
@@ -43,7 +43,7 @@ void set_rows(const hybrid::Slot& slot, bounded::WideFunction& function, const W
 
 /// The start as a map of what is drawn and 1; false when it is none.
 bool find_start(LinearModel& linear) {
-  const bounded::SampledSystem& sampled = *linear.sampled;
+  const linear::SampledSystem& sampled = *linear.sampled;
   const Coordinates& coordinates = *linear.coordinates;
   for (std::size_t k = 0; k < sampled.variable.size(); ++k) {
     const auto& rule = linear.scenario->starts[sampled.variable[k]];
@@ -61,7 +61,7 @@ bool find_start(LinearModel& linear) {
     const hybrid::Slot& slot = sampled.layout.slots[k];
     if (rule.kind == model::StartKind::expression) {
       if (!is_affine(rule.program, sampled.layout, varies)) return false;
-      bounded::WideFunction value(rule.program, sampled.layout, coordinates.constants);
+      linear::WideFunction value(rule.program, sampled.layout, coordinates.constants);
       set_rows(slot, value, X, X);
     } else {
       for (int e = 0; e < slot.shape.size(); ++e) X(slot.offset + e, next++) = Decimal100(1);
@@ -72,10 +72,10 @@ bool find_start(LinearModel& linear) {
   for (std::size_t i = 0; i < coordinates.list.size(); ++i) {
     const expr::Program& start = coordinates.list[i].start;
     if (!is_affine(start, sampled.layout, varies)) return false;
-    bounded::WideFunction value(start, sampled.layout, coordinates.constants);
+    linear::WideFunction value(start, sampled.layout, coordinates.constants);
     set_rows(coordinates.layout.slots[i], value, X, S);
   }
-  bounded::remove_noise(S, bounded::largest_of(S));
+  linear::remove_noise(S, linear::largest_of(S));
   // Without what no coordinate depends on.
   std::vector<Index> kept;
   std::vector<DrawnElement> drawn;
@@ -162,11 +162,12 @@ std::optional<Wide> form_over(const Wide& whole, const LinearModel& linear) {
 }
 
 /// The parts of a quadratic function whose factors depend on the timer alone.
-bool add_parts(const JudgedFunction& function, const LinearModel& linear,
+bool add_parts(const Program& function, const LinearModel& linear,
                std::vector<LinearForm>& forms) {
-  if (!function.quadratic) return false;
+  const auto parts = linear::quadratic_parts(function, *linear.coordinates);
+  if (!parts) return false;
   const StateLayout& layout = linear.coordinates->layout;
-  for (const claims::QuadraticPart& part : function.parts) {
+  for (const linear::QuadraticPart& part : *parts) {
     if (part.factor && std::any_of(layout.slots.begin(), layout.slots.end(),
                                    [&](const auto& slot) { return part.factor->uses(slot.name); }))
       return false;
@@ -177,56 +178,49 @@ bool add_parts(const JudgedFunction& function, const LinearModel& linear,
   return true;
 }
 
-/// The form of a cost, nowhere negative; none: it is no such form.
-std::optional<Wide> cost_form(const JudgedFunction& cost, const LinearModel& linear) {
-  if (!cost.is_form()) return std::nullopt;
+/// The form of a cost, nowhere negative, with constant coefficients; none: it is no such form.
+std::optional<Wide> cost_form(const Program& cost, const LinearModel& linear) {
+  const auto parts = linear::quadratic_parts(cost, *linear.coordinates);
+  if (!parts || parts->size() > 1) return std::nullopt;
   const Index n = linear.A.rows();
-  if (cost.parts.empty()) return Wide(Wide::Zero(n, n));
-  const auto Q = form_over(cost.parts.front().matrix, linear);
+  if (parts->empty()) return Wide(Wide::Zero(n, n));
+  if (parts->front().factor) return std::nullopt;
+  const auto Q = form_over(parts->front().matrix, linear);
   if (!Q || !is_semidefinite(*Q)) return std::nullopt;
   return Q;
 }
 
-bool add_costs(const claims::JudgedClaim& claim, const LinearModel& linear, LinearClaim& made) {
-  if (claim.flow_cost) {
-    made.flow_cost = cost_form(*claim.flow_cost, linear);
-    if (!made.flow_cost) return false;
-  }
-  if (claim.jump_cost) {
-    made.jump_cost = cost_form(*claim.jump_cost, linear);
-    if (!made.jump_cost) return false;
-  }
-  return true;
-}
-
-bool set_factor(const JudgedFunction& factor, const LinearModel& linear, LinearClaim& made) {
+bool set_factor(const Program& factor, const LinearModel& linear, LinearClaim& made) {
   const StateLayout& layout = linear.coordinates->layout;
-  for (const expr::Input& input : factor.program.inputs)
+  for (const expr::Input& input : factor.inputs)
     if (layout.moves(input.name)) return false;
-  bounded::WideFunction value(factor.program, layout, linear.coordinates->constants);
+  linear::WideFunction value(factor, layout, linear.coordinates->constants);
   made.factor = static_cast<double>(value(Wide::Zero(layout.size, 1))(0));
   return made.factor > 0;
 }
 
-bool add_claim(const claims::JudgedClaim& claim, LinearModel& linear) {
+/// `functions`: the first of those of the claim.
+bool add_claim(const claims::Claim& claim, const Program* functions, LinearModel& linear) {
   if (claim.after > 0 || claim.over) return false;
   if (claim.tolerance > 0 && claim.kind != ClaimKind::nonincreasing) return false;
   LinearClaim& made = linear.claims.emplace_back();
   made.kind = claim.kind;
   made.tolerance = claim.tolerance;
+  const Program& value = *functions++;
   switch (claim.kind) {
     case ClaimKind::nonincreasing:
-      return add_parts(claim.value, linear, made.value);
+      return add_parts(value, linear, made.value);
     case ClaimKind::cost:
-      return add_parts(claim.value, linear, made.value) && add_costs(claim, linear, made);
+      if (claim.flow_cost && !(made.flow_cost = cost_form(*functions++, linear))) return false;
+      if (claim.jump_cost && !(made.jump_cost = cost_form(*functions++, linear))) return false;
+      return add_parts(value, linear, made.value);
     case ClaimKind::shrinks: {
-      if (!set_factor(*claim.factor, linear, made)) return false;
-      if (add_parts(claim.value, linear, made.value)) return true;
+      if (!set_factor(*functions, linear, made)) return false;
+      if (add_parts(value, linear, made.value)) return true;
       made.value.clear();
-      const auto square = square_of_norm(claim.value.program);
+      const auto square = square_of_norm(value);
       made.squared = square.has_value();
-      return square &&
-             add_parts(claims::make_function(*square, *linear.coordinates), linear, made.value);
+      return square && add_parts(*square, linear, made.value);
     }
     default:
       return false;
@@ -253,16 +247,15 @@ std::optional<Wide> LinearModel::D(const Decimal100& length, bool first) const {
   const Wide J = map.leftCols(n);
   const Wide rows = J(jump_rows, Eigen::all);
   Wide rest = J - numbers::times<Decimal100>(Wide(B.topLeftCorner(n, r)), rows);
-  bounded::remove_noise(rest, bounded::largest_of(J));
+  linear::remove_noise(rest, linear::largest_of(J));
   if (!rest.isZero(0)) return std::nullopt;
   return homogeneous(rows, Wide::Zero(r, 1), constant, 1);
 }
 
-std::optional<LinearModel> make_linear_model(const bounded::SampledSystem& sampled,
+std::optional<LinearModel> make_linear_model(const linear::SampledSystem& sampled,
                                              const hybrid::Scenario& scenario,
                                              const Coordinates& coordinates,
-                                             const std::vector<claims::JudgedClaim>& claims) {
-  if (!sampled.flow || !coordinates.affine) return std::nullopt;
+                                             const std::vector<claims::Claim>& claims) {
   LinearModel linear;
   linear.sampled = &sampled;
   linear.scenario = &scenario;
@@ -270,8 +263,12 @@ std::optional<LinearModel> make_linear_model(const bounded::SampledSystem& sampl
   set_lengths(linear);
   if (!find_start(linear) || !set_maps(linear)) return std::nullopt;
   if (flow_norm(linear.A, linear.longest()) > kLongestFlow) return std::nullopt;
-  for (const claims::JudgedClaim& claim : claims)
-    if (!add_claim(claim, linear)) return std::nullopt;
+  const Program* functions = coordinates.functions.data();
+  for (const claims::Claim& claim : claims) {
+    if (!claim.stated()) continue;
+    if (!add_claim(claim, functions, linear)) return std::nullopt;
+    functions += claims::programs_of(claim).size();
+  }
   return linear;
 }
 

@@ -19,8 +19,8 @@
 #include <optional>
 #include <vector>
 
-#include "bounded/sampled_system.h"
-#include "claims/claim_check.h"
+#include "claims/claims.h"
+#include "linear/coordinates.h"
 #include "packs/linear_flow.h"
 #include "packs/linear_jump.h"
 
@@ -53,9 +53,9 @@ inline bool is_compared(const LinearClaim& claim) {
 }
 
 struct LinearModel {
-  const bounded::SampledSystem* sampled = nullptr;
+  const linear::SampledSystem* sampled = nullptr;
   const hybrid::Scenario* scenario = nullptr;
-  const bounded::Coordinates* coordinates = nullptr;
+  const linear::Coordinates* coordinates = nullptr;
   bool constant = false;  ///< whether the last coordinate is 1
   Wide A, B, S;
   std::shared_ptr<const LinearJump> jump;
@@ -71,10 +71,11 @@ struct LinearModel {
   double longest() const { return first_high > high ? first_high : high; }
 };
 
-/// None for dynamics, starts and claims of another kind. Everything given must outlive it.
-std::optional<LinearModel> make_linear_model(const bounded::SampledSystem& sampled,
+/// None for dynamics, starts and claims of another kind. The functions of the coordinates are the
+/// programs of the claims that are stated (claims::programs_of). Everything given must outlive it.
+std::optional<LinearModel> make_linear_model(const linear::SampledSystem& sampled,
                                              const hybrid::Scenario& scenario,
-                                             const bounded::Coordinates& coordinates,
-                                             const std::vector<claims::JudgedClaim>& claims);
+                                             const linear::Coordinates& coordinates,
+                                             const std::vector<claims::Claim>& claims);
 
 }  // namespace gainsmith::packs

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/stop.h"
-#include "bounded/tolerances.h"
+#include "linear/tolerances.h"
 #include "hybrid/tolerances.h"
 #include "packs/lane_lengths.h"
 #include "packs/length_table.h"
@@ -112,7 +112,7 @@ class LinearLanes {
       lengths_.advance();
       end_lanes(static_cast<double>(flows));
       if (running_ == 0) break;
-      if (flows > bounded::kMostJumps) {
+      if (flows > hybrid::kMost) {
         open_ |= running_;
         running_ = 0;
         break;
@@ -192,7 +192,7 @@ class LinearLanes {
   void gather() {
     ++gathered_;
     const double root = std::sqrt(static_cast<double>(gathered_));
-    root_ = root * bounded::kBoundSlack;
+    root_ = root * linear::kBoundSlack;
     rescale(gather_.input(0));
     std::fill_n(gather_.input(1), kLanes, root);
     for (std::size_t k = 0; k < system_.carried; ++k)
@@ -267,7 +267,7 @@ class LinearLanes {
   /// Whether value <= bound; false: it is not certain.
   static bool compare(const Known& value, const Known& bound, PackVerdict::Claim& claim) {
     const double rounding = 8 * kUnitRoundoff * (std::abs(value.value) + std::abs(bound.value));
-    const double error = (value.error + bound.error + rounding) * bounded::kBoundSlack;
+    const double error = (value.error + bound.error + rounding) * linear::kBoundSlack;
     const double excess = value.value - bound.value;
     claim.violated = excess > error;
     return claim.violated || excess <= -error;

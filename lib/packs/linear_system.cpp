@@ -39,7 +39,7 @@ class Factors {
 
  private:
   Wide zero_;
-  std::vector<std::optional<bounded::WideFunction>> functions_;
+  std::vector<std::optional<linear::WideFunction>> functions_;
 };
 
 /// The upper triangle of a form, elements beside the diagonal doubled.

@@ -11,7 +11,7 @@
 //
 //   r_i = root |row i of G| + b_i,   G+ = M G,   root^2 the number of errors that G holds
 //
-// (bounded/error_ellipsoid.h). Every few flows, a block, `gather` makes one more error of b, scales
+// (linear_block.h). Every few flows, a block, `gather` makes one more error of b, scales
 // all by a power of 2, and bounds for all flows of the next block at once (linear_block.h)
 //
 //   b, which no flow of the block makes larger

@@ -111,8 +111,7 @@ std::string campaign_section(const Results& results) {
                                   campaign.first_undecided->why);
   if (campaign.repeated > 0)
     text +=
-        text_element("p", count_of(campaign.repeated, "run") + " repeated " +
-                              (campaign.integrated ? "more accurately" : "in 31 digits") + "; " +
+        text_element("p", count_of(campaign.repeated, "run") + " repeated more accurately; " +
                               std::to_string(campaign.confirmed.size()) + " violated again.");
   for (const std::string& note : campaign.notes) text += text_element("p", "Note: " + note + ".");
   return section("Campaign", text + replay_text(campaign));

@@ -105,7 +105,7 @@ void judge_runs(const Setup& setup, RunRange range, PackJudge& judge, Collector&
       check_stop();
       if (collector.is_behind_the_end(next)) break;
       const CampaignVerdictOnRun made = judge(next);
-      if (made.careful && !setup.sampled) check_stop();  // perhaps amid the run
+      if (made.careful) check_stop();  // perhaps amid the run
       Tally tally = tally_of(next, made.verdict);
       tally.careful = made.careful ? 1 : 0;
       if (made.why) tally.open[static_cast<std::size_t>(*made.why)] = 1;
@@ -142,7 +142,6 @@ CampaignFacts facts_of(const Setup& setup, const CampaignOptions& options) {
   if (facts.asked == 0) throw InputError(texts.campaign.place, "a campaign needs at least one run");
   facts.confidence = options.confidence;
   facts.horizon = setup.horizon();
-  facts.integrated = setup.integrated();
   facts.idle_observers = hybrid::idle_observers(setup.events->system.dynamics);
   for (const auto& event : setup.events->system.dynamics.events)
     facts.events.push_back(event.is_built_in() ? "" : event.name);
@@ -151,14 +150,19 @@ CampaignFacts facts_of(const Setup& setup, const CampaignOptions& options) {
   return facts;
 }
 
-/// The careful run on the worst run of each claim.
-void repeat_carefully(const Setup& setup, CampaignPart& part) {
+/// The careful run on the worst run of each claim. `proved`: the errors of packs are.
+void repeat_carefully(const Setup& setup, bool proved, CampaignPart& part) {
   PackJudge judge(setup, nullptr);
-  for (std::size_t c = 0; c < part.tally.claims.size(); ++c) {
-    const ClaimTally& claim = part.tally.claims[c];
+  const std::vector<ClaimTally>& claims = part.tally.claims;
+  for (std::size_t c = 0; c < claims.size(); ++c) {
+    const ClaimTally& claim = claims[c];
     auto& careful = part.repeats[claim.run].careful;
     if (!careful) {
-      RunVerdict again = judge.careful(part.facts.seed, claim.run);
+      std::vector<bool> holds;
+      for (const ClaimTally& one : claims)
+        holds.push_back(proved && one.run == claim.run &&
+                        one.worst.judgement == claims::Judgement::held);
+      RunVerdict again = judge.careful(part.facts.seed, claim.run, holds);
       check_stop();  // perhaps amid the run
       careful = {std::move(again.findings), again.termination, std::move(again.message)};
     }
@@ -280,7 +284,7 @@ void Campaign::repeat_worst(CampaignPart& part) const {
   }
   {
     const Concluding concluding(0.5);
-    if (packs_) repeat_carefully(*setup_, part);
+    if (packs_) repeat_carefully(*setup_, packs_.linear != nullptr, part);
   }
   check_stop();
   confirm_violations(*setup_, part);

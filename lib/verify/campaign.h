@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "bounded/track.h"
+#include "claims/track.h"
 #include "claims/claim_check.h"
 #include "model/words.h"
 #include "packs/pack_runner.h"
@@ -60,7 +60,7 @@ struct Report {
   std::uint64_t undecided = 0;   ///< runs of which neither is certain when repeated
   std::uint64_t unfinished = 0;  ///< runs that do not reach the horizon; of the first of them:
   std::uint64_t unfinished_run = 0;
-  bounded::Termination unfinished_termination = bounded::Termination::horizon;
+  claims::Termination unfinished_termination = claims::Termination::horizon;
   std::string unfinished_message;  ///< why it ended
   /// Of runs that were made many at once: how many the careful run has decided, and by
   /// packs::Why those that were left open. None where all runs are made one by one.
@@ -69,7 +69,7 @@ struct Report {
   /// The first of the undecided runs; where they are violations that do not happen again when
   /// repeated, the worst of these.
   std::optional<UndecidedRun> first_undecided;
-  std::uint64_t repeated = 0;  ///< runs that were repeated: in 31 digits, or more accurately
+  std::uint64_t repeated = 0;  ///< runs that were repeated more accurately
   /// The repeated runs that violate again, in order. The worst run of the campaign and that of each
   /// claim are repeated if they violate.
   std::vector<std::uint64_t> confirmed;
@@ -78,7 +78,6 @@ struct Report {
   /// a claim, of those that it violates if any. Ties go to the lowest number.
   std::uint64_t worst_run = 0;
   double horizon = 0;
-  bool integrated = false;  ///< errors are estimates, and "repeated" means more accurately
   /// How many different runs there are, where nothing is drawn at random (hybrid/idle.h): then no
   /// run says anything of another.
   std::optional<std::uint64_t> different;

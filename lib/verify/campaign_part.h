@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "bounded/track.h"
+#include "claims/track.h"
 #include "claims/claim_check.h"
 #include "model/words.h"
 #include "verify/figure_survey.h"
@@ -32,7 +32,6 @@ struct CampaignFacts {
   std::uint64_t seed = 0;
   double confidence = 0;
   double horizon = 0;
-  bool integrated = false;
   bool many_at_once = false;    ///< runs are made in packs
   bool until_violated = false;  ///< ends with the first violated run; of no part of --shard
   std::optional<std::uint64_t> different;
@@ -48,7 +47,7 @@ struct Repeat {
   /// As the careful run finds it: of a claim's worst run that was made among many.
   struct Careful {
     std::vector<claims::Finding> findings;
-    bounded::Termination termination = bounded::Termination::horizon;
+    claims::Termination termination = claims::Termination::horizon;
     std::string message;
 
     bool operator==(const Careful&) const = default;

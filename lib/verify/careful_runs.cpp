@@ -4,8 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "bounded/polynomial.h"
-#include "claims/text_ball.h"
+#include "linear/polynomial.h"
 
 namespace gainsmith::verify {
 
@@ -23,44 +22,41 @@ bool is_still(const expr::Program& program, const hybrid::System& system) {
   });
 }
 
-/// The coordinate that is function k.
-expr::Program value_program(std::size_t k) {
-  return bounded::input_program("value_" + std::to_string(k), {});
-}
-
-/// A claim about a cost over the variable that holds it.
-claims::Claim over_variable(claims::Claim claim) {
-  if (claim.kind != model::ClaimKind::cost) return claim;
-  claim.flow_cost = bounded::input_program(model::cost_name(claim.name), {});
-  claim.jump_cost.reset();
-  return claim;
-}
-
-/// Adds the functions of a claim: its programs, with the variable for its cost, and the terms of
-/// what is compared with a bound.
-void add_functions(const claims::Claim& claim, EventSetup& setup) {
-  const bool has_cost = claim.kind == model::ClaimKind::cost;
-  std::vector<expr::Program> programs = claims::programs_of(over_variable(claim));
-  if (claim.bound) programs.push_back(hybrid::absolute_terms(claim.value));
-  if (has_cost) {
-    const std::size_t slot = *setup.layout.slot(model::cost_name(claim.name));
-    setup.costs.push_back({setup.layout.slots[slot].offset, claim.flow_cost, claim.jump_cost});
+/// Adds a claim that is stated and its functions: its programs, with the variable for its cost, and
+/// the terms of what is compared with a bound.
+void add_claim(const claims::Claim& claim, EventSetup& setup) {
+  claims::JudgedClaim judged;
+  judged.name = claim.name;
+  judged.kind = claim.kind;
+  judged.after = claim.after;
+  judged.over = claim.over;
+  judged.tolerance = claim.tolerance;
+  judged.value = static_cast<int>(setup.functions.size());
+  judged.is_still = is_still(claim.value, setup.system);
+  const auto add = [&](expr::Program program) {
+    const auto at = static_cast<int>(setup.functions.size());
+    setup.functions.push_back(std::move(program));
+    setup.first_of_claim.push_back(judged.value);
+    return at;
+  };
+  add(claim.value);
+  if (claim.kind == model::ClaimKind::cost) {
+    const std::string cost = model::cost_name(claim.name);
+    judged.cost = add(linear::input_program(cost, {}));
+    setup.costs.push_back({setup.layout.slots[*setup.layout.slot(cost)].offset, claim.flow_cost,
+                           claim.jump_cost});
   }
-  const auto first = static_cast<int>(setup.functions.size());
-  for (std::size_t k = 0; k < programs.size(); ++k) {
-    const bool is_cost = has_cost && k == 1;
-    const bool still = !is_cost && is_still(programs[k], setup.system);
-    const expr::Program own = value_program(setup.functions.size());
-    bounded::Coordinates& coordinates = setup.coordinates;
-    coordinates.layout.slots.push_back({own.inputs[0].name, {}, coordinates.layout.size++});
-    coordinates.list.push_back({own, still ? std::nullopt : std::optional(own), own, false});
-    setup.functions.push_back(std::move(programs[k]));
-    setup.first_of_claim.push_back(first);
+  if (claim.factor) judged.factor = add(*claim.factor);
+  if (claim.bound) {
+    judged.bound = add(*claim.bound);
+    judged.terms = add(hybrid::absolute_terms(claim.value));
   }
+  setup.judged.push_back(std::move(judged));
 }
 
-/// Where along flows the value of a claim, function `value`, is looked at besides.
-void add_sample_points(const claims::Claim& claim, std::size_t value, EventSetup& setup) {
+/// Where along flows the value of a claim is looked at besides.
+void add_sample_points(const claims::JudgedClaim& claim, EventSetup& setup) {
+  const auto value = static_cast<std::size_t>(claim.value);
   if (claim.after > 0) setup.looks.times.push_back(claim.after);
   using Kind = model::ClaimKind;
   // The others ask for the value at the start, and at the end.
@@ -71,26 +67,8 @@ void add_sample_points(const claims::Claim& claim, std::size_t value, EventSetup
   const bool above = claim.kind == Kind::above;
   if (above || claim.kind == Kind::below)
     setup.looks.peaks.push_back({value, above ? -1.0 : 1.0, claim.after});
-  const bool moves = setup.coordinates.list[value].flow.has_value();
-  if (claim.kind == Kind::nonincreasing && moves)
+  if (claim.kind == Kind::nonincreasing && !claim.is_still)
     setup.looks.falling.push_back({value, claim.after});
-}
-
-/// The claims that are stated over their functions, which are all there.
-std::vector<claims::JudgedClaim> judged_claims(const EventSetup& setup) {
-  std::vector<claims::JudgedClaim> all;
-  std::size_t k = 0;
-  const auto next = [&] { return claims::make_function(value_program(k++), setup.coordinates); };
-  for (const claims::Claim& claim : setup.claims) {
-    if (!claim.stated()) continue;
-    const auto value = static_cast<int>(k);
-    claims::JudgedClaim& judged =
-        all.emplace_back(claims::judged_claim(over_variable(claim), next));
-    if (claim.bound) judged.terms = next();
-    if (claim.kind == model::ClaimKind::cost) judged.accumulated = value + 1;
-    judged.sampled_for = value;
-  }
-  return all;
 }
 
 }  // namespace
@@ -109,15 +87,11 @@ std::unique_ptr<const EventSetup> make_event_setup(model::RunTexts texts,
   setup->claims = claims::claims_of(texts, setup->system, setup->scenario.horizon);
   setup->texts = std::move(texts);
   setup->constants = claims::rounded_once(setup->system.constants);
-  setup->coordinates.affine = false;
   for (const claims::Claim& claim : setup->claims) {
     if (!claim.stated()) continue;
-    add_functions(claim, *setup);
-    add_sample_points(claim, static_cast<std::size_t>(setup->first_of_claim.back()), *setup);
+    add_claim(claim, *setup);
+    add_sample_points(setup->judged.back(), *setup);
   }
-  setup->judged = judged_claims(*setup);
-  setup->narrow =
-      std::make_unique<bounded::BoundedSystem<double>>(setup->coordinates, std::nullopt);
   return setup;
 }
 

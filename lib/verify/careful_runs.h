@@ -1,19 +1,19 @@
 // What the runs of a campaign share when the dynamics have events (model/dynamics.h).
 //
-// A claim is judged by its own values along a run: they are the coordinates of the judgement. The
-// integral of a flow cost is a variable beside those of the plant and the observers.
+// A claim is judged by its own values along a run. The integral of a flow cost is a variable beside
+// those of the plant and the observers.
 #pragma once
 
 #include <memory>
 #include <optional>
 #include <vector>
 
-#include "bounded/bounded_system.h"
 #include "claims/claim_check.h"
 #include "claims/claims.h"
 #include "claims/run_costs.h"
 #include "claims/run_values.h"
 #include "claims/sample_points.h"
+#include "claims/text_ball.h"
 #include "model/run_texts.h"
 #include "simulate/simulator.h"
 #include "verify/tolerances.h"
@@ -26,14 +26,12 @@ struct EventSetup {
   hybrid::StateLayout layout;  ///< of the variables: without branches that flows hold
   hybrid::Scenario scenario;
   std::vector<claims::Claim> claims;
-  std::vector<expr::Program> functions;  ///< of the claims that are stated: the coordinates
+  std::vector<expr::Program> functions;  ///< of the claims that are stated
   std::vector<int> first_of_claim;       ///< of each function: the value of its claim
   std::vector<claims::RunCost> costs;    ///< of the claims that are stated
-  bounded::BallsOf<double> constants;    ///< of the functions, with their errors
-  bounded::Coordinates coordinates;
-  std::vector<claims::JudgedClaim> judged;  ///< the claims that are stated, in order
-  claims::SamplePoints looks;               ///< that the claims ask for
-  std::unique_ptr<bounded::BoundedSystem<double>> narrow;
+  numbers::EnclosedValues<double> constants;  ///< of the functions, with their errors
+  std::vector<claims::JudgedClaim> judged;    ///< the claims that are stated, in order
+  claims::SamplePoints looks;                 ///< that the claims ask for
 
   /// To what a run is integrated: as the campaign asks, otherwise to `usual`; times a factor.
   simulate::Accuracy accuracy(double usual, double factor = 1) const;

@@ -153,7 +153,6 @@ Report conclude(const CampaignPart& part) {
   report.confidence = facts.confidence;
   report.idle_observers = facts.idle_observers;
   report.horizon = facts.horizon;
-  report.integrated = facts.integrated;
   report.runs = part.tally.runs;
   report.ended = part.ended();
   if (report.runs == 0) return report;

@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "base/number.h"
-#include "bounded/ball.h"
 #include "claims/sample_points.h"
+#include "claims/tolerances.h"
 #include "verify/tolerances.h"
 
 namespace gainsmith::verify {
@@ -53,7 +53,7 @@ VectorXd EventDoubts::whole(const VectorXd& variables) const {
 
 std::optional<std::string> EventDoubts::of_turn(const NearTurn& turn,
                                                 const claims::TwinFlow& flow) {
-  const int points = 2 * bounded::kSamplesBeside + 1;
+  const int points = 2 * kSamplesBeside + 1;
   if (flow.twin == nullptr) return std::nullopt;
   EventFunction& guard = watch_.function_of(turn);
   const double from = std::max(flow.flow->from(), flow.twin->from());
@@ -72,7 +72,7 @@ std::optional<std::string> EventDoubts::of_turn(const NearTurn& turn,
                                                 element(guard, at(*flow.twin), turn.element)));
   }
   const double error =
-      bounded::kErrorOfDifference * difference + noise_of(guard, here, turn.element);
+      claims::kErrorOfDifference * difference + noise_of(guard, here, turn.element);
   if (!(std::abs(turn.value) <= error)) return std::nullopt;
   return fmt::format("t = {}: '{}' turns at {} from being reached, and that is known to {}",
                      brief(turn.t, 12), turn.text, brief(turn.value, 3), brief(error, 2));
@@ -113,7 +113,7 @@ std::vector<EventDoubts::Guard> EventDoubts::guards(std::size_t event, const Ins
       const double value = element(guard, at.now, e);
       const double difference = std::abs(value - element(guard, at.twin, e));
       result.push_back({&guard, comparison, value, element(guard, at.before, e),
-                        bounded::kErrorOfDifference * difference + noise_of(guard, at.now, e)});
+                        claims::kErrorOfDifference * difference + noise_of(guard, at.now, e)});
     }
   };
   if (watch_.crossing[event]) add(*watch_.crossing[event], 0);
@@ -126,7 +126,7 @@ std::vector<EventDoubts::Guard> EventDoubts::guards(std::size_t event, const Ins
 
 /// By the guard that comes to 0 there.
 void EventDoubts::set_time_error(Instant& at) {
-  at.time_error = 8 * bounded::unit_roundoff<double>() * at.t;
+  at.time_error = 4 * std::numeric_limits<double>::epsilon() * at.t;
   const auto nearest = std::min_element(
       at.own.begin(), at.own.end(),
       [](const Guard& a, const Guard& b) { return std::abs(a.value) < std::abs(b.value); });
@@ -220,7 +220,7 @@ std::optional<std::string> EventDoubts::clocks_after(const claims::TwinParts& tw
     if (!system_->has_clock(other)) continue;
     const double gap = next.jump->t - at.t;
     const double error =
-        bounded::kErrorOfDifference * std::abs(gap - (next.twin_t - own.twin_t)) + at.time_error;
+        claims::kErrorOfDifference * std::abs(gap - (next.twin_t - own.twin_t)) + at.time_error;
     if (gap <= error && !commute(other, {}, at)) return message(at, other, gap, error);
   }
   return std::nullopt;

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "bounded/differences.h"
+#include "linear/differences.h"
 #include "hybrid/state_layout.h"
 #include "model/dynamics_programs.h"
 
@@ -51,7 +51,7 @@ Program zeros(expr::Shape shape) {
   return compose.take(compose.apply(expr::Op::zeros, {}, shape));
 }
 
-using Differences = std::vector<bounded::StateDifference>;
+using Differences = std::vector<linear::StateDifference>;
 
 /// Dynamics with differences as states.
 class ErrorStates {
@@ -60,7 +60,7 @@ class ErrorStates {
               const Differences& differences)
       : differences_(differences), rewriting_(differences, layout), dynamics_(dynamics) {
     dynamics_.signals.clear();
-    for (const bounded::StateDifference& one : differences_)
+    for (const linear::StateDifference& one : differences_)
       places_.push_back({*layout.slot(one.plus), *layout.slot(one.minus)});
     find_flows();
     find_jumps();
@@ -87,7 +87,7 @@ class ErrorStates {
 
   const Differences& differences_;
   std::vector<Place> places_;
-  bounded::ErrorRewriting rewriting_;
+  linear::ErrorRewriting rewriting_;
   Dynamics dynamics_;
 };
 
@@ -115,7 +115,7 @@ void ErrorStates::find_flows() {
     if (flow_of(places_[k].minus) == dynamics_.flow.end())
       dynamics_.flow.push_back({places_[k].minus, a->value, a->place});
     flow_of(places_[k].minus)->value.program =
-        bounded::difference(rate(places_[k].plus), rate(places_[k].minus));
+        linear::difference(rate(places_[k].plus), rate(places_[k].minus));
   }
 }
 
@@ -134,10 +134,10 @@ void ErrorStates::find_jumps() {
       const auto minus = after(places_[k].minus);
       if (!plus && !minus) continue;
       const auto value = [&](const auto& found, const std::string& name) {
-        return found ? found->value.program : bounded::input_program(name, differences_[k].shape);
+        return found ? found->value.program : linear::input_program(name, differences_[k].shape);
       };
       Dynamics::Assignment& own = map_of(e, places_[k].minus, plus ? *plus : *minus);
-      own.value.program = bounded::difference(value(plus, differences_[k].plus),
+      own.value.program = linear::difference(value(plus, differences_[k].plus),
                                               value(minus, differences_[k].minus));
     }
 }
@@ -177,9 +177,9 @@ std::optional<std::size_t> ErrorStates::first_bound() const {
 /// b = a - d in claims; where runs start the place of d still holds b.
 model::RunTexts ErrorStates::rewritten(model::RunTexts texts) {
   std::map<std::string, Program> names;
-  for (const bounded::StateDifference& one : differences_)
-    names[one.minus] = bounded::input_program(one.name, one.shape);
-  const auto rename = [&](Program& start) { start = bounded::replace_inputs(start, names); };
+  for (const linear::StateDifference& one : differences_)
+    names[one.minus] = linear::input_program(one.name, one.shape);
+  const auto rename = [&](Program& start) { start = linear::replace_inputs(start, names); };
   texts.dynamics = std::move(dynamics_);
   for (Dynamics::Variable& variable : texts.dynamics.variables)
     if (variable.start) rename(variable.start->program);
@@ -199,8 +199,8 @@ model::RunTexts ErrorStates::rewritten(model::RunTexts texts) {
 std::optional<model::RunTexts> with_error_states(const model::RunTexts& texts,
                                                  const std::vector<Program>& functions) {
   const hybrid::StateLayout layout = hybrid::layout_of(texts.dynamics);
-  Differences differences = bounded::find_differences(functions, layout);
-  std::erase_if(differences, [&](const bounded::StateDifference& one) {
+  Differences differences = linear::find_differences(functions, layout);
+  std::erase_if(differences, [&](const linear::StateDifference& one) {
     return !is_plain(texts.dynamics, *layout.slot(one.plus), false) ||
            !is_plain(texts.dynamics, *layout.slot(one.minus), true);
   });

@@ -32,7 +32,7 @@ class TwoRuns {
       : setup_(&setup) {
     simulate::Simulator simulator(setup_->system, setup_->scenario);
     usual_ = usual ? std::move(*usual) : simulator.run(seed, 0, setup_->accuracy(kAccuracyOfOne));
-    sharper_ = simulator.run(seed, 0, setup_->accuracy(kAccuracyOfOne, bounded::kSharper));
+    sharper_ = simulator.run(seed, 0, setup_->accuracy(kAccuracyOfOne, kSharper));
     check_stop();
   }
 

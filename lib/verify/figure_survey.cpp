@@ -55,7 +55,7 @@ class Surveyor {
 
   void add(std::uint64_t run) {
     const hybrid::Trajectory made =
-        simulator_.run(seed_, run, setup_.accuracy(kAccuracyOfOne, bounded::kSharper));
+        simulator_.run(seed_, run, setup_.accuracy(kAccuracyOfOne, kSharper));
     check_stop();
     ++survey_.runs;
     if (!is_complete(made.ending)) {

@@ -7,21 +7,9 @@ namespace gainsmith::verify {
 
 namespace {
 
-using bounded::Termination;
-using Rounding = bounded::ClockedSimulator::Rounding;
-
-/// Whether the run left the range of the states for certain.
-template <class Scalar>
-bool is_certain_end(const bounded::Track<Scalar>& track) {
-  if (track.termination == Termination::lost) return false;
-  if (track.termination != Termination::diverged) return true;
-  const std::size_t last = track.samples() - 1;
-  for (Eigen::Index i = 0; i < track.size; ++i) {
-    const double size = bounded::size_of(track.state(last)(i));
-    if (size > hybrid::kLargestState && track.bound(last)(i) <= size / 2) return true;
-  }
-  return false;
-}
+using claims::ClaimCheck;
+using claims::Termination;
+using claims::Track;
 
 claims::Judgement worst_of(const std::vector<claims::Finding>& findings) {
   const auto any = [&](claims::Judgement judgement) {
@@ -32,20 +20,18 @@ claims::Judgement worst_of(const std::vector<claims::Finding>& findings) {
   return any(claims::Judgement::undecided) ? claims::Judgement::undecided : claims::Judgement::held;
 }
 
-template <class Scalar>
-RunVerdict verdict_on(const bounded::Track<Scalar>& track,
-                      std::vector<claims::ClaimCheck<Scalar>>& checks) {
+RunVerdict verdict_on(const Track& track,
+                      const std::vector<ClaimCheck>& checks) {
   RunVerdict verdict;
   verdict.termination = track.termination;
   verdict.message = track.message;
-  for (claims::ClaimCheck<Scalar>& check : checks) verdict.findings.push_back(check(track));
+  for (const ClaimCheck& check : checks) verdict.findings.push_back(check(track));
   verdict.judgement = worst_of(verdict.findings);
   return verdict;
 }
 
 /// Of a run that ends before its horizon a claim that holds so far is left open.
-template <class Scalar>
-void leave_open(const bounded::Track<Scalar>& track, claims::Judgement open,
+void leave_open(const Track& track, claims::Judgement open,
                 claims::Finding& finding) {
   if (finding.violated() || (finding.undecided() && open == claims::Judgement::undecided)) return;
   finding.judgement = open;
@@ -55,31 +41,18 @@ void leave_open(const bounded::Track<Scalar>& track, claims::Judgement open,
 }
 
 /// The verdict on a run that is not repeated again.
-template <class Scalar>
-RunVerdict last_verdict(const bounded::Track<Scalar>& track,
-                        std::vector<claims::ClaimCheck<Scalar>>& checks) {
+RunVerdict last_verdict(const Track& track,
+                        const std::vector<ClaimCheck>& checks) {
   RunVerdict verdict = verdict_on(track, checks);
   verdict.repeated = true;
   if (verdict.unfinished()) {
     const claims::Judgement open =
-        is_certain_end(track) ? claims::Judgement::violated : claims::Judgement::undecided;
+        track.termination == Termination::lost ? claims::Judgement::undecided : claims::Judgement::violated;
     for (claims::Finding& finding : verdict.findings) leave_open(track, open, finding);
     if (verdict.judgement != claims::Judgement::violated) verdict.judgement = open;
   }
   verdict.confirmed = verdict.judgement == claims::Judgement::violated;
   return verdict;
-}
-
-/// What both runs say; undecided where they differ.
-RunVerdict agreed(RunVerdict one, const RunVerdict& other) {
-  for (std::size_t i = 0; i < one.findings.size(); ++i)
-    if (one.findings[i].judgement != other.findings[i].judgement) {
-      one.findings[i].judgement = claims::Judgement::undecided;
-      one.findings[i].disputed = true;
-    }
-  if (one.judgement != other.judgement) one.judgement = claims::Judgement::undecided;
-  one.confirmed = one.judgement == claims::Judgement::violated;
-  return one;
 }
 
 /// A run repeated: what of it was decided before stays so.
@@ -93,54 +66,46 @@ RunVerdict with_decided(const RunVerdict& before, RunVerdict again) {
 
 }  // namespace
 
-Judge::Judge(const Setup& setup) : event_count_(setup.events->system.dynamics.events.size()) {
-  if (!setup.sampled) {
-    events_.emplace(setup.judged());
-    checks_ = make_checks(setup.judged().judged, *setup.judged().narrow);
-    return;
-  }
-  const SampledSetup& sampled = *setup.sampled;
-  checks_ = make_checks(sampled.judged, *sampled.narrow);
-  if (!sampled.steps) {
-    clocked_.emplace(*sampled.system, setup.events->scenario, sampled.coordinates, *sampled.flows);
-    return;
-  }
-  narrow_.emplace(*sampled.system, setup.events->scenario, *sampled.steps, *sampled.narrow);
-  wide_.emplace(*sampled.system, setup.events->scenario, *sampled.steps, *sampled.wide);
-  wide_checks_ = make_checks(sampled.judged, *sampled.wide);
+Judge::Judge(const Setup& setup)
+    : event_count_(setup.events->system.dynamics.events.size()), tracks_(setup.judged()) {
+  for (const claims::JudgedClaim& claim : setup.judged().judged) checks_.emplace_back(claim);
 }
 
-const bounded::Track<double>& Judge::track(std::uint64_t seed, std::uint64_t run) {
-  if (events_) return events_->run(seed, run, 1);
-  return clocked_ ? clocked_->run(seed, run, kAccuracyOfMany) : narrow_->run(seed, run);
+/// A track whose events are noted.
+const Track& Judge::noted(std::uint64_t seed, std::uint64_t run, double factor) {
+  track_ = &tracks_.run(seed, run, factor);
+  happened_.resize(event_count_, 0);
+  for (const claims::Move& move : track_->moves)
+    if (move.jump) happened_[move.event] = 1;
+  return *track_;
 }
 
 RunVerdict Judge::confirm(std::uint64_t seed, std::uint64_t run) {
-  if (events_) {
-    constexpr double sharper = kAccuracyOfOne / kAccuracyOfMany;
-    RunVerdict verdict = last_verdict(noted(events_->run(seed, run, sharper)), checks_);
-    if (verdict.judgement != claims::Judgement::undecided ||
-        !events_->can_decide_more(sharper * sharper))
-      return verdict;
-    return with_decided(verdict,
-                        last_verdict(noted(events_->run(seed, run, sharper * sharper)), checks_));
-  }
-  if (!clocked_) return last_verdict(noted(wide_->run(seed, run)), wide_checks_);
-  const auto rounded = [&](Rounding rounding) {
-    return last_verdict(noted(clocked_->run(seed, run, kAccuracyOfOne, rounding)), checks_);
-  };
-  return agreed(rounded(Rounding::up), rounded(Rounding::down));
+  constexpr double sharper = kAccuracyOfOne / kAccuracyOfMany;
+  RunVerdict verdict = last_verdict(noted(seed, run, sharper), checks_);
+  if (verdict.judgement != claims::Judgement::undecided ||
+      !tracks_.can_decide_more(sharper * sharper))
+    return verdict;
+  return with_decided(verdict, last_verdict(noted(seed, run, sharper * sharper), checks_));
 }
 
 RunVerdict Judge::operator()(std::uint64_t seed, std::uint64_t run) {
   happened_.assign(event_count_, 0);
-  RunVerdict verdict = verdict_on(noted(track(seed, run)), checks_);
+  RunVerdict verdict = verdict_on(noted(seed, run, 1), checks_);
   const bool open = std::any_of(verdict.findings.begin(), verdict.findings.end(),
                                 [](const claims::Finding& one) { return one.undecided(); });
   // A run that is repeated may go on where it ended before.
   if (open || verdict.unfinished()) verdict = with_decided(verdict, confirm(seed, run));
   verdict.happened = happened_;
   return verdict;
+}
+
+void Judge::take_held(const std::vector<bool>& holds, RunVerdict& verdict) const {
+  if (verdict.unfinished()) return;
+  for (std::size_t c = 0; c < holds.size(); ++c)
+    if (holds[c] && verdict.findings[c].undecided())
+      verdict.findings[c] = checks_[c](*track_, true);
+  verdict.judgement = worst_of(verdict.findings);
 }
 
 }  // namespace gainsmith::verify

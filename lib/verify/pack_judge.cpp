@@ -10,9 +10,8 @@ using claims::Judgement;
 
 namespace {
 
-/// `system`: nullptr for linear packs, whose errors are proved.
-RunVerdict verdict_of(const packs::PackVerdict& pack, const packs::PackSystem* system,
-                      const SampledSetup* sampled) {
+RunVerdict verdict_of(const packs::PackVerdict& pack,
+                      const std::vector<claims::JudgedClaim>& claims) {
   RunVerdict verdict;
   verdict.judgement = pack.violated() ? Judgement::violated : Judgement::held;
   verdict.happened = pack.happened;
@@ -23,9 +22,7 @@ RunVerdict verdict_of(const packs::PackVerdict& pack, const packs::PackSystem* s
     finding.score = claim.score;
     finding.floor = claim.floor;
     finding.looked = claim.looked;
-    finding.estimated = system != nullptr;
-    finding.tolerance =
-        system != nullptr ? system->claims[c].tolerance : sampled->judged[c].tolerance;
+    finding.tolerance = claims[c].tolerance;
     verdict.findings.push_back(finding);
   }
   return verdict;
@@ -43,15 +40,13 @@ void require_agreement(std::uint64_t run, Judgement packs, Judgement careful) {
 
 Packs make_packs(const Setup& setup, std::uint64_t runs) {
   Packs made;
-  if (runs < (setup.sampled ? kFewestLinear : kFewestInPacks)) return made;
-  const EventSetup& events = setup.judged();
-  if (setup.sampled) {
-    const SampledSetup& sampled = *setup.sampled;
-    auto model = packs::make_linear_model(*sampled.system, setup.events->scenario,
-                                          sampled.coordinates, sampled.judged);
+  if (setup.linear) {
+    auto model = packs::make_linear_model(*setup.linear->system, setup.events->scenario,
+                                          setup.linear->coordinates, setup.events->claims);
     if (model) made.linear = packs::make_linear_system(std::move(*model));
-    return made;
   }
+  if (made.linear || runs < kFewestInPacks) return made;
+  const EventSetup& events = setup.judged();
   const simulate::Accuracy accuracy = events.accuracy(kAccuracyOfMany);
   const Eigen::VectorXd absolute =
       accuracy.absolute_of.size() > 0
@@ -65,9 +60,7 @@ Packs make_packs(const Setup& setup, std::uint64_t runs) {
 PackJudge::PackJudge(const Setup& setup, const Packs* packs) : setup_(&setup) {
   if (packs == nullptr) return;
   if (packs->linear) linear_.emplace(*packs->linear);
-  if (!packs->any) return;
-  system_ = packs->any.get();
-  packs_.emplace(*system_);
+  if (packs->any) packs_.emplace(*packs->any);
 }
 
 void PackJudge::begin(std::uint64_t seed, std::uint64_t first, std::uint64_t last) {
@@ -91,18 +84,24 @@ std::uint64_t PackJudge::careful_count() const {
   return count;
 }
 
-RunVerdict PackJudge::careful(std::uint64_t seed, std::uint64_t run) {
+RunVerdict PackJudge::careful(std::uint64_t seed, std::uint64_t run,
+                              const std::vector<bool>& holds) {
   if (!judge_) judge_.emplace(*setup_);
-  return (*judge_)(seed, run);
+  RunVerdict verdict = (*judge_)(seed, run);
+  judge_->take_held(holds, verdict);
+  return verdict;
 }
 
 CampaignVerdictOnRun PackJudge::operator()(std::uint64_t run) {
   if (!linear_ && !packs_) return {careful(seed_, run), true, {}};
   const packs::PackVerdict& pack = verdicts_[static_cast<std::size_t>(run - first_)];
   if (pack.open) return {careful(seed_, run), true, pack.why};
-  RunVerdict verdict = verdict_of(pack, system_, setup_->sampled.get());
+  RunVerdict verdict = verdict_of(pack, setup_->judged().judged);
   if (run % kSampled != 0) return {std::move(verdict), false, {}};
-  RunVerdict again = careful(seed_, run);
+  std::vector<bool> holds;
+  for (const claims::Finding& finding : verdict.findings)
+    holds.push_back(linear_ && finding.judgement == Judgement::held);
+  RunVerdict again = careful(seed_, run, holds);
   for (std::size_t c = 0; c < again.findings.size(); ++c)
     require_agreement(run, verdict.findings[c].judgement, again.findings[c].judgement);
   return {std::move(again), true, {}};

@@ -28,7 +28,7 @@ struct Packs {
   explicit operator bool() const { return linear || any; }
 };
 
-/// For so many runs: few are careful. The setup must outlive it.
+/// For so many runs; few of no linear dynamics are careful. The setup must outlive it.
 Packs make_packs(const Setup& setup, std::uint64_t runs);
 
 class PackJudge {
@@ -45,13 +45,12 @@ class PackJudge {
   /// The verdict on one of them. std::logic_error where packs and the careful run contradict each
   /// other: that is a fault of the program.
   CampaignVerdictOnRun operator()(std::uint64_t run);
-  /// By the careful run, which may not contradict what packs said.
-  RunVerdict careful(std::uint64_t seed, std::uint64_t run);
+  /// By the careful run. `holds`: claims that are known to hold, as linear packs have proved.
+  RunVerdict careful(std::uint64_t seed, std::uint64_t run, const std::vector<bool>& holds = {});
 
  private:
   const Setup* setup_;
   std::uint64_t seed_ = 0, first_ = 0;
-  const packs::PackSystem* system_ = nullptr;  ///< of packs_
   std::optional<packs::LinearRunner> linear_;
   std::optional<packs::PackRunner> packs_;
   std::optional<Judge> judge_;  ///< made when it is asked for

@@ -76,12 +76,12 @@ void refine(const Return& step, double low, double high, PeriodicLengths& best) 
 }  // namespace
 
 std::optional<PeriodicLengths> fastest_lengths(const Setup& setup) {
-  if (!setup.sampled) return std::nullopt;
-  const bounded::Coordinates& coordinates = setup.sampled->coordinates;
-  const auto& jump = setup.sampled->narrow->jump;
+  if (!setup.linear) return std::nullopt;
+  const linear::Coordinates& coordinates = setup.linear->coordinates;
+  const auto jump = linear::affine_jump(coordinates);
   const auto& clock = setup.events->system.clocks.front();
-  if (!coordinates.affine || !jump || !(clock->low < clock->high)) return std::nullopt;
-  const Return step(coordinates.linear.cast<double>(), jump->rounded);
+  if (!jump || !(clock->low < clock->high)) return std::nullopt;
+  const Return step(coordinates.linear.cast<double>(), jump->linear.cast<double>());
   const std::vector<double> lengths = grid(clock->low, clock->high, step.fastest());
   std::vector<Matrix> factors;
   factors.reserve(lengths.size());

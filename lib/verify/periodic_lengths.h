@@ -1,6 +1,6 @@
 // Lengths of flows that, repeated in turn, make linear errors grow.
 //
-// In the coordinates of the claims (bounded/coordinates.h), from just after a jump to just after the
+// In the coordinates of the claims (linear/coordinates.h), from just after a jump to just after the
 // next one:
 //
 //   x+ = J expm(s M) x + ...,  s in [low, high]

@@ -8,7 +8,7 @@ namespace gainsmith::verify {
 
 namespace {
 
-using bounded::Termination;
+using claims::Termination;
 
 int rank_of(claims::Judgement judgement) {
   return judgement == claims::Judgement::violated    ? 2

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "bounded/track.h"
+#include "claims/track.h"
 #include "claims/claim_check.h"
 #include "packs/pack_runner.h"
 #include "verify/judge.h"
@@ -21,7 +21,7 @@ namespace gainsmith::verify {
 /// Why a run is undecided.
 struct UndecidedRun {
   std::uint64_t run = 0;
-  bounded::Termination termination = bounded::Termination::horizon;
+  claims::Termination termination = claims::Termination::horizon;
   std::string message;      ///< why it ended before the horizon
   std::size_t check = 0;    ///< of a run that reached it: the claim ...
   claims::Finding finding;  ///< ... and what is known of it
@@ -30,7 +30,7 @@ struct UndecidedRun {
 };
 
 /// Its claim is counted among those that are stated.
-UndecidedRun undecided_run(std::uint64_t run, bounded::Termination termination,
+UndecidedRun undecided_run(std::uint64_t run, claims::Termination termination,
                            const std::string& message,
                            const std::vector<claims::Finding>& findings);
 
@@ -52,7 +52,7 @@ struct WorstRun {
   std::uint64_t run = 0;
   claims::Judgement judgement = claims::Judgement::held;
   double score = 0;
-  bounded::Termination termination = bounded::Termination::horizon;
+  claims::Termination termination = claims::Termination::horizon;
 
   bool operator==(const WorstRun&) const = default;
 };
@@ -60,7 +60,7 @@ struct WorstRun {
 /// A run that does not reach the horizon.
 struct UnfinishedRun {
   std::uint64_t run = 0;
-  bounded::Termination termination = bounded::Termination::horizon;
+  claims::Termination termination = claims::Termination::horizon;
   std::string message;
 
   bool operator==(const UnfinishedRun&) const = default;

@@ -11,6 +11,12 @@ constexpr double kAccuracyOfMany = 1e-8;  ///< relative, and absolute | the runs
         ///< Campaign.IntegratedFlowsAreNoCauseOfWrongVerdicts
 constexpr double kAccuracyOfOne = 1e-10;  ///< relative, and absolute | a run that is shown, or
         ///< repeated because a claim is undecided | Campaign.FlowsThatAreNotAffineAreIntegrated
+constexpr double kSharper = 1e-2;  ///< of the accuracy | the accuracy of the second run, whose
+        ///< difference from the first one shows the error |
+        ///< Campaign.IntegratedFlowsAreNoCauseOfWrongVerdicts
+constexpr int kSamplesBeside = 2;  ///< samples on each side | the difference of two runs at a
+        ///< sample is the largest among these, since the runs may cross |
+        ///< Campaign.IntegratedFlowsAreNoCauseOfWrongVerdicts
 constexpr double kLeastRise = 1e-3;  ///< of the accuracy, of the value | a smaller rise of a value
         ///< that must not increase is sought only at the samples |
         ///< FasterThanTheSteps/NarrowClaims.AreJudgedAsTheyAre
@@ -28,8 +34,6 @@ constexpr double kReach = 3;  ///< standard deviations | so far a search for the
         ///< normal noise | DrawCube.NormalNoiseReachesThreeDeviations
 constexpr double kLongestList = 64;  ///< draws | so many lengths, losses or values of one noise are
         ///< chosen one by one; then they repeat | DrawCube.ListsRepeatAfterAPeriodOrAtTheirMost
-constexpr std::uint64_t kFewestLinear = 64;  ///< runs | of fewer runs of linear dynamics each is
-        ///< careful: the tables of packs take the time of so many | PackJudge.AFewRunsAreMadeOneByOne
 // clang-format on
 
 }  // namespace gainsmith::verify

@@ -10,7 +10,7 @@
 
 namespace gainsmith::verify {
 
-using bounded::Termination;
+using claims::Termination;
 using Eigen::Index;
 using Eigen::VectorXd;
 using hybrid::Ending;
@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
 /// The samples from which the bound of one is taken.
-constexpr int kAround = 2 * bounded::kSamplesBeside + 1;
+constexpr int kAround = 2 * kSamplesBeside + 1;
 /// The samples around the k-th of all.
 Index first_around(Index k, Index all) {
   return std::max<Index>(std::min<Index>(k - kAround / 2, all - kAround), 0);
@@ -57,7 +57,7 @@ EventTracks::EventTracks(const EventSetup& setup)
 /// Whether a function is of a claim that a look is for.
 bool EventTracks::counts(const claims::SamplePoint& look, std::size_t function) const {
   if (rests_[function] != 0) return false;
-  return look.function == bounded::Track<double>::kForAll ||
+  return look.function == claims::Track::kForAll ||
          look.function == setup_->first_of_claim[function];
 }
 
@@ -65,7 +65,7 @@ bool EventTracks::counts(const claims::SamplePoint& look, std::size_t function) 
 void EventTracks::come_to(std::size_t event) {
   for (const claims::JudgedClaim& claim : setup_->judged)
     for (std::size_t k = 0; claim.over && k < rests_.size(); ++k)
-      if (setup_->first_of_claim[k] == claim.sampled_for) rests_[k] = *claim.over != event;
+      if (setup_->first_of_claim[k] == claim.value) rests_[k] = *claim.over != event;
 }
 
 VectorXd EventTracks::values(const claims::SamplePoint& look, const VectorXd& x) {
@@ -89,7 +89,7 @@ VectorXd EventTracks::with_rounding(const VectorXd& x, int bit) const {
 
 /// What the variables may be off by, where the two runs differ by so much at samples around.
 VectorXd EventTracks::errors(const VectorXd& fine, const VectorXd& around) const {
-  VectorXd result = bounded::kErrorOfDifference * around;
+  VectorXd result = claims::kErrorOfDifference * around;
   for (Index e = 0; e < fine.size(); ++e)
     if (rounds_[static_cast<std::size_t>(e)])
       result(e) += (4 + rounded_) * kUnit * std::abs(fine(e));
@@ -107,7 +107,7 @@ void EventTracks::append(const claims::SamplePoint& look, std::int64_t j, const 
   VectorXd difference = (values(look, coarse) - value).cwiseAbs().cwiseMax(rounded);
   rounded /= (4 + rounded_) * kUnit;
   const VectorXd error = errors(fine, around);
-  constexpr double kUnknown = bounded::no_bound();
+  constexpr double kUnknown = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < functions_.size(); ++k) {
     const auto row = static_cast<Index>(k);
     const bool is_followed = look.t <= functions_[k].followed_until;
@@ -125,7 +125,7 @@ void EventTracks::append(const claims::SamplePoint& look, std::int64_t j, const 
       if (parts(k, value(row), difference(row), size)) difference(row) = kUnknown;
       continue;
     }
-    const bounded::Bounded<double> hull = balls_[k].hull(fine, error);
+    const claims::Bounded hull = balls_[k].hull(fine, error);
     if (!std::isnan(hull.value)) value(row) = hull.value;
     difference(row) = parts(k, value(row), 0, 0) ? kUnknown : 0;
     rounding_.push_back(hull.bound);
@@ -134,9 +134,7 @@ void EventTracks::append(const claims::SamplePoint& look, std::int64_t j, const 
   track_.sampled_for.push_back(look.function);
   track_.within_instant.push_back(within_instant ? 1 : 0);
   track_.j.push_back(j);
-  track_.timer.push_back(0);
-  track_.timer_bound.push_back(0);
-  track_.stacked.insert(track_.stacked.end(), value.data(), value.data() + value.size());
+  track_.values.insert(track_.values.end(), value.data(), value.data() + value.size());
   track_.bounds.insert(track_.bounds.end(), difference.data(),
                        difference.data() + difference.size());
 }
@@ -176,7 +174,6 @@ void EventTracks::add_flow(const claims::TwinFlow& flow, const hybrid::Trajector
     fine_x.push_back(claims::state_at(fine, look.share));
   }
   const auto count = static_cast<Index>(looks.size());
-  double before = fine.from();
   const bool within_instant = fine.to() - fine.from() <= claims::kInstantOfRun * run.end;
   for (Index k = 0; k < count; ++k) {
     const claims::SamplePoint& look = looks[static_cast<std::size_t>(k)];
@@ -186,11 +183,10 @@ void EventTracks::add_flow(const claims::TwinFlow& flow, const hybrid::Trajector
       const auto at = static_cast<std::size_t>(other);
       difference = difference.cwiseMax((coarse_x[at] - fine_x[at]).cwiseAbs());
     }
-    track_.moves.push_back({false, {bounded::FlowStep::kRest, look.t - before}});
+    track_.moves.push_back({});
     const auto at = static_cast<std::size_t>(k);
     append(look, fine.j, coarse_x[at], fine_x[at], difference, static_cast<int>((k + 1) % kAround),
            kAround, within_instant);
-    before = look.t;
   }
 }
 
@@ -202,7 +198,7 @@ void EventTracks::add_jump(const claims::TwinParts& twins, std::size_t at) {
   }
   rounded_ += 1;
   come_to(jump->event);
-  track_.moves.push_back({true, {}, jump->event});
+  track_.moves.push_back({true, jump->event});
   append({1, jump->t}, jump->j + 1, after, jump->after, (after - jump->after).cwiseAbs(), 0, 1);
 }
 
@@ -211,7 +207,7 @@ claims::RiseLimits EventTracks::limits_of_rises(const VectorXd& start, double ac
   claims::RiseLimits limits;
   const bool exact = setup_->system.affine;
   limits.noise = exact ? claims::kValueRounding : kLeastRise * accuracy;
-  limits.agreement = exact ? claims::kExactAgreement : bounded::kErrorOfDifference * accuracy;
+  limits.agreement = exact ? claims::kExactAgreement : claims::kErrorOfDifference * accuracy;
   limits.floor = VectorXd::Zero(static_cast<Index>(functions_.size()));
   for (const claims::SamplePoints::Falling& one : setup_->looks.falling)
     if (one.after == 0)
@@ -258,9 +254,9 @@ void EventTracks::widen(std::size_t first) {
       double around = 0;
       for (Index other = first_around(i, all); other < last_around(i, all); ++other)
         around = std::fmax(around, own(f, seen[static_cast<std::size_t>(other)]));
-      const double value = track_.state(first + static_cast<std::size_t>(k))(f);
+      const double value = track_.at(first + static_cast<std::size_t>(k), static_cast<int>(f)).value;
       bounds(f, k) =
-          bounded::kErrorOfDifference * around + 8 * kUnit * std::abs(value) + rounding(f, k);
+          claims::kErrorOfDifference * around + 8 * kUnit * std::abs(value) + rounding(f, k);
     }
   }
 }
@@ -297,17 +293,17 @@ bool EventTracks::can_decide_more(double factor) const {
          std::find(parted_.begin(), parted_.end(), 1) == parted_.end();
 }
 
-const bounded::Track<double>& EventTracks::run(std::uint64_t seed, std::uint64_t run,
+const claims::Track& EventTracks::run(std::uint64_t seed, std::uint64_t run,
                                                double factor) {
   track_.clear();
-  track_.size = setup_->coordinates.layout.size;
+  track_.size = static_cast<Index>(functions_.size());
   const simulate::Accuracy accuracy = setup_->accuracy(kAccuracyOfMany, factor);
   track_.accuracy = accuracy.relative;
   rounded_ = 0;
   rounding_.clear();
   hybrid::Trajectory coarse = simulator_.run(seed, run, accuracy);
   hybrid::Trajectory fine =
-      simulator_.run(seed, run, accuracy.times(bounded::kSharper), {}, factor < 1 ? 1 : 0);
+      simulator_.run(seed, run, accuracy.times(kSharper), {}, factor < 1 ? 1 : 0);
   costs_.add_to(coarse, true);
   costs_.add_to(fine, false);
   rises_ = limits_of_rises(fine.start, accuracy.relative);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "claims/text_ball.h"
+#include "claims/track.h"
 #include "claims/twin_parts.h"
 #include "verify/careful_runs.h"
 #include "verify/doubts.h"
@@ -37,7 +38,7 @@ class EventTracks {
   explicit EventTracks(const EventSetup& setup);
 
   /// `factor`: of the accuracy of a campaign.
-  const bounded::Track<double>& run(std::uint64_t seed, std::uint64_t run, double factor);
+  const claims::Track& run(std::uint64_t seed, std::uint64_t run, double factor);
 
   /// Whether a smaller factor may decide what the last run left open: its two runs differ by errors
   /// of integration, and have not parted. Two runs that end early alike do so at any accuracy.
@@ -70,7 +71,7 @@ class EventTracks {
   EventDoubts doubts_;
   std::vector<char> rests_;   ///< by function: of a claim over another event than the last
   std::vector<bool> rounds_;  ///< by element: whether it is no whole number, which is exact
-  bounded::Track<double> track_;
+  claims::Track track_;
   std::vector<double> rounding_;  ///< of the evaluation, as the bounds of the track
   claims::RiseLimits rises_;
   /// What a function has been so far.

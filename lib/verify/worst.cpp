@@ -51,12 +51,12 @@ class Runs {
                     std::size_t claim) {
     check_stop();
     *run_ = cube.at(u);
-    const bounded::Track<double>& track = judge_.track(seed_, number_);
+    const claims::Track& track = judge_.track(seed_, number_);
     check_stop();  // perhaps amid the run
     ++made_;
     doing_->step();
-    const bool lost = track.termination != bounded::Termination::horizon &&
-                      track.termination != bounded::Termination::lost;
+    const bool lost = track.termination != claims::Termination::horizon &&
+                      track.termination != claims::Termination::lost;
     double margin = 0;
     for (std::size_t c = 0; c < worst_.size(); ++c) {
       const claims::Finding finding = judge_.checks()[c](track);
@@ -88,7 +88,7 @@ class Search {
   Search(const model::Instance& instance, const model::Gains& gains, const WorstOptions& options)
       : options_(options), setup_(make_setup(instance, gains, &given_)) {
     constexpr std::uint64_t kExact = 3000, kIntegrated = 600;
-    runs_ = options.runs.value_or(setup_->integrated() ? kIntegrated : kExact);
+    runs_ = options.runs.value_or(setup_->events->system.affine ? kExact : kIntegrated);
     if (setup_->events->judged.empty())
       throw InputError(instance.design->campaign.place,
                        "there is no claim to search the worst run of");
