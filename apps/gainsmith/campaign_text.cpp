@@ -56,7 +56,7 @@ std::string runs_text(std::uint64_t runs) {
 
 /// Whether nothing is known of the value any more.
 bool has_parted(const claims::Finding& finding) {
-  return !std::isfinite(finding.rounding);
+  return !std::isnan(finding.value) && !std::isfinite(finding.rounding);
 }
 
 /// With as many digits as tell them apart.
@@ -74,6 +74,7 @@ std::string uncertainty_text(model::ClaimKind kind, const claims::Finding& findi
   if (finding.disputed)
     return "one computation of the run violates it, another, more accurate or rounded otherwise, "
            "does not";
+  if (std::isnan(finding.value) || std::isnan(finding.bound)) return "the claim has no value there";
   if (has_parted(finding))
     return "two computations that differ in accuracy and in their last places have parted by "
            "then, or the text branches too often";
@@ -116,8 +117,9 @@ std::string check_text(const verify::CheckReport& check, std::size_t width) {
     text += fmt::format("               within a tolerance of {} {}\n", brief(worst.tolerance),
                         bounded && worst.bound == 0 ? "of the largest terms" : "of the bound");
   if (check.floor > 0)
-    text += fmt::format("               checked down to {} of the {}: the integration shows no larger drop\n",
-                        brief(check.floor, 2), bounded ? "largest terms" : "start");
+    text += fmt::format(
+        "               checked down to {} of the {}: the integration shows no larger drop\n",
+        brief(check.floor, 2), bounded ? "largest terms" : "start");
   return text;
 }
 
@@ -265,9 +267,8 @@ std::string campaign_line(const model::CampaignRecord& record) {
     return fmt::format("held in {}{}{}", runs_text(record.runs),
                        record.different_runs ? " (nothing is drawn)" : "", worst);
   if (record.verdict == model::CampaignVerdict::violated)
-    return fmt::format(
-        "violated in {} of {}{}, confirmed more accurately", record.violations,
-        runs_text(record.runs), worst);
+    return fmt::format("violated in {} of {}{}, confirmed more accurately", record.violations,
+                       runs_text(record.runs), worst);
   return fmt::format("undecided in {} of {}{}", record.undecided + record.violations,
                      runs_text(record.runs), worst);
 }

@@ -48,7 +48,6 @@ Finding finding_at(const Track& track, std::size_t sample, const Bounded& value,
   if (std::isnan(finding.rounding)) finding.rounding = std::numeric_limits<double>::infinity();
   finding.t = track.t[sample];
   finding.j = track.j[sample];
-  finding.estimated = true;
   const double excess = value.value - bound.value;
   const bool violated = judgement == Judgement::violated;
   if (std::isnan(excess) || (violated && scale == 0)) {
@@ -178,8 +177,7 @@ Finding ClaimCheck::nonincreasing(const Track& track, bool holds) const {
         v[k].value - high.value <= kGrown * (v[k].bound + high.bound))
       judgement = Judgement::held;
     const double top = std::abs(v[k].value) + v[k].bound;
-    const double least =
-        judgement == Judgement::undecided ? noise_floor(track.accuracy) : floor;
+    const double least = judgement == Judgement::undecided ? noise_floor(track.accuracy) : floor;
     if (judgement != Judgement::held && scale != 0 && top <= least * std::abs(scale)) {
       noise = std::max(noise, top / std::abs(scale));
     } else if (judgement != Judgement::held) {
@@ -203,7 +201,6 @@ Finding ClaimCheck::nothing_counts(const Track& track) const {
   finding.score = -std::numeric_limits<double>::infinity();
   finding.t = track.t.back();
   finding.j = track.j.back();
-  finding.estimated = true;
   return finding;
 }
 
@@ -242,15 +239,15 @@ Finding ClaimCheck::bounded(const Track& track, bool holds) const {
     const bool zero = b.value == 0;
     const double size = zero ? sizes[k] : scale;
     const double error = zero ? 2 * v[k].bound : b.bound;
-    const Judgement judgement =
-        above ? compare(b, eased(v[k], size, error), holds) : compare(v[k], eased(b, size, error), holds);
+    const Judgement judgement = above ? compare(b, eased(v[k], size, error), holds)
+                                      : compare(v[k], eased(b, size, error), holds);
     Finding found = finding_at(track, k, above ? b : v[k], above ? v[k] : b, scale, judgement);
     if (above) std::swap(found.value, found.bound);
     const double part = largest > 0 ? sizes[k] / largest : 1;
     const bool drowned =
         found.undecided() && is_number(v[k]) && part <= noise_floor(track.accuracy);
-    const bool nothing = judgement != Judgement::held &&
-                         (part <= kFloorOfAccuracy * track.accuracy || drowned);
+    const bool nothing =
+        judgement != Judgement::held && (part <= kFloorOfAccuracy * track.accuracy || drowned);
     if (nothing) noise = std::max(noise, part);
     if (!nothing && (!worst || rank(found) > rank(*worst))) worst = found;
   }

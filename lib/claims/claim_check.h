@@ -63,19 +63,20 @@ struct Finding {
   /// or the scale of a violation is 0; -1 when the scale is 0 and the claim holds; minus infinite
   /// when no sample counts.
   double score = -1;
-  double value = 0;     ///< at the worst sample
-  double bound = 0;     ///< what it must not exceed there
-  double rounding = 0;  ///< how far value - bound may be from the true one; infinite: not known
-  double t = 0;         ///< where that is, in hybrid time
+  double value = 0;  ///< at the worst sample
+  double bound = 0;  ///< what it must not exceed there
+  double rounding =
+      0;         ///< how far value - bound may be from the true one, by an estimate; infinite:
+                 ///< not known
+  double t = 0;  ///< where that is, in hybrid time
   std::int64_t j = 0;
   /// The largest value, relative to v(0), that was not compared because no digits are left; 0:
   /// none. Of a comparison with a bound that of its terms, relative to the largest.
   double floor = 0;
-  bool looked = true;      ///< false: the run has no sample at which the claim is made
-  bool ended = false;      ///< the run ends at t, before its horizon, and the claim is left open
-  bool estimated = false;  ///< `rounding` is an estimate, of the error of integration too
-  bool disputed = false;   ///< the run repeated says otherwise, so that `judgement` is undecided
-  double tolerance = 0;    ///< the claim's, which `judgement` forgives and `score` does not
+  bool looked = true;     ///< false: the run has no sample at which the claim is made
+  bool ended = false;     ///< the run ends at t, before its horizon, and the claim is left open
+  bool disputed = false;  ///< the run repeated says otherwise, so that `judgement` is undecided
+  double tolerance = 0;   ///< the claim's, which `judgement` forgives and `score` does not
 
   bool violated() const { return judgement == Judgement::violated; }
   bool undecided() const { return judgement == Judgement::undecided; }

@@ -30,6 +30,15 @@ double RunValue::number(const Eigen::VectorXd& x) {
   return function_.run(x) ? function_.element(0, 0) : (*this)(x)(0, 0);
 }
 
+std::optional<double> RunValue::rounding(const Eigen::VectorXd& x) {
+  here_.resize(static_cast<std::size_t>(point_.size()));
+  for (const Eigen::Index e : used_) here_[static_cast<std::size_t>(e)] = {x(e), x(e)};
+  constexpr double unit = std::numeric_limits<double>::epsilon() / 2;
+  if (!function_.enclose(here_, unit)) return std::nullopt;
+  const numbers::Range& range = function_.range(0, 0);
+  return range.high - range.low;
+}
+
 void RunValue::follow(const hybrid::DenseStep& step) {
   from_ = step.from;
   to_ = step.to;

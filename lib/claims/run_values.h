@@ -25,6 +25,10 @@ class RunValue {
   const numbers::Matrix& operator()(const Eigen::VectorXd& x);
   double number(const Eigen::VectorXd& x);
 
+  /// How far the computed value at x may be from the true one, constants being decimals that are
+  /// rounded once; none: no bound is known.
+  std::optional<double> rounding(const Eigen::VectorXd& x);
+
   /// From now on at() and breaks() are along this step: the variables that it uses are computed
   /// alone.
   void follow(const hybrid::DenseStep& step);
@@ -66,6 +70,7 @@ class RunValue {
   double from_ = 0, to_ = 0;
   numbers::Matrix followed_;  ///< coefficients of what is used
   Eigen::VectorXd used_values_, point_;
+  numbers::Box here_;  ///< of no width
 };
 
 /// A moment of a run.

@@ -38,6 +38,22 @@ void stack_variables(System& system) {
   }
 }
 
+/// What has the rate 0 rests.
+void leave_out_resting(System& system) {
+  std::erase_if(system.dynamics.flow, [&](const Dynamics::Assignment& one) {
+    const expr::Program& rate = one.value.program;
+    if (!std::ranges::all_of(rate.inputs, [&](const expr::Input& input) {
+          return system.constants.contains(input.name);
+        }))
+      return false;
+    try {
+      return numbers::evaluate(rate, system.constants).isZero(0);
+    } catch (const expr::EvaluationError&) {
+      return false;  // said where it is integrated
+    }
+  });
+}
+
 void fix_branches_of_flows(System& system) {
   for (const Dynamics::Assignment& one : system.dynamics.flow)
     system.moves[one.variable] = Moves::flows;
@@ -278,6 +294,7 @@ System make_system(const model::Dynamics& dynamics, numbers::Values constants) {
   system.constants = std::move(constants);
   stack_variables(system);
   check_texts(system);
+  leave_out_resting(system);
   fix_branches_of_flows(system);
   classify_flows(system);
   read_events(system);

@@ -14,7 +14,10 @@ Range widened(double low, double high, double ulps = 1) {
   return {low - part * std::abs(low) - least, high + part * std::abs(high) + least};
 }
 
+bool is_zero(const Range& a) { return a.low == 0 && a.high == 0; }
+
 Range product(const Range& a, const Range& b, bool square) {
+  if (is_zero(a) || is_zero(b)) return {0, 0};
   if (square) {
     const Range made = widened(a.least() * a.least(), a.largest() * a.largest());
     return {std::max(made.low, 0.0), made.high};
@@ -24,7 +27,14 @@ Range product(const Range& a, const Range& b, bool square) {
                  std::max(std::max(p, q), std::max(r, s)));
 }
 
-Range sum(const Range& a, const Range& b) { return widened(a.low + b.low, a.high + b.high); }
+/// Sums that are too small for a full precision are exact.
+Range difference(const Range& a, const Range& b) {
+  constexpr double part = std::numeric_limits<double>::epsilon();
+  const double low = a.low - b.high, high = a.high - b.low;
+  return {low - part * std::abs(low), high + part * std::abs(high)};
+}
+
+Range sum(const Range& a, const Range& b) { return difference(a, {-b.high, -b.low}); }
 
 Range hull(const Range& a, const Range& b) {
   return {std::min(a.low, b.low), std::max(a.high, b.high)};
@@ -77,7 +87,7 @@ bool enclose(ScalarOp op, const Range& a, const Range& b, const Range& c, bool s
       out = sum(a, b);
       break;
     case ScalarOp::subtract:
-      out = widened(a.low - b.high, a.high - b.low);
+      out = difference(a, b);
       break;
     case ScalarOp::multiply:
       out = product(a, b, square);

@@ -83,9 +83,9 @@ bool StackedFunctions::run(const Eigen::VectorXd& x, double beside) {
   return tape_->run();
 }
 
-bool StackedFunctions::enclose(const Box& x) {
+bool StackedFunctions::enclose(const Box& x, double part) {
   if (!tape_) make();
-  return tape_->enclose(x);
+  return tape_->enclose(x, part);
 }
 
 const Matrix& StackedFunctions::value(std::size_t k) {

@@ -44,9 +44,9 @@ class StackedFunctions {
   const Matrix& operator()(const Eigen::VectorXd& x, double beside = 0) {
     return run(x, beside) ? value(0) : at(0, x, beside);
   }
-  /// Bounds of all values where the elements of the vector lie anywhere in a box. False: none are
-  /// known, or something may have no value there.
-  bool enclose(const Box& x);
+  /// Bounds of all values where the elements of the vector lie anywhere in a box (Tape::enclose).
+  /// False: none are known, or something may have no value there.
+  bool enclose(const Box& x, double part = 0);
   /// Of element `e` of the k-th, after enclose().
   const Range& range(std::size_t k, std::size_t e) const { return tape_->range(k, e); }
   /// The elements of the vector that a program uses, in rising order.

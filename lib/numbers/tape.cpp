@@ -11,6 +11,7 @@ Tape::Tape(const ScalarGraph& graph, const std::vector<std::vector<int>>& result
   TapeCode code = tape_code(graph, results, inputs);
   registers_.assign(code.registers, 0);
   std::copy(code.constants.begin(), code.constants.end(), registers_.begin() + inputs);
+  constants_ = code.inputs;
   first_ = code.inputs + code.constants.size();
   for (const TapeCode::Block& block : code.blocks) blocks_.emplace_back(block);
   steps_ = std::move(code.steps);
@@ -26,10 +27,14 @@ bool Tape::is_finite() const {
   return found == 0;
 }
 
-bool Tape::enclose(const Box& inputs) {
+bool Tape::enclose(const Box& inputs, double part) {
   if (!blocks_.empty()) return false;
-  if (ranges_.empty())
-    for (const double value : registers_) ranges_.push_back({value, value});
+  ranges_.resize(registers_.size());
+  for (std::size_t k = constants_; k < first_; ++k) {
+    const double value = registers_[k];
+    const double error = std::rint(value) == value ? 0 : part * std::abs(value);
+    ranges_[k] = {value - error, value + error};
+  }
   for (const std::uint32_t k : reads_) {
     if (k >= inputs.size()) return false;
     ranges_[k] = inputs[k];

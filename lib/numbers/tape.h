@@ -42,8 +42,9 @@ class Tape {
   std::size_t operations() const { return steps_.size(); }
 
   /// Bounds of the results when the inputs lie anywhere in the box, in which those that are read
-  /// have a place. False: something may have no value there, or no bounds are known, as of blocks.
-  bool enclose(const Box& inputs);
+  /// have a place; constants that are no whole numbers may be off by `part` of them. False: something
+  /// may have no value there, or no bounds are known, as of blocks.
+  bool enclose(const Box& inputs, double part = 0);
   /// Of element `k` of a result, after enclose().
   const Range& range(std::size_t result, std::size_t k) const {
     return ranges_[results_[result][k]];
@@ -57,8 +58,9 @@ class Tape {
   std::vector<TapeBlock> blocks_;
   std::vector<std::vector<std::uint32_t>> results_;
   std::vector<std::uint32_t> reads_;
-  std::size_t first_ = 0;  ///< register that is computed
-  Box ranges_;             ///< of the registers
+  std::size_t constants_ = 0;  ///< the first register of a constant
+  std::size_t first_ = 0;      ///< register that is computed
+  Box ranges_;                 ///< of the registers
 };
 
 }  // namespace gainsmith::numbers

@@ -95,7 +95,7 @@ class Collector {
 namespace {
 
 /// Makes these runs, or those until the campaign is stopped. Slow runs are handed over as they come.
-void judge_runs(const Setup& setup, RunRange range, PackJudge& judge, Collector& collector) {
+void judge_runs(RunRange range, PackJudge& judge, Collector& collector) {
   constexpr Seconds kSlow(1);
   Tally sum;
   std::uint64_t from = range.first, next = range.first;
@@ -231,7 +231,7 @@ void Campaign::make_range(RunRange range, const Packs* packs, const PackJudge* p
     } catch (const Stopped&) {
       return;
     }
-    judge_runs(*setup_, own, judge, collector);
+    judge_runs(own, judge, collector);
   });
   check_stop();
 }

@@ -33,23 +33,25 @@ void add_claim(const claims::Claim& claim, EventSetup& setup) {
   judged.tolerance = claim.tolerance;
   judged.value = static_cast<int>(setup.functions.size());
   judged.is_still = is_still(claim.value, setup.system);
-  const auto add = [&](expr::Program program) {
+  const auto add = [&](expr::Program program, bool at_ends) {
     const auto at = static_cast<int>(setup.functions.size());
     setup.functions.push_back(std::move(program));
     setup.first_of_claim.push_back(judged.value);
+    setup.at_ends.push_back(at_ends);
     return at;
   };
-  add(claim.value);
-  if (claim.kind == model::ClaimKind::cost) {
+  using Kind = model::ClaimKind;
+  add(claim.value, claim.kind == Kind::shrinks || claim.kind == Kind::cost);
+  if (claim.kind == Kind::cost) {
     const std::string cost = model::cost_name(claim.name);
-    judged.cost = add(linear::input_program(cost, {}));
-    setup.costs.push_back({setup.layout.slots[*setup.layout.slot(cost)].offset, claim.flow_cost,
-                           claim.jump_cost});
+    judged.cost = add(linear::input_program(cost, {}), false);
+    setup.costs.push_back(
+        {setup.layout.slots[*setup.layout.slot(cost)].offset, claim.flow_cost, claim.jump_cost});
   }
-  if (claim.factor) judged.factor = add(*claim.factor);
+  if (claim.factor) judged.factor = add(*claim.factor, true);
   if (claim.bound) {
-    judged.bound = add(*claim.bound);
-    judged.terms = add(hybrid::absolute_terms(claim.value));
+    judged.bound = add(*claim.bound, true);
+    judged.terms = add(hybrid::absolute_terms(claim.value), false);
   }
   setup.judged.push_back(std::move(judged));
 }

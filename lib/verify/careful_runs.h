@@ -28,7 +28,8 @@ struct EventSetup {
   std::vector<claims::Claim> claims;
   std::vector<expr::Program> functions;  ///< of the claims that are stated
   std::vector<int> first_of_claim;       ///< of each function: the value of its claim
-  std::vector<claims::RunCost> costs;    ///< of the claims that are stated
+  std::vector<bool> at_ends;  ///< of each function: claims ask for it where a run starts and ends
+  std::vector<claims::RunCost> costs;         ///< of the claims that are stated
   numbers::EnclosedValues<double> constants;  ///< of the functions, with their errors
   std::vector<claims::JudgedClaim> judged;    ///< the claims that are stated, in order
   claims::SamplePoints looks;                 ///< that the claims ask for

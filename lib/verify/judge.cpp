@@ -20,8 +20,7 @@ claims::Judgement worst_of(const std::vector<claims::Finding>& findings) {
   return any(claims::Judgement::undecided) ? claims::Judgement::undecided : claims::Judgement::held;
 }
 
-RunVerdict verdict_on(const Track& track,
-                      const std::vector<ClaimCheck>& checks) {
+RunVerdict verdict_on(const Track& track, const std::vector<ClaimCheck>& checks) {
   RunVerdict verdict;
   verdict.termination = track.termination;
   verdict.message = track.message;
@@ -31,8 +30,7 @@ RunVerdict verdict_on(const Track& track,
 }
 
 /// Of a run that ends before its horizon a claim that holds so far is left open.
-void leave_open(const Track& track, claims::Judgement open,
-                claims::Finding& finding) {
+void leave_open(const Track& track, claims::Judgement open, claims::Finding& finding) {
   if (finding.violated() || (finding.undecided() && open == claims::Judgement::undecided)) return;
   finding.judgement = open;
   finding.ended = true;
@@ -41,13 +39,13 @@ void leave_open(const Track& track, claims::Judgement open,
 }
 
 /// The verdict on a run that is not repeated again.
-RunVerdict last_verdict(const Track& track,
-                        const std::vector<ClaimCheck>& checks) {
+RunVerdict last_verdict(const Track& track, const std::vector<ClaimCheck>& checks) {
   RunVerdict verdict = verdict_on(track, checks);
   verdict.repeated = true;
   if (verdict.unfinished()) {
-    const claims::Judgement open =
-        track.termination == Termination::lost ? claims::Judgement::undecided : claims::Judgement::violated;
+    const claims::Judgement open = track.termination == Termination::lost
+                                       ? claims::Judgement::undecided
+                                       : claims::Judgement::violated;
     for (claims::Finding& finding : verdict.findings) leave_open(track, open, finding);
     if (verdict.judgement != claims::Judgement::violated) verdict.judgement = open;
   }
@@ -89,23 +87,28 @@ RunVerdict Judge::confirm(std::uint64_t seed, std::uint64_t run) {
   return with_decided(verdict, last_verdict(noted(seed, run, sharper * sharper), checks_));
 }
 
-RunVerdict Judge::operator()(std::uint64_t seed, std::uint64_t run) {
-  happened_.assign(event_count_, 0);
-  RunVerdict verdict = verdict_on(noted(seed, run, 1), checks_);
-  const bool open = std::any_of(verdict.findings.begin(), verdict.findings.end(),
-                                [](const claims::Finding& one) { return one.undecided(); });
-  // A run that is repeated may go on where it ended before.
-  if (open || verdict.unfinished()) verdict = with_decided(verdict, confirm(seed, run));
-  verdict.happened = happened_;
-  return verdict;
-}
-
 void Judge::take_held(const std::vector<bool>& holds, RunVerdict& verdict) const {
   if (verdict.unfinished()) return;
   for (std::size_t c = 0; c < holds.size(); ++c)
     if (holds[c] && verdict.findings[c].undecided())
       verdict.findings[c] = checks_[c](*track_, true);
   verdict.judgement = worst_of(verdict.findings);
+}
+
+RunVerdict Judge::operator()(std::uint64_t seed, std::uint64_t run,
+                             const std::vector<bool>& holds) {
+  happened_.assign(event_count_, 0);
+  RunVerdict verdict = verdict_on(noted(seed, run, 1), checks_);
+  take_held(holds, verdict);
+  const bool open = std::any_of(verdict.findings.begin(), verdict.findings.end(),
+                                [](const claims::Finding& one) { return one.undecided(); });
+  // A run that is repeated may go on where it ended before.
+  if (open || verdict.unfinished()) {
+    verdict = with_decided(verdict, confirm(seed, run));
+    take_held(holds, verdict);
+  }
+  verdict.happened = happened_;
+  return verdict;
 }
 
 }  // namespace gainsmith::verify

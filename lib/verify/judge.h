@@ -29,13 +29,11 @@ class Judge {
   explicit Judge(const Setup& setup);
 
   /// A run with a claim that is not decided, or that does not reach the horizon, is repeated.
-  RunVerdict operator()(std::uint64_t seed, std::uint64_t run);
+  /// `holds`: claims that are known to hold, of which what is not certain counts as held.
+  RunVerdict operator()(std::uint64_t seed, std::uint64_t run, const std::vector<bool>& holds = {});
 
   /// The run repeated.
   RunVerdict confirm(std::uint64_t seed, std::uint64_t run);
-
-  /// Of claims that are known to hold in the run just judged what is not certain counts as held.
-  void take_held(const std::vector<bool>& holds, RunVerdict& verdict) const;
 
   /// To the accuracy of a campaign, until the next call.
   const claims::Track& track(std::uint64_t seed, std::uint64_t run) {
@@ -45,6 +43,7 @@ class Judge {
 
  private:
   const claims::Track& noted(std::uint64_t seed, std::uint64_t run, double factor);
+  void take_held(const std::vector<bool>& holds, RunVerdict& verdict) const;
 
   std::size_t event_count_;
   std::vector<char> happened_;  ///< by event, in the runs made of one number

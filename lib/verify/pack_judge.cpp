@@ -1,6 +1,7 @@
 #include "verify/pack_judge.h"
 
 #include <fmt/format.h>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -77,19 +78,23 @@ void PackJudge::begin_as(const PackJudge& prepared) {
   verdicts_ = prepared.verdicts_;
 }
 
+bool PackJudge::is_repeated(std::uint64_t run) const {
+  if (run % kSampled != 0) return false;
+  const auto root = static_cast<std::uint64_t>(std::sqrt(static_cast<double>(run / kSampled)));
+  return !linear_ || root * root * kSampled == run;
+}
+
 std::uint64_t PackJudge::careful_count() const {
   std::uint64_t count = 0;
   for (std::size_t k = 0; k < verdicts_.size(); ++k)
-    if (verdicts_[k].open || (first_ + k) % kSampled == 0) ++count;
+    if (verdicts_[k].open || is_repeated(first_ + k)) ++count;
   return count;
 }
 
 RunVerdict PackJudge::careful(std::uint64_t seed, std::uint64_t run,
                               const std::vector<bool>& holds) {
   if (!judge_) judge_.emplace(*setup_);
-  RunVerdict verdict = (*judge_)(seed, run);
-  judge_->take_held(holds, verdict);
-  return verdict;
+  return (*judge_)(seed, run, holds);
 }
 
 CampaignVerdictOnRun PackJudge::operator()(std::uint64_t run) {
@@ -97,7 +102,7 @@ CampaignVerdictOnRun PackJudge::operator()(std::uint64_t run) {
   const packs::PackVerdict& pack = verdicts_[static_cast<std::size_t>(run - first_)];
   if (pack.open) return {careful(seed_, run), true, pack.why};
   RunVerdict verdict = verdict_of(pack, setup_->judged().judged);
-  if (run % kSampled != 0) return {std::move(verdict), false, {}};
+  if (!is_repeated(run)) return {std::move(verdict), false, {}};
   std::vector<bool> holds;
   for (const claims::Finding& finding : verdict.findings)
     holds.push_back(linear_ && finding.judgement == Judgement::held);

@@ -1,5 +1,9 @@
 // The verdicts on the runs of a campaign: by packs where they run them, otherwise, and for what packs
-// leave open, by the careful run. One run in kSampled is always repeated by it.
+// leave open, by the careful run, which also repeats some of the others: a check of the program.
+//
+//   errors that are estimated   one run in kSampled
+//   errors that are proved      runs kSampled k^2, k = 0, 1, ...: linear packs are so fast that it
+//                               would take most of the time
 #pragma once
 
 #include <cstdint>
@@ -49,6 +53,8 @@ class PackJudge {
   RunVerdict careful(std::uint64_t seed, std::uint64_t run, const std::vector<bool>& holds = {});
 
  private:
+  bool is_repeated(std::uint64_t run) const;
+
   const Setup* setup_;
   std::uint64_t seed_ = 0, first_ = 0;
   std::optional<packs::LinearRunner> linear_;

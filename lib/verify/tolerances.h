@@ -26,8 +26,8 @@ constexpr double kBeforeEnd = 1.0/64;  ///< of the last step | the rate of a gua
 constexpr double kShownPlaces = 64;  ///< units in the last place | a value that changes by its own
         ///< size when all variables move by as much is rounding, and not drawn |
         ///< Replay.KnowsWhatIsRounding
-constexpr std::uint64_t kSampled = 1024;  ///< runs | one of so many is repeated by the careful run,
-        ///< whatever packs say of it | PackJudge.RepeatsSomeRunsCarefully
+constexpr std::uint64_t kSampled = 1024;  ///< runs | one of so many, or fewer (pack_judge.h), is
+        ///< repeated by the careful run, whatever packs say of it | PackJudge.RepeatsSomeRunsCarefully
 constexpr std::uint64_t kFewestInPacks = 8;  ///< runs | of fewer runs each is careful: some are made
         ///< carefully anyway | PackJudge.AFewRunsAreMadeOneByOne
 constexpr double kReach = 3;  ///< standard deviations | so far a search for the worst run takes

@@ -56,7 +56,7 @@ EventTracks::EventTracks(const EventSetup& setup)
 
 /// Whether a function is of a claim that a look is for.
 bool EventTracks::counts(const claims::SamplePoint& look, std::size_t function) const {
-  if (rests_[function] != 0) return false;
+  if (rests_[function] != 0 || (amid_ && setup_->at_ends[function])) return false;
   return look.function == claims::Track::kForAll ||
          look.function == setup_->first_of_claim[function];
 }
@@ -126,9 +126,14 @@ void EventTracks::append(const claims::SamplePoint& look, std::int64_t j, const 
       continue;
     }
     const claims::Bounded hull = balls_[k].hull(fine, error);
-    if (!std::isnan(hull.value)) value(row) = hull.value;
+    double bound = hull.bound;
+    // The start is as it is drawn: an error of 0 is 0 there.
+    if (track_.samples() == 0 && !std::isnan(value(row)))
+      bound += std::abs(hull.value - value(row));
+    else if (!std::isnan(hull.value))
+      value(row) = hull.value;
     difference(row) = parts(k, value(row), 0, 0) ? kUnknown : 0;
-    rounding_.push_back(hull.bound);
+    rounding_.push_back(bound);
   }
   track_.t.push_back(look.t);
   track_.sampled_for.push_back(look.function);
@@ -219,8 +224,12 @@ claims::RiseLimits EventTracks::limits_of_rises(const VectorXd& start, double ac
 bool EventTracks::add_parts(const hybrid::Trajectory& coarse, const hybrid::Trajectory& fine) {
   append({0, 0}, 0, coarse.start, fine.start, (coarse.start - fine.start).cwiseAbs(), 0, 1);
   const claims::TwinParts twins = claims::pair_twins(fine, coarse, setup_->system, doubts_.maps());
-  std::size_t first = 0;
+  widen(0);
+  std::size_t first = 1;
+  std::size_t last = twins.parts.size();  // flow
+  while (last > 0 && !std::holds_alternative<claims::TwinFlow>(twins.parts[last - 1])) --last;
   for (std::size_t k = 0; k < twins.parts.size() && doubt_.empty(); ++k) {
+    amid_ = k + 1 < last;
     if (const auto* flow = std::get_if<claims::TwinFlow>(&twins.parts[k])) {
       add_flow(*flow, fine);
       continue;
@@ -254,7 +263,8 @@ void EventTracks::widen(std::size_t first) {
       double around = 0;
       for (Index other = first_around(i, all); other < last_around(i, all); ++other)
         around = std::fmax(around, own(f, seen[static_cast<std::size_t>(other)]));
-      const double value = track_.at(first + static_cast<std::size_t>(k), static_cast<int>(f)).value;
+      const double value =
+          track_.at(first + static_cast<std::size_t>(k), static_cast<int>(f)).value;
       bounds(f, k) =
           claims::kErrorOfDifference * around + 8 * kUnit * std::abs(value) + rounding(f, k);
     }
@@ -293,8 +303,7 @@ bool EventTracks::can_decide_more(double factor) const {
          std::find(parted_.begin(), parted_.end(), 1) == parted_.end();
 }
 
-const claims::Track& EventTracks::run(std::uint64_t seed, std::uint64_t run,
-                                               double factor) {
+const claims::Track& EventTracks::run(std::uint64_t seed, std::uint64_t run, double factor) {
   track_.clear();
   track_.size = static_cast<Index>(functions_.size());
   const simulate::Accuracy accuracy = setup_->accuracy(kAccuracyOfMany, factor);
@@ -307,6 +316,7 @@ const claims::Track& EventTracks::run(std::uint64_t seed, std::uint64_t run,
   costs_.add_to(coarse, true);
   costs_.add_to(fine, false);
   rises_ = limits_of_rises(fine.start, accuracy.relative);
+  amid_ = false;
   ranges_.assign(functions_.size(), {});
   sizes_.assign(functions_.size(), 0);
   parted_.assign(functions_.size(), 0);

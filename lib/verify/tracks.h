@@ -70,6 +70,7 @@ class EventTracks {
   std::vector<claims::TextBall> balls_;  ///< of the functions
   EventDoubts doubts_;
   std::vector<char> rests_;   ///< by function: of a claim over another event than the last
+  bool amid_ = false;         ///< what comes is neither the start nor the last flow of a run
   std::vector<bool> rounds_;  ///< by element: whether it is no whole number, which is exact
   claims::Track track_;
   std::vector<double> rounding_;  ///< of the evaluation, as the bounds of the track

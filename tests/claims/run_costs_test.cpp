@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "bounded/polynomial.h"
 #include "expr/rewrite.h"
 #include "ode/chebyshev.h"
 

@@ -64,7 +64,7 @@ TEST_F(CoordinatesTest, CommuteWithFlowJumpAndFunctions) {
     const Wide state = wide(drawn(random, system_->layout.size, 1, 10));
     const Wide x = turned(state);
     // The coordinates are linear in the state: their derivative is that of the state, turned.
-    const Wide flow = turned(moved(state, system_->flow_entries, false));
+    const Wide flow = turned(moved(state, system_->flow, false));
     EXPECT_LT(largest_of(made_.linear * x + made_.constant - flow), Decimal100(1e-75));
     const Wide after = turned(moved(state, system_->jump, true));
     for (std::size_t i = 0; i < made_.list.size(); ++i) {

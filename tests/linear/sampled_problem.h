@@ -1,4 +1,4 @@
-// A TextProblem as sampled dynamics, for the tests of bounded.
+// A TextProblem as sampled dynamics, for the tests of linear.
 #pragma once
 
 #include <memory>
@@ -7,9 +7,10 @@
 #include <vector>
 
 #include "bind/stated.h"
-#include "linear/bounded_run.h"
-#include "linear/sampled_system.h"
 #include "hybrid/exact_values.h"
+#include "linear/coordinates.h"
+#include "linear/polynomial.h"
+#include "linear/sampled_system.h"
 #include "support/text_problem.h"
 
 namespace gainsmith::linear {
@@ -21,10 +22,7 @@ struct SampledProblem {
         texts(bind::run_texts(instance, problem.gains)),
         dynamics(hybrid::make_system(texts.dynamics, texts.stated.values)),
         made(make_sampled_system(dynamics)),
-        scenario(hybrid::make_scenario(texts.campaign, dynamics)),
-        values(hybrid::exact_values(instance, dynamics.constants, problem.gains)) {
-    if (made && made->flow) steps.emplace(*made->flow, made->longest, made->flow_place);
-  }
+        values(hybrid::exact_values(instance, dynamics.constants, problem.gains)) {}
   SampledProblem(const SampledProblem&) = delete;
   SampledProblem& operator=(const SampledProblem&) = delete;
 
@@ -36,10 +34,8 @@ struct SampledProblem {
   /// The states themselves as coordinates.
   Coordinates states() const {
     std::vector<expr::Program> functions;
-    for (const hybrid::Slot& slot : made->layout.slots) {
-      expr::Composer compose({});
-      functions.push_back(compose.take(compose.input(slot.name, slot.shape)));
-    }
+    for (const hybrid::Slot& slot : system().layout.slots)
+      functions.push_back(input_program(slot.name, slot.shape));
     return make_coordinates(*made, values, functions);
   }
 
@@ -47,9 +43,7 @@ struct SampledProblem {
   model::RunTexts texts;
   hybrid::System dynamics;
   std::unique_ptr<const SampledSystem> made;
-  hybrid::Scenario scenario;
   numbers::ValuesOf<Decimal100> values;
-  std::optional<FlowSteps> steps;  ///< of an affine flow
 };
 
 }  // namespace gainsmith::linear

@@ -1,4 +1,4 @@
-// Programs and states in 100 digits, for the tests of bounded.
+// Programs and states in 100 digits, for the tests of linear.
 #pragma once
 
 #include <Eigen/Core>
@@ -6,8 +6,8 @@
 #include "base/eigen_scalars.h"
 #include "base/random.h"
 #include "base/scalars.h"
-#include "linear/wide_function.h"
 #include "hybrid/state_layout.h"
+#include "linear/wide_function.h"
 
 namespace gainsmith::linear {
 

@@ -91,7 +91,6 @@ TEST(Campaign, FlowsThatAreNotAffineAreIntegrated) {
   problem.nonincreasing("falls", "x^2").cost("cost", "x^2/2", "x^4", "0.09*x^2");
   problem.shrinks("shrinks", "abs(x)", "0.5");
   const Report report = run(problem);
-  EXPECT_TRUE(report.integrated);
   EXPECT_EQ(report.verdict, CampaignVerdict::held);
   TextProblem dear = problem;
   dear.cost("dear", "x^2/2", "1.5*x^4", "0.2*x^2");
@@ -102,7 +101,6 @@ TEST(Campaign, FlowsThatAreNotAffineAreIntegrated) {
   const Replay again = replay(dear.instance(), dear.gains, violated.seed, violated.worst_run);
   EXPECT_TRUE(again.claims[3].finding.violated());
   EXPECT_EQ(again.claims[3].finding.value, violated.checks[3].worst.value);
-  EXPECT_TRUE(again.claims[3].finding.estimated);
 }
 
 /// A pendulum without friction keeps its energy: neither is certain of it.
@@ -115,7 +113,7 @@ TEST(Campaign, WhatTheIntegrationDoesNotShowIsUndecided) {
   EXPECT_EQ(report.undecided, 4U);
   ASSERT_TRUE(report.first_undecided);
   EXPECT_EQ(report.first_undecided->run, 0U);
-  EXPECT_EQ(report.first_undecided->termination, bounded::Termination::horizon);
+  EXPECT_EQ(report.first_undecided->termination, claims::Termination::horizon);
   EXPECT_TRUE(report.first_undecided->finding.undecided());
   EXPECT_EQ(report.repeated, 4U);
 }
@@ -152,7 +150,6 @@ TEST(Campaign, IntegratedFlowsAreNoCauseOfWrongVerdicts) {
     problem.start("y", StartKind::expression, {"1"}).horizon(one.horizon);
     problem.nonincreasing("claim", one.claim);
     const Report report = run(problem);
-    EXPECT_TRUE(report.integrated);
     EXPECT_EQ(report.verdict, one.verdict) << one.flow_y << " " << one.jump_x;
   }
 }
@@ -192,7 +189,6 @@ TEST(Campaign, IntegratedErrorsThatMoveByThemselvesAreJudged) {
   problem.runs(5).horizon("8").nonincreasing("error", "(z - zh)^2");
   const Report report = run(problem);
   EXPECT_EQ(report.verdict, CampaignVerdict::held);
-  EXPECT_TRUE(report.integrated);
 }
 
 TEST(Campaign, IntegratedErrorsOfWhatGrowsAreUndecided) {
@@ -203,7 +199,6 @@ TEST(Campaign, IntegratedErrorsOfWhatGrowsAreUndecided) {
   const Report report = run(problem);
   EXPECT_EQ(report.verdict, CampaignVerdict::undecided);
   EXPECT_EQ(report.violations, 0U);
-  EXPECT_TRUE(report.integrated);
 }
 
 TEST(Campaign, ReportDoesNotDependOnTheNumberOfThreads) {
@@ -368,15 +363,16 @@ TEST(Campaign, RunThatDivergesViolates) {
   EXPECT_EQ(report.verdict, CampaignVerdict::violated);
   EXPECT_EQ(report.unfinished, 3U);
   EXPECT_EQ(report.worst_run, 0U);
-  EXPECT_EQ(report.unfinished_termination, bounded::Termination::diverged);
+  EXPECT_EQ(report.unfinished_termination, claims::Termination::broken_off);
   EXPECT_EQ(report.violation_probability, 1);
 }
 
-TEST(Campaign, ClaimThatIsNoNumberIsViolated) {
+TEST(Campaign, ClaimThatIsNoNumberDoesNotHold) {
   TextProblem problem = growing();
   problem.runs(3).nonincreasing("log", "log(2.5 - x)");
   const Report report = run(problem);
-  EXPECT_EQ(report.verdict, CampaignVerdict::violated);
+  EXPECT_EQ(report.verdict, CampaignVerdict::undecided);
+  EXPECT_TRUE(std::isnan(report.checks[0].worst.value));
   EXPECT_TRUE(std::isinf(report.checks[0].worst.score));
 }
 

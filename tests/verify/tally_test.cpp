@@ -20,8 +20,8 @@ RunVerdict random_verdict(std::mt19937& random) {
   RunVerdict verdict;
   verdict.judgement = one_of(std::vector{held, held, undecided, violated});
   verdict.termination =
-      one_of(std::vector{bounded::Termination::horizon, bounded::Termination::horizon,
-                         bounded::Termination::diverged, bounded::Termination::lost});
+      one_of(std::vector{claims::Termination::horizon, claims::Termination::horizon,
+                         claims::Termination::broken_off, claims::Termination::lost});
   verdict.message = one_of(std::vector<std::string>{"", "a", "b"});
   verdict.repeated = one_of(std::vector{true, false});
   verdict.confirmed = verdict.repeated && verdict.judgement == violated;

@@ -258,7 +258,7 @@ TEST(Worst, SamplingHoldsAndTheSearchFindsTheTurns) {
   const auto setup = make_setup(instance, {}, &report.given);
   Judge judge(*setup);
   const claims::Finding again = judge(7, 0).findings[0];
-  EXPECT_EQ(again.value, report.claims[0].finding.value);
+  EXPECT_NEAR(again.value / report.claims[0].finding.value, 1, 1e-12);
   EXPECT_TRUE(judge.confirm(7, 0).findings[0].violated());
 }
 
