@@ -1,15 +1,24 @@
 #include "packs/lane_lengths.h"
 
+#include <algorithm>
+
 namespace gainsmith::packs {
 
 using lanes::kLanes;
 using model::LawKind;
 
 LaneLengths::LaneLengths(const hybrid::System& system, const hybrid::Scenario& scenario)
-    : clock_(&*system.clocks.front()), scenario_(&scenario) {}
+    : system_(&system), clock_(&*system.clocks.front()), scenario_(&scenario) {}
 
 void LaneLengths::begin(std::uint64_t seed, const LaneRuns& runs) {
   runs_ = runs;
+  given_.clear();
+  if (scenario_->given_for(runs.front()) != nullptr) {
+    const bool one = std::ranges::all_of(runs, [&](auto run) { return run == runs.front(); });
+    for (std::size_t l = 0; l < (one ? 1 : kLanes); ++l)
+      given_.emplace_back(*system_, *scenario_, seed, runs[l]);
+    return take_given();
+  }
   const std::vector<hybrid::Law>& laws = scenario_->laws.front();
   law_ = laws.empty() ? nullptr : &laws[runs.front() % laws.size()];
   key_ = hybrid::stream_key(seed, hybrid::Purpose::length, 0);
@@ -54,7 +63,19 @@ void LaneLengths::draw_lengths(std::uint64_t number) {
   for (double& one : length_) one = hybrid::sinusoid_of(one, low, high);
 }
 
+void LaneLengths::take_given() {
+  for (std::size_t l = 0; l < kLanes; ++l) {
+    const hybrid::EventClocks& clocks = given_[std::min(l, given_.size() - 1)];
+    length_[l] = clocks.length(0);
+    due_[l] = clocks.due(0);
+  }
+}
+
 void LaneLengths::advance() {
+  if (!given_.empty()) {
+    for (hybrid::EventClocks& one : given_) one.advance(0, one.due(0));
+    return take_given();
+  }
   ++occurrences_;
   if (clock_->low == clock_->high) {
     length_.fill(clock_->low);

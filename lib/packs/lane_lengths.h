@@ -27,12 +27,15 @@ class LaneLengths {
 
  private:
   void draw_lengths(std::uint64_t number);
+  void take_given();
 
+  const hybrid::System* system_;
   const hybrid::System::Clock* clock_;
   const hybrid::Scenario* scenario_;
   const hybrid::Law* law_ = nullptr;  ///< none: uniform
   LaneRuns runs_{};
-  std::uint64_t key_ = 0;  ///< of the stream of lengths
+  std::vector<hybrid::EventClocks> given_;  ///< of runs whose draws are given: by lane, or of all
+  std::uint64_t key_ = 0;                   ///< of the stream of lengths
   std::uint64_t occurrences_ = 0, numbers_ = 0, drawn_ = 0;
   alignas(64) LaneNumbers length_{}, due_{}, first_{};
 };

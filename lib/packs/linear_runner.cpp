@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "base/stop.h"
-#include "linear/tolerances.h"
 #include "hybrid/tolerances.h"
+#include "linear/tolerances.h"
 #include "packs/lane_lengths.h"
 #include "packs/length_table.h"
 #include "packs/tolerances.h"
@@ -25,6 +25,8 @@ class LaneStarts {
 
   /// Bit by bit that of hybrid::draw_start, to the inputs from `first` on.
   void draw(std::uint64_t seed, const LaneRuns& runs, std::size_t first, LaneMachine& machine) {
+    if (model_->scenario->given_for(runs.front()) != nullptr)
+      return take_given(seed, runs, first, machine);
     for (std::size_t k = 0; k < model_->drawn.size(); ++k) {
       const DrawnElement& element = model_->drawn[k];
       const hybrid::StartRule& rule = *model_->scenario->starts[element.variable];
@@ -45,6 +47,21 @@ class LaneStarts {
   }
 
  private:
+  /// Of runs whose draws are given.
+  void take_given(std::uint64_t seed, const LaneRuns& runs, std::size_t first,
+                  LaneMachine& machine) {
+    const hybrid::System& system = *model_->sampled->dynamics;
+    Eigen::VectorXd start;
+    for (std::size_t l = 0; l < kLanes; ++l) {
+      if (l == 0 || runs[l] != runs[l - 1])
+        start = hybrid::draw_start(system, *model_->scenario, seed, runs[l]);
+      for (std::size_t k = 0; k < model_->drawn.size(); ++k) {
+        const DrawnElement& drawn = model_->drawn[k];
+        machine.input(first + k)[l] =
+            start(system.layout.slots[drawn.variable].offset + drawn.element);
+      }
+    }
+  }
   /// All elements of the variable whose first one is number k.
   void draw_ellipsoid(std::uint64_t seed, const LaneRuns& runs, std::size_t k, std::size_t first,
                       LaneMachine& machine) {
@@ -316,6 +333,8 @@ bool LinearLanes::judge_rise(std::size_t c, std::size_t l, PackVerdict::Claim& c
   const bool tolerant = compared && system_.model.claims[c].tolerance > 0;
   const double whole = tolerant ? carried(c, kWholeRise, l) : rise;
   claim.score = (claim.violated ? unit_of(l) * whole : after.value - before.value) / scale;
+  claim.bound = before.value;
+  claim.value = claim.violated ? before.value + claim.score * scale : after.value;
   const double error = (before.error + after.error) / scale;
   return (claim.violated || open <= 0) && error <= kScore;
 }
@@ -329,6 +348,8 @@ bool LinearLanes::judge_cost(std::size_t c, std::size_t l, PackVerdict::Claim& c
   cost.error += (4 * flows_[l] + 8) * kUnitRoundoff * cost.value;
   const double scale = std::abs(bound.value);
   claim.score = (cost.value - bound.value) / scale;
+  claim.value = cost.value;
+  claim.bound = bound.value;
   return compare(cost, bound, claim) && (cost.error + bound.error) / scale <= kScore;
 }
 
@@ -343,6 +364,8 @@ bool LinearLanes::judge_shrinking(std::size_t c, std::size_t l, PackVerdict::Cla
     return stated.squared ? std::sqrt(ratio) : ratio;
   };
   claim.score = part(after.value) - 1;
+  claim.value = part(after.value);
+  claim.bound = 1;
   const double error = part(after.value + after.error) - part(after.value - after.error) +
                        before.error / before.value;
   return compare(after, goal, claim) && error <= kScore * (1 + std::abs(claim.score));

@@ -20,7 +20,7 @@ class LinearRunner {
   LinearRunner& operator=(LinearRunner&&) noexcept;
   ~LinearRunner();
 
-  /// Runs first, ..., last - 1. Stopped (base/stop.h) when it is asked to stop.
+  /// Runs first, ..., last - 1, drawn or as the scenario gives them. Stopped (base/stop.h) when it is asked to stop.
   std::vector<PackVerdict> run(std::uint64_t seed, std::uint64_t first, std::uint64_t last);
 
  private:

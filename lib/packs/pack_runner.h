@@ -44,6 +44,7 @@ struct PackVerdict {
     bool looked = true;
     double score = 0;  ///< claims::Finding::score
     double floor = 0;
+    double value = 0, bound = 0;  ///< of it; of linear runs
   };
   bool open = true;  ///< what follows says nothing but why
   Why why = Why::claim;

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "claims/track.h"
 #include "claims/claim_check.h"
+#include "claims/track.h"
 #include "model/words.h"
 #include "packs/pack_runner.h"
 #include "verify/campaign_part.h"

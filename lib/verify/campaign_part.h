@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "claims/track.h"
 #include "claims/claim_check.h"
+#include "claims/track.h"
 #include "model/words.h"
 #include "verify/figure_survey.h"
 #include "verify/run_set.h"

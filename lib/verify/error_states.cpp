@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "linear/differences.h"
 #include "hybrid/state_layout.h"
+#include "linear/differences.h"
 #include "model/dynamics_programs.h"
 
 namespace gainsmith::verify {
@@ -138,7 +138,7 @@ void ErrorStates::find_jumps() {
       };
       Dynamics::Assignment& own = map_of(e, places_[k].minus, plus ? *plus : *minus);
       own.value.program = linear::difference(value(plus, differences_[k].plus),
-                                              value(minus, differences_[k].minus));
+                                             value(minus, differences_[k].minus));
     }
 }
 

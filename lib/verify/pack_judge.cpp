@@ -9,27 +9,29 @@ namespace gainsmith::verify {
 
 using claims::Judgement;
 
-namespace {
+std::unique_ptr<const packs::LinearSystem> make_linear_packs(const Setup& setup) {
+  if (!setup.linear) return nullptr;
+  auto model = packs::make_linear_model(*setup.linear->system, setup.events->scenario,
+                                        setup.linear->coordinates, setup.events->claims);
+  return model ? packs::make_linear_system(std::move(*model)) : nullptr;
+}
 
-RunVerdict verdict_of(const packs::PackVerdict& pack,
-                      const std::vector<claims::JudgedClaim>& claims) {
-  RunVerdict verdict;
-  verdict.judgement = pack.violated() ? Judgement::violated : Judgement::held;
-  verdict.happened = pack.happened;
+std::vector<claims::Finding> findings_of(const packs::PackVerdict& pack,
+                                         const std::vector<claims::JudgedClaim>& claims) {
+  std::vector<claims::Finding> findings;
   for (std::size_t c = 0; c < pack.claims.size(); ++c) {
     const packs::PackVerdict::Claim& claim = pack.claims[c];
-    claims::Finding finding;
+    claims::Finding& finding = findings.emplace_back();
     finding.judgement = claim.violated ? Judgement::violated : Judgement::held;
     finding.score = claim.score;
+    finding.value = claim.value;
+    finding.bound = claim.bound;
     finding.floor = claim.floor;
     finding.looked = claim.looked;
     finding.tolerance = claims[c].tolerance;
-    verdict.findings.push_back(finding);
   }
-  return verdict;
+  return findings;
 }
-
-}  // namespace
 
 void require_agreement(std::uint64_t run, Judgement packs, Judgement careful) {
   if (packs == careful || packs == Judgement::undecided || careful == Judgement::undecided) return;
@@ -41,11 +43,7 @@ void require_agreement(std::uint64_t run, Judgement packs, Judgement careful) {
 
 Packs make_packs(const Setup& setup, std::uint64_t runs) {
   Packs made;
-  if (setup.linear) {
-    auto model = packs::make_linear_model(*setup.linear->system, setup.events->scenario,
-                                          setup.linear->coordinates, setup.events->claims);
-    if (model) made.linear = packs::make_linear_system(std::move(*model));
-  }
+  made.linear = make_linear_packs(setup);
   if (made.linear || runs < kFewestInPacks) return made;
   const EventSetup& events = setup.judged();
   const simulate::Accuracy accuracy = events.accuracy(kAccuracyOfMany);
@@ -101,7 +99,10 @@ CampaignVerdictOnRun PackJudge::operator()(std::uint64_t run) {
   if (!linear_ && !packs_) return {careful(seed_, run), true, {}};
   const packs::PackVerdict& pack = verdicts_[static_cast<std::size_t>(run - first_)];
   if (pack.open) return {careful(seed_, run), true, pack.why};
-  RunVerdict verdict = verdict_of(pack, setup_->judged().judged);
+  RunVerdict verdict;
+  verdict.judgement = pack.violated() ? Judgement::violated : Judgement::held;
+  verdict.happened = pack.happened;
+  verdict.findings = findings_of(pack, setup_->judged().judged);
   if (!is_repeated(run)) return {std::move(verdict), false, {}};
   std::vector<bool> holds;
   for (const claims::Finding& finding : verdict.findings)

@@ -32,6 +32,13 @@ struct Packs {
   explicit operator bool() const { return linear || any; }
 };
 
+/// None where the dynamics or a claim are of another kind. The setup must outlive it.
+std::unique_ptr<const packs::LinearSystem> make_linear_packs(const Setup& setup);
+
+/// Of a run that is not open; `claims` are those that are stated.
+std::vector<claims::Finding> findings_of(const packs::PackVerdict& pack,
+                                         const std::vector<claims::JudgedClaim>& claims);
+
 /// For so many runs; few of no linear dynamics are careful. The setup must outlive it.
 Packs make_packs(const Setup& setup, std::uint64_t runs);
 

@@ -5,6 +5,7 @@
 
 #include "bind/stated.h"
 #include "hybrid/exact_values.h"
+#include "verify/coordinate_states.h"
 #include "verify/error_states.h"
 
 namespace gainsmith::verify {
@@ -45,8 +46,11 @@ std::unique_ptr<const Setup> make_setup(const model::Instance& instance, const m
   setup->events = make_event_setup(bind::run_texts(instance, gains), given);
   const std::vector<expr::Program> functions = functions_of(setup->events->claims);
   setup->linear = make_linear_setup(instance, gains, setup->events->system, functions);
-  if (auto texts = with_error_states(setup->events->texts, functions))
-    setup->errors = make_event_setup(std::move(*texts), given);
+  auto texts = setup->linear
+                   ? std::optional(with_coordinates(
+                         setup->events->texts, setup->linear->coordinates, setup->events->claims))
+                   : with_error_states(setup->events->texts, functions);
+  if (texts) setup->errors = make_event_setup(std::move(*texts), given);
   return setup;
 }
 

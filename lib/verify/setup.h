@@ -17,8 +17,9 @@ struct LinearSetup {
 };
 
 struct Setup {
-  std::unique_ptr<const EventSetup> events;   ///< the careful run
-  std::unique_ptr<const EventSetup> errors;   ///< with errors as states; none: there are none
+  std::unique_ptr<const EventSetup> events;  ///< the careful run
+  std::unique_ptr<const EventSetup>
+      errors;  ///< the same with errors as states; none: there are none
   std::unique_ptr<const LinearSetup> linear;  ///< none: the dynamics are of another kind
 
   const std::vector<claims::Claim>& claims() const { return events->claims; }

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "claims/track.h"
 #include "claims/claim_check.h"
+#include "claims/track.h"
 #include "packs/pack_runner.h"
 #include "verify/judge.h"
 

@@ -10,7 +10,7 @@
 #include "base/stop.h"
 #include "search/nlopt.h"
 #include "verify/draw_cube.h"
-#include "verify/judge.h"
+#include "verify/pack_judge.h"
 
 namespace gainsmith::verify {
 
@@ -36,30 +36,30 @@ bool is_worse(const Worst& a, const Worst& b) {
 /// Runs of one thread, in a place of the given runs that is its own.
 class Runs {
  public:
-  Runs(const Setup& setup, const Doing& doing, hybrid::GivenRun& run, std::size_t number,
-       std::uint64_t seed)
+  /// `linear`: nullptr, or what makes the runs.
+  Runs(const Setup& setup, const packs::LinearSystem* linear, const Doing& doing,
+       hybrid::GivenRun& run, std::size_t number, std::uint64_t seed)
       : setup_(&setup),
         doing_(&doing),
         run_(&run),
         number_(number),
         seed_(seed),
         judge_(setup),
-        worst_(setup.events->judged.size()) {}
+        worst_(setup.events->judged.size()) {
+    if (linear != nullptr) linear_.emplace(*linear);
+  }
 
   /// The margin of a claim at a point of a cube.
   double operator()(const DrawCube& cube, std::size_t cube_number, const Point& u,
                     std::size_t claim) {
     check_stop();
     *run_ = cube.at(u);
-    const claims::Track& track = judge_.track(seed_, number_);
-    check_stop();  // perhaps amid the run
+    const auto [findings, lost] = make();
     ++made_;
     doing_->step();
-    const bool lost = track.termination != claims::Termination::horizon &&
-                      track.termination != claims::Termination::lost;
     double margin = 0;
     for (std::size_t c = 0; c < worst_.size(); ++c) {
-      const claims::Finding finding = judge_.checks()[c](track);
+      const claims::Finding& finding = findings[c];
       Worst one{margin_of(finding, setup_->events->judged[c].kind), finding.violated(), finding,
                 cube_number, u};
       if (lost) one.margin = kLargestMargin;
@@ -73,12 +73,30 @@ class Runs {
   std::uint64_t made() const { return made_; }
 
  private:
+  struct Made {
+    std::vector<claims::Finding> findings;
+    bool lost = false;  ///< the run ends early for certain
+  };
+
+  Made make() {
+    if (linear_) {
+      const packs::PackVerdict verdict = linear_->run(seed_, number_, number_ + 1).front();
+      if (!verdict.open) return {findings_of(verdict, setup_->events->judged), false};
+    }
+    const claims::Track& track = judge_.track(seed_, number_);
+    check_stop();  // perhaps amid the run
+    Made made{{}, track.termination == claims::Termination::broken_off};
+    for (const claims::ClaimCheck& check : judge_.checks()) made.findings.push_back(check(track));
+    return made;
+  }
+
   const Setup* setup_;
   const Doing* doing_;
   hybrid::GivenRun* run_;
   std::size_t number_;
   std::uint64_t seed_;
   Judge judge_;
+  std::optional<packs::LinearRunner> linear_;
   std::vector<Worst> worst_;
   std::uint64_t made_ = 0;
 };
@@ -88,7 +106,8 @@ class Search {
   Search(const model::Instance& instance, const model::Gains& gains, const WorstOptions& options)
       : options_(options), setup_(make_setup(instance, gains, &given_)) {
     constexpr std::uint64_t kExact = 3000, kIntegrated = 600;
-    runs_ = options.runs.value_or(setup_->events->system.affine ? kExact : kIntegrated);
+    linear_ = make_linear_packs(*setup_);
+    runs_ = options.runs.value_or(linear_ ? kExact : kIntegrated);
     if (setup_->events->judged.empty())
       throw InputError(instance.design->campaign.place,
                        "there is no claim to search the worst run of");
@@ -145,7 +164,7 @@ class Search {
     std::vector<std::optional<Runs>> runs(count);
     try {
       parallel_for(count, options_.threads, [&](std::size_t i) {
-        runs[i].emplace(*setup_, *doing_, given_[i], i, options_.seed);
+        runs[i].emplace(*setup_, linear_.get(), *doing_, given_[i], i, options_.seed);
         task(i, *runs[i]);
       });
     } catch (const Stopped&) {
@@ -277,6 +296,7 @@ class Search {
   std::uint64_t runs_ = 0;
   std::vector<hybrid::GivenRun> given_;  ///< of the setup: those that are being made
   std::unique_ptr<const Setup> setup_;
+  std::unique_ptr<const packs::LinearSystem> linear_;  ///< none: runs are careful
   std::vector<DrawCube> cubes_;
   Point lengths_;
   std::vector<Worst> worst_;  ///< by claim

@@ -177,21 +177,6 @@ TEST(BadInputTest, ASearchedValueThatIsNotWhatTheSearchFound) {
   EXPECT_NE(other.err.find("did not set it"), std::string::npos) << other.err;
 }
 
-/// Found only when the gains are simulated, and shown in the method all the same.
-TEST(BadInputTest, AFlowThatIsTooFastToBeStepped) {
-  const Folder folder;
-  const std::string file =
-      folder.file("fast.yaml",
-                  "problem: fast\nmethod:\n  method: fast\n  unknowns: {g: scalar}\n"
-                  "  require: {positive: g > 0}\n  plant:\n    state: {x: 1, y: 1}\n    flow:\n"
-                  "      x: -x\n      y: 1e40*y\n  timer: {tau: {reset: [1, 2]}}\n");
-  ASSERT_EQ(gainsmith({"synth", file, "-o", folder.path("gains.json")}).exit, 0);
-  const Outcome outcome = gainsmith({"verify", folder.path("gains.json")});
-  EXPECT_EQ(outcome.exit, 2);
-  EXPECT_NE(outcome.err.find(":10:7: the flow is too fast to be stepped"), std::string::npos)
-      << outcome.err;
-}
-
 TEST(BadInputTest, AnOutputThatCannotBeWrittenLeavesNothing) {
   const Folder folder;
   const std::string file = folder.file("no-folder", "");

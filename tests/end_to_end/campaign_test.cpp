@@ -207,14 +207,18 @@ TEST(CampaignTest, WhatIsNotCertainIsUndecided) {
   // That the error at the end is at most 1 times that at the start is an equation of rounded
   // numbers.
   EXPECT_EQ(still["checks"][1]["undecided"], 20);
-  // A rotation keeps |z|, which no digits show.
-  const Json report = verified(
-      "problem: rotation\nmethod:\n  method: rotation\n  unknowns: {x: scalar}\n"
-      "  require: {some: x > 1}\n  gains: {L: x}\n"
-      "  plant: {state: {z: 2}, flow: {z: '[0, 1; -1, 0]*z'}}\n"
-      "  timer: {tau: {reset: [1, 1]}}\n  claims: {norm: {nonincreasing: z'*z}}\n"
-      "campaign: {runs: 5, horizon: 10}\n",
-      3);
+  const auto rotation = [](const std::string& rate) {
+    return "problem: rotation\nmethod:\n  method: rotation\n  unknowns: {x: scalar}\n"
+           "  require: {some: x > 1}\n  gains: {L: x}\n"
+           "  plant: {state: {z: 2}, flow: {z: '" +
+           rate +
+           "'}}\n"
+           "  timer: {tau: {reset: [1, 1]}}\n  claims: {norm: {nonincreasing: z'*z}}\n"
+           "campaign: {runs: 5, horizon: 10}\n";
+  };
+  // A rotation keeps |z|: a matrix inequality says so of a linear one, and no digits of another.
+  EXPECT_EQ(verified(rotation("[0, 1; -1, 0]*z"), 0)["status"], "held");
+  const Json report = verified(rotation("(1 + z''*z)*[0, 1; -1, 0]*z"), 3);
   EXPECT_EQ(report["status"], "undecided");
   EXPECT_EQ(report["undecided"], 5);
   EXPECT_EQ(report["repeated"], 5);
