@@ -15,12 +15,4 @@ const expr::Instruction* first_not_affine(const expr::Program& program,
                                 : &program.code[static_cast<std::size_t>(found - degrees.begin())];
 }
 
-AffineMap sample_affine(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& map,
-                        Eigen::Index size) {
-  AffineMap result{numbers::Matrix(size, size), map(Eigen::VectorXd::Zero(size))};
-  for (Eigen::Index i = 0; i < size; ++i)
-    result.linear.col(i) = map(Eigen::VectorXd::Unit(size, i)) - result.constant;
-  return result;
-}
-
 }  // namespace gainsmith::hybrid

@@ -65,7 +65,7 @@ constexpr double kNearBreak = 0.02;  ///< of the largest difference on a step
 ///< | NarrowClaims.BranchesOfSmoothValuesAreDecided
 constexpr double kLargestState = 1e150;  ///< magnitude
 ///< | a run of which a state is larger has diverged
-///< | SampledRun.OverflowIsNamed
+///< | EventEnding.EscapesNameTheirTime
 constexpr std::int64_t kMost = 1'000'000;  ///< things in one run
 ///< | jumps without a flow between them, passes of a loop, steps, corners of a box: more of them in a run have no end
 ///< | EventEnding.AChainOfJumpsWithoutFlowNamesTheEventAndItsValue

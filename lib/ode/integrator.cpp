@@ -53,16 +53,6 @@ class Integrator::Methods {
     is_implicit_ ? implicit_->within(t, x) : explicit_.within(t, x);
   }
 
-  void advance(double t, Eigen::VectorXd& x) {
-    for (int steps = 0; t_ < t; ++steps) {
-      if (steps == kPatience)
-        throw IntegrationError("the flow needs more than " + std::to_string(kPatience) + " steps",
-                               t_, false, false);
-      step();
-    }
-    within(t, x);
-  }
-
  private:
   void start_implicit(const Eigen::VectorXd& x) {
     if (!implicit_) implicit_.emplace(rate_);
@@ -107,10 +97,6 @@ Integrator::Step Integrator::step() {
 
 void Integrator::within(double t, Eigen::VectorXd& x) {
   if (methods_) methods_->within(t, x);
-}
-
-void Integrator::advance(double t, Eigen::VectorXd& x) {
-  if (methods_) methods_->advance(t, x);
 }
 
 }  // namespace gainsmith::ode

@@ -40,10 +40,6 @@ class Integrator {
   void start(double t, const Eigen::VectorXd& x, double last, double relative,
              const Eigen::VectorXd& absolute, double longest);
 
-  /// x at t, which is not before the time asked for last and not after `last`. IntegrationError
-  /// where the flow ends before.
-  void advance(double t, Eigen::VectorXd& x);
-
   /// Over one step x is a polynomial of time.
   struct Step {
     double from = 0;
@@ -51,7 +47,7 @@ class Integrator {
     int degree = 0;
   };
 
-  /// Instead of advance(): the next step, of a length that the error control chooses, at most to
+  /// The next step, of a length that the error control chooses, at most to
   /// `last`. IntegrationError where the flow ends before.
   Step step();
   /// x at a time of the last step.

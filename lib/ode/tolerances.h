@@ -25,7 +25,7 @@ constexpr double kWithin = 0.25;  ///< times what a polynomial's rate is off
 ///< | Integrator.IsAsAccurateWithinStepsAsAtTheirEnds
 constexpr double kShorter = 0.6;  ///< times the longest step
 ///< | the longest one of a run that is repeated with smaller errors
-///< | ClockedRun.BoundsHoldTheErrorOfAClosedForm
+///< | Campaign.IntegratedFlowsAreNoCauseOfWrongVerdicts
 constexpr double kManySteps = 1000;  ///< steps of one flow
 ///< | a flow is stiff that needs so many more in steps as long as stability or noise permits
 ///< | EventFlow.VeryStiffFlowsDoNotStandStill

@@ -32,7 +32,9 @@ class ProblemFiles : public testing::Test {
     return result;
   }
 
-  const fs::path root_ = fs::path(testing::TempDir()) / "gainsmith-problem-files-test";
+  const fs::path root_ = fs::path(testing::TempDir()) /
+                         (std::string("gainsmith-problem-files-") +
+                          testing::UnitTest::GetInstance()->current_test_info()->name());
 };
 
 using Names = std::vector<std::string>;

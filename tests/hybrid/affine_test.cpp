@@ -36,14 +36,5 @@ TEST(Affine, OtherFunctionsOfTheStateAreNot) {
   EXPECT_EQ(culprit("inv(M + s*I)"), "inv");
 }
 
-TEST(Affine, SampledMapIsTheMap) {
-  const numbers::Matrix linear{{1, 2}, {3, -4}};
-  const Eigen::Vector2d constant(0.5, -2);
-  const AffineMap map = sample_affine(
-      [&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return linear * x + constant; }, 2);
-  EXPECT_EQ(map.linear, linear);
-  EXPECT_EQ(map.constant, constant);
-}
-
 }  // namespace
 }  // namespace gainsmith::hybrid
