@@ -48,7 +48,7 @@ DenseStep part_of(const DenseStep& step, const SmoothPart& part, Index columns) 
 }  // namespace
 
 RunCosts::RunCosts(const std::vector<RunCost>& costs, const hybrid::StateLayout& layout,
-                             const numbers::Values& constants) {
+                   const numbers::Values& constants) {
   const auto value_of = [&](const std::optional<expr::Program>& program) {
     return program ? std::optional<RunValue>(std::in_place, *program, layout, constants)
                    : std::nullopt;

@@ -127,8 +127,8 @@ class Rises {
   }
 
   const std::vector<double>& end() {
-    if (top_at_ > low_at_ &&
-        top_ - low_ > noise_ * size_ + kErrorOfDifference * drowned_ && size_ > floor_)
+    if (top_at_ > low_at_ && top_ - low_ > noise_ * size_ + kErrorOfDifference * drowned_ &&
+        size_ > floor_)
       times_.insert(times_.end(), {low_at_, top_at_});
     top_ = low_;
     return times_;

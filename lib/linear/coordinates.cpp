@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "expr/rewrite.h"
 #include "linear/differences.h"
 #include "linear/polynomial.h"
-#include "expr/rewrite.h"
 #include "numbers/degree.h"
 
 namespace gainsmith::linear {

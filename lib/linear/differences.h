@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "linear/polynomial.h"
 #include "hybrid/state_layout.h"
+#include "linear/polynomial.h"
 
 namespace gainsmith::linear {
 

@@ -4,9 +4,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "linear/tolerances.h"
 #include "expr/assembly.h"
 #include "expr/rewrite.h"
+#include "linear/tolerances.h"
 
 namespace gainsmith::linear {
 

@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "linear/tolerances.h"
 #include "lanes/machine.h"
+#include "linear/tolerances.h"
 #include "packs/length_table.h"
 #include "packs/linear_flow.h"
 
@@ -120,7 +120,7 @@ class ErrorGraph {
   }
 
   /// With the constant 1 behind, where there is one.
-  Numbers exact(Nodes values) {
+  Numbers exact(const Nodes& values) {
     Numbers numbers;
     for (const int one : values) push(one, constant(0), numbers);
     append_one(numbers);

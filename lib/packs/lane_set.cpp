@@ -153,7 +153,8 @@ void LaneSet::finish(std::size_t l) {
     claim.finish();
     verdict.open = verdict.open || claim.open();
     if (claim.open()) verdict.why = Why::claim;
-    verdict.claims.push_back({claim.violated(), claim.looked(), claim.score(), claim.floor(), 0, 0});
+    verdict.claims.push_back(
+        {claim.violated(), claim.looked(), claim.score(), claim.floor(), 0, 0});
   }
   verdict.happened = lane.happened;
   lanes_[l].reset();

@@ -11,8 +11,8 @@ namespace gainsmith::packs {
 
 namespace {
 
-using linear::Coordinates;
 using Eigen::Index;
+using linear::Coordinates;
 
 }  // namespace
 

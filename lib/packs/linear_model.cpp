@@ -15,10 +15,10 @@ namespace gainsmith::packs {
 
 namespace {
 
-using linear::Coordinates;
-using expr::Program;
 using Eigen::Index;
+using expr::Program;
 using hybrid::StateLayout;
+using linear::Coordinates;
 using model::ClaimKind;
 
 /// Whether a program is affine in what `varies` and does not ask for the timer.
@@ -154,7 +154,7 @@ std::optional<Wide> over_elements(const Wide& Q, const std::vector<Index>& x) {
 
 /// The form over x with or without a last coordinate 1. None: it has terms that need more.
 std::optional<Wide> form_over(const Wide& whole, const LinearModel& linear) {
-  const auto Q = over_elements(whole, linear.jump->elements());
+  auto Q = over_elements(whole, linear.jump->elements());
   if (!Q || linear.constant) return Q;
   const Index n = Q->rows() - 1;
   if (!Q->row(n).isZero(0)) return std::nullopt;
@@ -162,8 +162,7 @@ std::optional<Wide> form_over(const Wide& whole, const LinearModel& linear) {
 }
 
 /// The parts of a quadratic function whose factors depend on the timer alone.
-bool add_parts(const Program& function, const LinearModel& linear,
-               std::vector<LinearForm>& forms) {
+bool add_parts(const Program& function, const LinearModel& linear, std::vector<LinearForm>& forms) {
   const auto parts = linear::quadratic_parts(function, *linear.coordinates);
   if (!parts) return false;
   const StateLayout& layout = linear.coordinates->layout;
@@ -185,7 +184,7 @@ std::optional<Wide> cost_form(const Program& cost, const LinearModel& linear) {
   const Index n = linear.A.rows();
   if (parts->empty()) return Wide(Wide::Zero(n, n));
   if (parts->front().factor) return std::nullopt;
-  const auto Q = form_over(parts->front().matrix, linear);
+  auto Q = form_over(parts->front().matrix, linear);
   if (!Q || !is_semidefinite(*Q)) return std::nullopt;
   return Q;
 }

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "claims/claims.h"
+#include "hybrid/scenario.h"
 #include "linear/coordinates.h"
 #include "packs/linear_flow.h"
 #include "packs/linear_jump.h"

@@ -159,6 +159,7 @@ void repeat_carefully(const Setup& setup, bool proved, CampaignPart& part) {
     auto& careful = part.repeats[claim.run].careful;
     if (!careful) {
       std::vector<bool> holds;
+      holds.reserve(claims.size());
       for (const ClaimTally& one : claims)
         holds.push_back(proved && one.run == claim.run &&
                         one.worst.judgement == claims::Judgement::held);
@@ -248,7 +249,7 @@ void Campaign::make_runs(RunRange range, CampaignPart& part, const Save& save) c
     if (packs_) first.begin(facts_.seed, 0, std::min(facts_.asked, kFirstRuns));
     const Packs* const packs = packs_ && packs_go_on(first) ? &packs_ : nullptr;
     // Linear packs put runs of one law together; careful runs may be slow, and are shared out.
-    const std::uint64_t shared = count / (4 * thread_count(threads_)) + 1;
+    const std::uint64_t shared = count / (std::uint64_t{4} * thread_count(threads_)) + 1;
     const std::uint64_t single = std::min(shared, kFirstRuns);
     const std::uint64_t size = packs == nullptr ? single : packs->linear ? 2048 : 256;
     const bool grows = (between_ && packs == nullptr) || facts_.until_violated;

@@ -78,8 +78,9 @@ void PackJudge::begin_as(const PackJudge& prepared) {
 
 bool PackJudge::is_repeated(std::uint64_t run) const {
   if (run % kSampled != 0) return false;
-  const auto root = static_cast<std::uint64_t>(std::sqrt(static_cast<double>(run / kSampled)));
-  return !linear_ || root * root * kSampled == run;
+  const std::uint64_t number = run / kSampled;
+  const auto root = static_cast<std::uint64_t>(std::sqrt(static_cast<double>(number)));
+  return !linear_ || root * root == number;
 }
 
 std::uint64_t PackJudge::careful_count() const {
@@ -105,6 +106,7 @@ CampaignVerdictOnRun PackJudge::operator()(std::uint64_t run) {
   verdict.findings = findings_of(pack, setup_->judged().judged);
   if (!is_repeated(run)) return {std::move(verdict), false, {}};
   std::vector<bool> holds;
+  holds.reserve(verdict.findings.size());
   for (const claims::Finding& finding : verdict.findings)
     holds.push_back(linear_ && finding.judgement == Judgement::held);
   RunVerdict again = careful(seed_, run, holds);

@@ -65,7 +65,7 @@ bool EventTracks::counts(const claims::SamplePoint& look, std::size_t function) 
 void EventTracks::come_to(std::size_t event) {
   for (const claims::JudgedClaim& claim : setup_->judged)
     for (std::size_t k = 0; claim.over && k < rests_.size(); ++k)
-      if (setup_->first_of_claim[k] == claim.value) rests_[k] = *claim.over != event;
+      if (setup_->first_of_claim[k] == claim.value) rests_[k] = *claim.over != event ? 1 : 0;
 }
 
 VectorXd EventTracks::values(const claims::SamplePoint& look, const VectorXd& x) {
