@@ -199,8 +199,8 @@ Command verify_command() {
        Option("--seed", options->seed, "seed of the random streams (default: the problem's)"),
        Option("--worst", options->worst,
               "search the worst run of each claim instead of drawing runs: over starts, lengths, "
-              "losses, noise and uncertain data; --runs: of the search (default: 3000, or 600 "
-              "where flows are integrated)"),
+              "losses, noise and uncertain data; --runs: of the search (default: 3000 of a linear "
+              "sampled plant, otherwise 600)"),
        Option("--threads", options->threads,
               "threads, 0: as many as cores it may use; the report does not depend on it")
            .within(0, 1024),

@@ -56,21 +56,21 @@ void add_claim(const claims::Claim& claim, EventSetup& setup) {
   setup.judged.push_back(std::move(judged));
 }
 
-/// Where along flows the value of a claim is looked at besides.
+/// Where along flows the value of a claim is sampled besides.
 void add_sample_points(const claims::JudgedClaim& claim, EventSetup& setup) {
   const auto value = static_cast<std::size_t>(claim.value);
-  if (claim.after > 0) setup.looks.times.push_back(claim.after);
+  if (claim.after > 0) setup.sample_points.times.push_back(claim.after);
   using Kind = model::ClaimKind;
   // The others ask for the value at the start, and at the end.
   const bool along =
       claim.kind == Kind::nonincreasing || claim.kind == Kind::below || claim.kind == Kind::above;
   if (claim.over || !along) return;
-  setup.looks.along.push_back(value);
+  setup.sample_points.along.push_back(value);
   const bool above = claim.kind == Kind::above;
   if (above || claim.kind == Kind::below)
-    setup.looks.peaks.push_back({value, above ? -1.0 : 1.0, claim.after});
+    setup.sample_points.peaks.push_back({value, above ? -1.0 : 1.0, claim.after});
   if (claim.kind == Kind::nonincreasing && !claim.is_still)
-    setup.looks.falling.push_back({value, claim.after});
+    setup.sample_points.falling.push_back({value, claim.after});
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ struct EventSetup {
   std::vector<claims::RunCost> costs;         ///< of the claims that are stated
   numbers::EnclosedValues<double> constants;  ///< of the functions, with their errors
   std::vector<claims::JudgedClaim> judged;    ///< the claims that are stated, in order
-  claims::SamplePoints looks;                 ///< that the claims ask for
+  claims::SamplePoints sample_points;         ///< that the claims ask for
 
   /// To what a run is integrated: as the campaign asks, otherwise to `usual`; times a factor.
   simulate::Accuracy accuracy(double usual, double factor = 1) const;

@@ -96,6 +96,30 @@ RunVerdict PackJudge::careful(std::uint64_t seed, std::uint64_t run,
   return (*judge_)(seed, run, holds);
 }
 
+namespace {
+
+/// The claims that a proof says to hold.
+std::vector<bool> held(const std::vector<claims::Finding>& findings) {
+  std::vector<bool> holds;
+  holds.reserve(findings.size());
+  for (const claims::Finding& finding : findings)
+    holds.push_back(finding.judgement == Judgement::held);
+  return holds;
+}
+
+}  // namespace
+
+RunVerdict verdict_on_run(Judge& judge, const packs::LinearSystem* linear,
+                          const std::vector<claims::JudgedClaim>& claims, std::uint64_t seed,
+                          std::uint64_t run) {
+  std::vector<bool> holds;
+  if (linear != nullptr) {
+    const packs::PackVerdict pack = packs::LinearRunner(*linear).run(seed, run, run + 1).front();
+    if (!pack.open) holds = held(findings_of(pack, claims));
+  }
+  return judge(seed, run, holds);
+}
+
 CampaignVerdictOnRun PackJudge::operator()(std::uint64_t run) {
   if (!linear_ && !packs_) return {careful(seed_, run), true, {}};
   const packs::PackVerdict& pack = verdicts_[static_cast<std::size_t>(run - first_)];
@@ -105,11 +129,7 @@ CampaignVerdictOnRun PackJudge::operator()(std::uint64_t run) {
   verdict.happened = pack.happened;
   verdict.findings = findings_of(pack, setup_->judged().judged);
   if (!is_repeated(run)) return {std::move(verdict), false, {}};
-  std::vector<bool> holds;
-  holds.reserve(verdict.findings.size());
-  for (const claims::Finding& finding : verdict.findings)
-    holds.push_back(linear_ && finding.judgement == Judgement::held);
-  RunVerdict again = careful(seed_, run, holds);
+  RunVerdict again = careful(seed_, run, linear_ ? held(verdict.findings) : std::vector<bool>());
   for (std::size_t c = 0; c < again.findings.size(); ++c)
     require_agreement(run, verdict.findings[c].judgement, again.findings[c].judgement);
   return {std::move(again), true, {}};

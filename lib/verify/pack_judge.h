@@ -70,6 +70,12 @@ class PackJudge {
   std::vector<packs::PackVerdict> verdicts_;
 };
 
+/// The careful run alone, with what linear packs prove of its claims. `linear`: nullptr, or those of
+/// the setup of the judge, whose claims `claims` are.
+RunVerdict verdict_on_run(Judge& judge, const packs::LinearSystem* linear,
+                          const std::vector<claims::JudgedClaim>& claims, std::uint64_t seed,
+                          std::uint64_t run);
+
 /// std::logic_error where one says held and the other violated.
 void require_agreement(std::uint64_t run, claims::Judgement packs, claims::Judgement careful);
 

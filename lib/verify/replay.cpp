@@ -10,7 +10,7 @@
 #include "base/number.h"
 #include "base/stop.h"
 #include "claims/run_values.h"
-#include "verify/judge.h"
+#include "verify/pack_judge.h"
 #include "verify/tolerances.h"
 
 namespace gainsmith::verify {
@@ -275,7 +275,10 @@ Replay replay_run(const Setup& setup, std::uint64_t seed, std::uint64_t run, dou
   if (result.run.ending == hybrid::Ending::interrupted) return result;
   if (judged) result.faults = faults_of(result.run, events, seed, run);
   if (events.judged.empty()) return result;
-  const std::vector<claims::Finding> findings = Judge(setup)(seed, run).findings;
+  Judge judge(setup);
+  const auto linear = make_linear_packs(setup);
+  const std::vector<claims::Finding> findings =
+      verdict_on_run(judge, linear.get(), events.judged, seed, run).findings;
   for (std::size_t k = 0; k < findings.size(); ++k)
     result.claims.push_back({events.judged[k].name, findings[k]});
   return result;

@@ -54,11 +54,11 @@ EventTracks::EventTracks(const EventSetup& setup)
   }
 }
 
-/// Whether a function is of a claim that a look is for.
-bool EventTracks::counts(const claims::SamplePoint& look, std::size_t function) const {
+/// Whether a function is of a claim that a point is for.
+bool EventTracks::counts(const claims::SamplePoint& point, std::size_t function) const {
   if (rests_[function] != 0 || (amid_ && setup_->at_ends[function])) return false;
-  return look.function == claims::Track::kForAll ||
-         look.function == setup_->first_of_claim[function];
+  return point.function == claims::Track::kForAll ||
+         point.function == setup_->first_of_claim[function];
 }
 
 /// What comes next follows a jump of the event.
@@ -68,10 +68,10 @@ void EventTracks::come_to(std::size_t event) {
       if (setup_->first_of_claim[k] == claim.value) rests_[k] = *claim.over != event ? 1 : 0;
 }
 
-VectorXd EventTracks::values(const claims::SamplePoint& look, const VectorXd& x) {
+VectorXd EventTracks::values(const claims::SamplePoint& point, const VectorXd& x) {
   VectorXd result = VectorXd::Zero(static_cast<Index>(functions_.size()));
   for (std::size_t k = 0; k < functions_.size(); ++k)
-    if (counts(look, k)) result(static_cast<Index>(k)) = functions_[k].number(x);
+    if (counts(point, k)) result(static_cast<Index>(k)) = functions_[k].number(x);
   return result;
 }
 
@@ -97,21 +97,21 @@ VectorXd EventTracks::errors(const VectorXd& fine, const VectorXd& around) const
 }
 
 /// The bits `pattern`, `pattern` + `stride`, ... of the numbers of elements are rounded apart.
-void EventTracks::append(const claims::SamplePoint& look, std::int64_t j, const VectorXd& coarse,
+void EventTracks::append(const claims::SamplePoint& point, std::int64_t j, const VectorXd& coarse,
                          const VectorXd& fine, const VectorXd& around, int pattern, int stride,
                          bool within_instant) {
-  VectorXd value = values(look, fine);
+  VectorXd value = values(point, fine);
   VectorXd rounded = VectorXd::Zero(value.size());
   for (int bit = pattern; bit == 0 || (fine.size() - 1) >> bit > 0; bit += stride)
-    rounded = rounded.cwiseMax((values(look, with_rounding(fine, bit)) - value).cwiseAbs());
-  VectorXd difference = (values(look, coarse) - value).cwiseAbs().cwiseMax(rounded);
+    rounded = rounded.cwiseMax((values(point, with_rounding(fine, bit)) - value).cwiseAbs());
+  VectorXd difference = (values(point, coarse) - value).cwiseAbs().cwiseMax(rounded);
   rounded /= (4 + rounded_) * kUnit;
   const VectorXd error = errors(fine, around);
   constexpr double kUnknown = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < functions_.size(); ++k) {
     const auto row = static_cast<Index>(k);
-    const bool is_followed = look.t <= functions_[k].followed_until;
-    if (!counts(look, k) || !is_followed) {
+    const bool is_followed = point.t <= functions_[k].followed_until;
+    if (!counts(point, k) || !is_followed) {
       track_.is_fixed.push_back(0);
       rounding_.push_back(is_followed ? 0 : kUnknown);
       difference(row) = 0;
@@ -135,8 +135,8 @@ void EventTracks::append(const claims::SamplePoint& look, std::int64_t j, const 
     difference(row) = parts(k, value(row), 0, 0) ? kUnknown : 0;
     rounding_.push_back(bound);
   }
-  track_.t.push_back(look.t);
-  track_.sampled_for.push_back(look.function);
+  track_.t.push_back(point.t);
+  track_.sampled_for.push_back(point.function);
   track_.within_instant.push_back(within_instant ? 1 : 0);
   track_.j.push_back(j);
   track_.values.insert(track_.values.end(), value.data(), value.data() + value.size());
@@ -170,19 +170,19 @@ void EventTracks::add_flow(const claims::TwinFlow& flow, const hybrid::Trajector
     }
   }
   rounded_ += static_cast<double>(fine.steps.size());
-  const std::vector<claims::SamplePoint> looks =
-      claims::points_along(fine, setup_->looks, functions_, rises_);
+  const std::vector<claims::SamplePoint> points =
+      claims::points_along(fine, setup_->sample_points, functions_, rises_);
   std::vector<VectorXd> coarse_x;
   std::vector<VectorXd> fine_x;
-  for (const claims::SamplePoint& look : looks) {
-    coarse_x.push_back(flow.twin_at(look.share));
-    fine_x.push_back(claims::state_at(fine, look.share));
+  for (const claims::SamplePoint& point : points) {
+    coarse_x.push_back(flow.twin_at(point.share));
+    fine_x.push_back(claims::state_at(fine, point.share));
   }
-  const auto count = static_cast<Index>(looks.size());
+  const auto count = static_cast<Index>(points.size());
   const bool within_instant = fine.to() - fine.from() <= claims::kInstantOfRun * run.end;
   for (Index k = 0; k < count; ++k) {
-    const claims::SamplePoint& look = looks[static_cast<std::size_t>(k)];
-    if (look.t >= certain) break;
+    const claims::SamplePoint& point = points[static_cast<std::size_t>(k)];
+    if (point.t >= certain) break;
     VectorXd difference = VectorXd::Zero(fine.start.size());
     for (Index other = first_around(k, count); other < last_around(k, count); ++other) {
       const auto at = static_cast<std::size_t>(other);
@@ -190,7 +190,7 @@ void EventTracks::add_flow(const claims::TwinFlow& flow, const hybrid::Trajector
     }
     track_.moves.push_back({});
     const auto at = static_cast<std::size_t>(k);
-    append(look, fine.j, coarse_x[at], fine_x[at], difference, static_cast<int>((k + 1) % kAround),
+    append(point, fine.j, coarse_x[at], fine_x[at], difference, static_cast<int>((k + 1) % kAround),
            kAround, within_instant);
   }
 }
@@ -214,7 +214,7 @@ claims::RiseLimits EventTracks::limits_of_rises(const VectorXd& start, double ac
   limits.noise = exact ? claims::kValueRounding : kLeastRise * accuracy;
   limits.agreement = exact ? claims::kExactAgreement : claims::kErrorOfDifference * accuracy;
   limits.floor = VectorXd::Zero(static_cast<Index>(functions_.size()));
-  for (const claims::SamplePoints::Falling& one : setup_->looks.falling)
+  for (const claims::SamplePoints::Falling& one : setup_->sample_points.falling)
     if (one.after == 0)
       limits.floor(static_cast<Index>(one.function)) =
           claims::kFloorOfAccuracy * accuracy * std::abs(functions_[one.function].number(start));
@@ -254,8 +254,9 @@ void EventTracks::widen(std::size_t first) {
   for (Index f = 0; f < size; ++f) {
     seen.clear();
     for (Index k = 0; k < count; ++k) {
-      const claims::SamplePoint look{0, 0, track_.sampled_for[first + static_cast<std::size_t>(k)]};
-      if (counts(look, static_cast<std::size_t>(f))) seen.push_back(k);
+      const claims::SamplePoint point{0, 0,
+                                      track_.sampled_for[first + static_cast<std::size_t>(k)]};
+      if (counts(point, static_cast<std::size_t>(f))) seen.push_back(k);
     }
     const auto all = static_cast<Index>(seen.size());
     for (Index i = 0; i < all; ++i) {

@@ -45,7 +45,7 @@ class EventTracks {
   bool can_decide_more(double factor) const;
 
  private:
-  void append(const claims::SamplePoint& look, std::int64_t j, const Eigen::VectorXd& coarse,
+  void append(const claims::SamplePoint& point, std::int64_t j, const Eigen::VectorXd& coarse,
               const Eigen::VectorXd& fine, const Eigen::VectorXd& around, int pattern, int stride,
               bool within_instant = false);
   void add_flow(const claims::TwinFlow& flow, const hybrid::Trajectory& fine);
@@ -57,9 +57,9 @@ class EventTracks {
   claims::RiseLimits limits_of_rises(const Eigen::VectorXd& start, double accuracy);
   void end(const hybrid::Trajectory& coarse, const hybrid::Trajectory& fine, bool certain);
   void widen(std::size_t first);
-  bool counts(const claims::SamplePoint& look, std::size_t function) const;
+  bool counts(const claims::SamplePoint& point, std::size_t function) const;
   void come_to(std::size_t event);
-  Eigen::VectorXd values(const claims::SamplePoint& look, const Eigen::VectorXd& x);
+  Eigen::VectorXd values(const claims::SamplePoint& point, const Eigen::VectorXd& x);
   Eigen::VectorXd with_rounding(const Eigen::VectorXd& x, int bit) const;
   Eigen::VectorXd errors(const Eigen::VectorXd& fine, const Eigen::VectorXd& around) const;
 

@@ -280,7 +280,7 @@ class Search {
     const DrawCube& cube = cubes_[worst.cube];
     for (const int digits : {2, 3, 4, 6}) {
       given_[claim] = cube.rounded(worst.u, digits);
-      claims::Finding finding = judge(options_.seed, claim).findings[claim];
+      claims::Finding finding = finding_of(claim, judge);
       check_stop();
       const double margin = margin_of(finding, setup_->events->judged[claim].kind);
       if (finding.violated() == worst.violated &&
@@ -288,7 +288,12 @@ class Search {
         return finding;
     }
     given_[claim] = cube.at(worst.u);
-    return judge(options_.seed, claim).findings[claim];
+    return finding_of(claim, judge);
+  }
+
+  claims::Finding finding_of(std::size_t claim, Judge& judge) const {
+    return verdict_on_run(judge, linear_.get(), setup_->events->judged, options_.seed, claim)
+        .findings[claim];
   }
 
   WorstOptions options_;

@@ -29,7 +29,8 @@ namespace gainsmith::verify {
 
 struct WorstOptions {
   std::uint64_t seed = 1;  ///< of the search
-  /// At most, or a little more to share them evenly; none: 3000, or 600 where flows are integrated.
+  /// At most, or a little more to share them evenly; none: 3000 of a linear sampled
+  /// plant, otherwise 600.
   std::optional<std::uint64_t> runs;
   unsigned threads = 0;  ///< 0: one a core; the report does not depend on it
 };

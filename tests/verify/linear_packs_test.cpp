@@ -275,6 +275,47 @@ TEST(LinearPacks, RunWhatTheyCan) {
   EXPECT_TRUE(is_linear("[-0.1, 1; -1, -0.1]", "[-0.1, 1; -1, -400]"));
 }
 
+/// As a search for the worst run asks for them.
+TEST(LinearPacks, RunsWhoseDrawsAreGivenAreThoseOfTheCarefulRun) {
+  std::vector<hybrid::GivenRun> given(3);
+  for (std::size_t k = 0; k < given.size(); ++k) {
+    const double size = 1.0 + static_cast<double>(k);
+    given[k].starts = {numbers::Matrix(Eigen::Vector2d(size, -0.5))};
+    given[k].first = {0.1 * size};
+    given[k].lengths = {{0.6, 0.1 * size}};
+  }
+  const model::Instance instance = bind::bind(io::read_problem(linear_cases()[0].text));
+  const auto setup = make_setup(instance, {}, &given);
+  const auto linear = make_linear_packs(*setup);
+  ASSERT_NE(linear, nullptr);
+  Judge judge(*setup);
+  packs::LinearRunner runner(*linear);
+  const auto together = runner.run(1, 0, 3);
+  for (std::uint64_t run = 0; run < 3; ++run) {
+    const packs::PackVerdict alone = runner.run(1, run, run + 1).front();
+    const RunVerdict careful = judge(1, run);
+    ASSERT_FALSE(alone.open);
+    for (std::size_t c = 0; c < alone.claims.size(); ++c) {
+      EXPECT_EQ(alone.claims[c].score, together[run].claims[c].score);
+      EXPECT_NEAR(alone.claims[c].score, careful.findings[c].score, 1e-6);
+      EXPECT_EQ(alone.claims[c].violated, careful.findings[c].violated());
+    }
+  }
+}
+
+/// Runs 0, 1024 and 4096, and none between.
+TEST(LinearPacks, AreRepeatedLessOftenTheMoreRunsThereAre) {
+  const model::Instance instance = bind::bind(io::read_problem(linear_cases()[0].text));
+  CampaignOptions options;
+  options.threads = 1;
+  options.runs = 5000;
+  const Report report = run_campaign(*make_setup(instance, {}), options);
+  std::uint64_t open = 0;
+  for (const std::uint64_t count : report.open) open += count;
+  EXPECT_LE(*report.careful, open + 3);
+  EXPECT_GE(*report.careful, 1U);
+}
+
 Report campaign_of(const std::string& text, unsigned threads) {
   const model::Instance instance = bind::bind(io::read_problem(text));
   CampaignOptions options;

@@ -52,6 +52,18 @@ TEST(Replay, HasAColumnForEachThing) {
             1e-13);
 }
 
+/// A rotation keeps its norm: two integrations do not show it, and the matrix inequality does.
+TEST(Replay, KnowsWhatIsProvedAsTheCampaignDoes) {
+  TextProblem problem;
+  problem.state("x", "2").flow({{"x", "[0, 1; -1, 0]*x"}}).timer("1", "1", "1", "1");
+  problem.runs(5).horizon("10").nonincreasing("norm", "x'*x");
+  EXPECT_EQ(run_campaign(*make_setup(problem.instance(), problem.gains)).verdict,
+            model::CampaignVerdict::held);
+  const claims::Finding finding = replay(problem, 1, 2).claims[0].finding;
+  EXPECT_EQ(finding.judgement, claims::Judgement::held);
+  EXPECT_EQ(finding.t, 10);
+}
+
 TEST(Replay, FindsWhatTheCampaignFound) {
   const TextProblem problem = problem_with_claims();
   const Report report = run_campaign(*make_setup(problem.instance(), problem.gains));
