@@ -154,7 +154,7 @@ void LaneSet::finish(std::size_t l) {
     verdict.open = verdict.open || claim.open();
     if (claim.open()) verdict.why = Why::claim;
     verdict.claims.push_back(
-        {claim.violated(), claim.looked(), claim.score(), claim.floor(), 0, 0});
+        {claim.violated(), claim.looked(), claim.score(), claim.floor(), 0, 0, 0});
   }
   verdict.happened = lane.happened;
   lanes_[l].reset();

@@ -334,6 +334,7 @@ bool LinearLanes::judge_rise(std::size_t c, std::size_t l, PackVerdict::Claim& c
   const double whole = tolerant ? carried(c, kWholeRise, l) : rise;
   claim.score = (claim.violated ? unit_of(l) * whole : after.value - before.value) / scale;
   claim.bound = before.value;
+  claim.error = after.error;
   claim.value = claim.violated ? before.value + claim.score * scale : after.value;
   const double error = (before.error + after.error) / scale;
   return (claim.violated || open <= 0) && error <= kScore;
@@ -349,6 +350,7 @@ bool LinearLanes::judge_cost(std::size_t c, std::size_t l, PackVerdict::Claim& c
   const double scale = std::abs(bound.value);
   claim.score = (cost.value - bound.value) / scale;
   claim.value = cost.value;
+  claim.error = cost.error;
   claim.bound = bound.value;
   return compare(cost, bound, claim) && (cost.error + bound.error) / scale <= kScore;
 }
@@ -368,6 +370,7 @@ bool LinearLanes::judge_shrinking(std::size_t c, std::size_t l, PackVerdict::Cla
   claim.bound = 1;
   const double error = part(after.value + after.error) - part(after.value - after.error) +
                        before.error / before.value;
+  claim.error = error;
   return compare(after, goal, claim) && error <= kScore * (1 + std::abs(claim.score));
 }
 

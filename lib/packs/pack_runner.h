@@ -45,6 +45,7 @@ struct PackVerdict {
     double score = 0;  ///< claims::Finding::score
     double floor = 0;
     double value = 0, bound = 0;  ///< of it; of linear runs
+    double error = 0;             ///< of the value
   };
   bool open = true;  ///< what follows says nothing but why
   Why why = Why::claim;
