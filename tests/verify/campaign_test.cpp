@@ -168,6 +168,20 @@ TEST(Campaign, AJumpAtTheHorizonBelongsToTheRun) {
   }
 }
 
+/// A flow of fast modes: x'*x rises from 0.113535 to 0.114482 within a tenth of the shortest length.
+TEST(Campaign, AShortRiseOfALinearFlowIsFound) {
+  TextProblem problem;
+  problem.data("M", "3 x 3", "[-47, 27.4, -6; 6.7, -15.8, -62.6; -40.2, 39.9, -25.5]");
+  problem.state("x", "3").flow({{"x", "M*x"}}).timer("0.4", "0.8", "0.4", "0.8").runs(3);
+  problem.start("x", StartKind::expression, {"[0.09; -0.72; -0.39]"});
+  problem.horizon("2").nonincreasing("falls", "x'*x");
+  const Report report = run(problem);
+  EXPECT_EQ(report.verdict, CampaignVerdict::violated);
+  EXPECT_EQ(report.violations, 3U);
+  EXPECT_NEAR(report.checks[0].worst.value, 0.114482, 1e-6);
+  EXPECT_NEAR(report.checks[0].worst.bound, 0.113535, 1e-6);
+}
+
 /// What claims do not depend on is left out, and nothing may be left.
 TEST(Campaign, NothingMayBeLeftToIntegrate) {
   for (const char* value : {"0", "T1", "x - x", "-k", "exp(-s)", "tau - tau"}) {
