@@ -70,7 +70,7 @@ Bound Binder::derivative_along(const Expression& expression, const Node& node, i
         needed[static_cast<std::size_t>(operand)] = true;
 
   Assembly body;
-  const Instruction& like = assembly_[value];
+  const Instruction like = assembly_[value];  // it moves with what is added
   std::vector<int> operands = {number(expression, node, "0")};
   const int s = body.add_input("the variable", {}, like);
   const auto outside = [&](int operand) {
