@@ -67,7 +67,6 @@ class Reference {
     Quad x = product(S_, xi);
     hybrid::EventClocks clocks(system, scenario, seed, run);
     cost_.assign(model_.claims.size(), D(0));
-    const std::vector<D> before = values(x, clocks.length(0));
     double t = 0;
     while (clocks.is_due(0, scenario.horizon)) {
       flow(x, clocks.length(0));
@@ -84,10 +83,7 @@ class Reference {
     for (std::size_t c = 0; c < after.size(); ++c) {
       const packs::LinearClaim& claim = model_.claims[c];
       if (claim.kind == model::ClaimKind::cost) after[c] = cost_[c];
-      if (claim.kind != model::ClaimKind::shrinks) continue;
-      const D part = after[c] / (before[c] * (claim.squared ? D(claim.factor) * D(claim.factor)
-                                                            : D(claim.factor)));
-      after[c] = claim.squared ? sqrt(part) : part;
+      if (claim.squared) after[c] = sqrt(after[c]);
     }
     return after;
   }

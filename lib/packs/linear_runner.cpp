@@ -241,7 +241,9 @@ class LinearLanes {
       const double* const z = step_.input(kStepCarried + system_.z(i));
       for (std::size_t l = 0; l < kLanes; ++l) most[l] = std::max(most[l], std::abs(z[l]));
     }
-    constexpr double near = 0x1p64, far = 0x1p400;
+    constexpr int kFar = 400;
+    constexpr double near = 0x1p64;
+    const double far = std::ldexp(1.0, kFar);
     std::uint32_t apart = 0;
     for (std::size_t l = 0; l < kLanes; ++l)
       if (!(most[l] >= 1 / near && most[l] <= near)) apart |= 1U << l;
@@ -256,6 +258,8 @@ class LinearLanes {
       std::frexp(most[l], &exponent);
       keep_costs(l);
       exponent_[l] -= exponent;
+      // The careful run ends at hybrid::kLargestState.
+      if (exponent_[l] < -kFar) open_ |= 1U << l;
       scale[l] = std::ldexp(1.0, -exponent);
     }
   }
@@ -366,11 +370,14 @@ bool LinearLanes::judge_shrinking(std::size_t c, std::size_t l, PackVerdict::Cla
     return stated.squared ? std::sqrt(ratio) : ratio;
   };
   claim.score = part(after.value) - 1;
-  claim.value = part(after.value);
-  claim.bound = 1;
+  const auto own = [&](double value) {
+    return stated.squared ? std::sqrt(std::max(value, 0.0)) : value;
+  };
+  claim.value = own(after.value);
+  claim.bound = own(goal.value);
   const double error = part(after.value + after.error) - part(after.value - after.error) +
                        before.error / before.value;
-  claim.error = error;
+  claim.error = error * claim.bound;
   return compare(after, goal, claim) && error <= kScore * (1 + std::abs(claim.score));
 }
 

@@ -275,6 +275,22 @@ TEST(LinearPacks, RunWhatTheyCan) {
   EXPECT_TRUE(is_linear("[-0.1, 1; -1, -0.1]", "[-0.1, 1; -1, -400]"));
 }
 
+/// A careful run ends where a state leaves 1e150, and its claims with it.
+TEST(LinearPacks, LeaveARunThatDivergesToTheCarefulOne) {
+  const Made made = make(R"yaml(problem: p
+method:
+  method: m
+  plant: {state: {a: 1, b: 1}, flow: {a: -0.1*a, b: 0.5*b}}
+  timer: {tau: {reset: [0.5, 1]}}
+  claims: {a: {shrinks: norm(a), to: 0.5}, b: {shrinks: norm(b), to: 1}}
+campaign: {runs: 100, horizon: 698}
+)yaml");
+  ASSERT_NE(made.packs.linear, nullptr);
+  const auto verdicts = packs::LinearRunner(*made.packs.linear).run(1, 0, 64);
+  EXPECT_TRUE(
+      std::all_of(verdicts.begin(), verdicts.end(), [](const auto& one) { return one.open; }));
+}
+
 /// As a search for the worst run asks for them.
 TEST(LinearPacks, RunsWhoseDrawsAreGivenAreThoseOfTheCarefulRun) {
   std::vector<hybrid::GivenRun> given(3);
