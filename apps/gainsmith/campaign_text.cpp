@@ -59,6 +59,11 @@ bool has_parted(const claims::Finding& finding) {
   return !std::isnan(finding.value) && !std::isfinite(finding.rounding);
 }
 
+/// Whether there is none.
+bool has_no_value(const claims::Finding& finding) {
+  return std::isnan(finding.value) || std::isnan(finding.bound);
+}
+
 /// With as many digits as tell them apart.
 std::pair<std::string, std::string> told_apart(double value, double bound) {
   constexpr int kUsual = 6, kMost = 17;
@@ -74,7 +79,7 @@ std::string uncertainty_text(model::ClaimKind kind, const claims::Finding& findi
   if (finding.disputed)
     return "one computation of the run violates it, another, more accurate or rounded otherwise, "
            "does not";
-  if (std::isnan(finding.value) || std::isnan(finding.bound)) return "the claim has no value there";
+  if (has_no_value(finding)) return "the claim has no value there";
   if (has_parted(finding))
     return "two computations that differ in accuracy and in their last places have parted by "
            "then, or the text branches too often";
@@ -147,6 +152,7 @@ std::string reason_text(const verify::Report& report) {
 
 /// What may decide the first undecided run, which reaches the horizon.
 std::string advice_text(const verify::Report& report) {
+  if (has_no_value(report.first_undecided->finding)) return "";
   if (has_parted(report.first_undecided->finding))
     return "  try         a shorter campaign.horizon, or claims written in differences of states "
            "(z - zh)\n";

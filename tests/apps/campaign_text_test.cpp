@@ -98,6 +98,16 @@ TEST(CampaignText, AClaimThatAnEndLeavesOpenIsNoComparison) {
             std::string::npos);
 }
 
+TEST(CampaignText, AClaimWithoutAValueIsNotSaidToBeTooClose) {
+  verify::Report report = two_undecided();
+  report.first_undecided->finding.value = std::numeric_limits<double>::quiet_NaN();
+  const std::string text = campaign_summary(report, "gains.json");
+  EXPECT_NE(text.find("small at (t, j) = (3, 0): the claim has no value there"), std::string::npos)
+      << text;
+  for (const char* words : {"known to", "tolerance", "parted"})
+    EXPECT_EQ(text.find(words), std::string::npos) << words << "\n" << text;
+}
+
 TEST(CampaignText, ADisputedViolationIsNotSaidToBeTooClose) {
   verify::Report report = two_undecided();
   report.first_undecided->finding.disputed = true;
