@@ -22,7 +22,7 @@ using D = DoubleDouble;
 using Quad = numbers::MatrixOf<D>;
 using Eigen::Index;
 
-Quad rounded(const packs::Wide& x) {
+Quad rounded(const linear::Wide& x) {
   return x.unaryExpr([](const Decimal100& one) { return as<D>(one); });
 }
 
@@ -42,13 +42,13 @@ Quad product(const Quad& M, const Quad& x) {
 
 class Reference {
  public:
-  explicit Reference(const packs::LinearModel& model)
+  explicit Reference(const linear::LinearModel& model)
       : model_(model),
         A_(rounded(model.A)),
         B_(rounded(model.B)),
         S_(rounded(model.S)),
         J_(rounded(*model.D(Decimal100(model.high), false))) {
-    for (const packs::LinearClaim& claim : model.claims) {
+    for (const linear::LinearClaim& claim : model.claims) {
       flow_.push_back(claim.flow_cost ? rounded(*claim.flow_cost) : Quad());
       jump_.push_back(claim.jump_cost ? rounded(*claim.jump_cost) : Quad());
     }
@@ -81,7 +81,7 @@ class Reference {
     flow(x, rest);
     std::vector<D> after = values(x, clocks.length(0) - rest);
     for (std::size_t c = 0; c < after.size(); ++c) {
-      const packs::LinearClaim& claim = model_.claims[c];
+      const linear::LinearClaim& claim = model_.claims[c];
       if (claim.kind == model::ClaimKind::cost) after[c] = cost_[c];
       if (claim.squared) after[c] = sqrt(after[c]);
     }
@@ -91,10 +91,10 @@ class Reference {
  private:
   std::vector<D> values(const Quad& x, double left) {
     std::vector<D> all;
-    const packs::Wide zero = packs::Wide::Zero(model_.coordinates->layout.size, 1);
-    for (const packs::LinearClaim& claim : model_.claims) {
+    const linear::Wide zero = linear::Wide::Zero(model_.coordinates->layout.size, 1);
+    for (const linear::LinearClaim& claim : model_.claims) {
       D& sum = all.emplace_back(0);
-      for (const packs::LinearForm& one : claim.value) {
+      for (const linear::LinearForm& one : claim.value) {
         D factor(1);
         if (one.factor) {
           linear::WideFunction function(*one.factor, model_.coordinates->layout,
@@ -138,7 +138,7 @@ class Reference {
     }
   }
 
-  const packs::LinearModel& model_;
+  const linear::LinearModel& model_;
   Quad A_, B_, S_, J_;
   std::vector<Quad> flow_, jump_;
   std::vector<D> cost_;

@@ -60,7 +60,7 @@ Json finding_json(const claims::Finding& finding) {
           {"t", bits(finding.t)},
           {"j", finding.j},
           {"floor", bits(finding.floor)},
-          {"looked", finding.looked},
+          {"sampled", finding.sampled},
           {"ended", finding.ended},
           {"disputed", finding.disputed},
           {"tolerance", bits(finding.tolerance)}};
@@ -76,7 +76,7 @@ claims::Finding finding_from(const JsonReader& reader) {
   finding.t = from_bits(reader.at("t"));
   finding.j = static_cast<std::int64_t>(reader.at("j").count());
   finding.floor = from_bits(reader.at("floor"));
-  finding.looked = reader.at("looked").truth();
+  finding.sampled = reader.at("sampled").truth();
   finding.ended = reader.at("ended").truth();
   finding.disputed = reader.at("disputed").truth();
   finding.tolerance = from_bits(reader.at("tolerance"));

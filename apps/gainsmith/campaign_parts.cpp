@@ -20,7 +20,7 @@ namespace {
 
 constexpr const char* kCompare = "compare";
 
-std::string range_text(const verify::RunRange& range) {
+std::string range_text(const statistics::RunRange& range) {
   if (range.count() == 1) return fmt::format("run {}", range.first);
   return fmt::format("runs {} to {}", range.first, range.last - 1);
 }
@@ -38,25 +38,26 @@ PartFile part_from(const io::Json& document, const std::string& file) {
 }
 
 /// Which file has some of these runs.
-std::string owner_of(const verify::RunRange& range,
-                     const std::vector<std::pair<std::string, verify::RunSet>>& known) {
+std::string owner_of(const statistics::RunRange& range,
+                     const std::vector<std::pair<std::string, statistics::RunSet>>& known) {
   for (const auto& [file, runs] : known)
-    if (verify::RunSet copy = runs; copy.add(range).count() > 0) return file;
+    if (statistics::RunSet copy = runs; copy.add(range).count() > 0) return file;
   return "?";
 }
 
 /// The parts of a campaign cut into as many as the first was that have these runs: "3/8, 5/8".
-std::string shards_with(const std::vector<verify::RunRange>& missing, const PartFile& whole) {
+std::string shards_with(const std::vector<statistics::RunRange>& missing, const PartFile& whole) {
   constexpr int kMost = 5;
   std::string text;
   int found = 0;
   for (std::uint64_t k = 1; k <= whole.shard.of; ++k) {
-    const verify::RunRange shard = verify::shard_of(whole.part.facts.asked, k, whole.shard.of);
-    verify::RunSet own;
+    const statistics::RunRange shard =
+        statistics::shard_of(whole.part.facts.asked, k, whole.shard.of);
+    statistics::RunSet own;
     own.add(shard);
     bool lacks = false;
-    for (const verify::RunRange& range : missing)
-      lacks = lacks || verify::RunSet(own).add(range).count() > 0;
+    for (const statistics::RunRange& range : missing)
+      lacks = lacks || statistics::RunSet(own).add(range).count() > 0;
     if (!lacks) continue;
     if (++found > kMost) return text + ", ...";
     text += (found > 1 ? ", " : "") + to_text(Shard{k, whole.shard.of});
@@ -65,7 +66,7 @@ std::string shards_with(const std::vector<verify::RunRange>& missing, const Part
 }
 
 [[noreturn]] void refuse_twice(const std::string& file, const Shard& shard,
-                               const verify::RunRange& runs, const std::string& owner) {
+                               const statistics::RunRange& runs, const std::string& owner) {
   if (owner == file) throw InputError({file}, "this part is given twice");
   throw InputError({file}, fmt::format("{} of this part, {}, are in {} too; each run may be in one "
                                        "part only",
@@ -120,13 +121,13 @@ io::Json document_of(const PartFile& file) {
 PartFile merged_campaign(const std::vector<std::string>& files) {
   const io::Json first = read_part(files.front());
   PartFile whole = part_from(first, files.front());
-  std::vector<std::pair<std::string, verify::RunSet>> known{{files.front(), whole.part.runs}};
+  std::vector<std::pair<std::string, statistics::RunSet>> known{{files.front(), whole.part.runs}};
   std::string other_cut;
   for (std::size_t k = 1; k < files.size(); ++k) {
     const io::Json document = read_part(files[k]);
     require_same_work(document, files[k], first, files.front());
     const PartFile next = part_from(document, files[k]);
-    const verify::RunRange twice = add(next.part, whole.part);
+    const statistics::RunRange twice = add(next.part, whole.part);
     if (twice.count() > 0) refuse_twice(files[k], next.shard, twice, owner_of(twice, known));
     if (next.shard.of != whole.shard.of && other_cut.empty())
       other_cut = fmt::format("{} is one of {} parts, and {} one of {}", files[k], next.shard.of,

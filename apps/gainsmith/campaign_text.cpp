@@ -29,7 +29,7 @@ model::ClaimRecord claim_record(const verify::CheckReport& check) {
   record.kind = kind_text(check.kind);
   record.stated = check.stated;
   record.missing = check.missing;
-  record.looked_at = check.worst.looked;
+  record.sampled = check.worst.sampled;
   record.violations = check.violations;
   record.undecided = check.undecided;
   record.worst_run = check.worst_run;
@@ -93,7 +93,7 @@ std::string check_text(const verify::CheckReport& check, std::size_t width) {
   if (!check.stated)
     return fmt::format("  {:<{}} not stated: no value for {}\n", check.name, width,
                        fmt::join(check.missing, ", "));
-  if (!check.worst.looked && !check.worst.ended)
+  if (!check.worst.sampled && !check.worst.ended)
     return fmt::format(
         "  {:<{}} {:<17} held      never checked: no run reaches the time or event "
         "of the claim\n",

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bind/stated.h"
+#include "claims/run_setup.h"
 #include "gainsmith/commands.h"
 #include "gainsmith/gain_check.h"
 #include "gainsmith/load.h"
@@ -18,7 +19,6 @@
 #include "hybrid/idle.h"
 #include "io/json_text.h"
 #include "lmi/compile.h"
-#include "verify/careful_runs.h"
 
 namespace gainsmith::app {
 
@@ -77,7 +77,7 @@ std::vector<std::string> check_runs(const model::Instance& instance) {
   const bool needs_nothing = design.unknowns.empty() && design.inequalities.empty() &&
                              design.open.empty() && design.gains.empty();
   if (!needs_nothing) return notes;
-  const auto setup = verify::make_event_setup(bind::run_texts(instance, {}));
+  const auto setup = claims::make_run_setup(bind::run_texts(instance, {}));
   std::vector<std::string> late;
   for (const std::size_t event : hybrid::late_events(setup->system, setup->scenario))
     late.push_back(design.dynamics->events[event].name);

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "verify/quantiles.h"
+#include "statistics/quantiles.h"
 
 namespace gainsmith::app {
 
@@ -26,9 +26,9 @@ double value_at(const report::Curve& curve, double t) {
                     : curve.value[k] + share * (curve.value[k + 1] - curve.value[k]);
 }
 
-double quantile(const verify::ValueSketch& values, double probability) {
+double quantile(const statistics::ValueSketch& values, double probability) {
   if (values.count() == 0) return kNone;
-  return verify::quantile_of(values, probability, 0.5).value.value_or(kNone);
+  return statistics::quantile_of(values, probability, 0.5).value.value_or(kNone);
 }
 
 }  // namespace
@@ -44,8 +44,9 @@ void EnvelopeFigure::add(const verify::Replay& run) {
     std::erase_if(panels_, [](const PlannedPanel& panel) { return !panel.claims.empty(); });
     for (const PlannedPanel& panel : panels_)
       for (std::size_t k = 0; k < panel.lines.size(); ++k)
-        lines_.push_back({std::vector<std::vector<double>>(kTimes),
-                          std::vector<verify::ValueSketch>(kTimes, verify::ValueSketch(kBuckets))});
+        lines_.push_back(
+            {std::vector<std::vector<double>>(kTimes),
+             std::vector<statistics::ValueSketch>(kTimes, statistics::ValueSketch(kBuckets))});
   }
   std::size_t line = 0;
   for (const PlannedPanel& panel : panels_)
@@ -79,7 +80,7 @@ report::Panel EnvelopeFigure::panel_of(const PlannedPanel& planned, std::size_t 
     report::Curve median, least, largest;
     report::Band band;
     for (std::size_t at = 0; at < kTimes; ++at) {
-      const verify::ValueSketch& values = lines_[first + k].values[at];
+      const statistics::ValueSketch& values = lines_[first + k].values[at];
       const bool none = values.count() == 0;
       median.t.push_back(static_cast<double>(at) * step_);
       median.value.push_back(quantile(values, 0.5));

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "gainsmith/run_panels.h"
-#include "verify/value_sketch.h"
+#include "statistics/value_sketch.h"
 
 namespace gainsmith::app {
 
@@ -29,7 +29,7 @@ class EnvelopeFigure {
   /// Of a line of a panel, by time.
   struct Spread {
     std::vector<std::vector<double>> fresh;  ///< values that are not in the sketches yet
-    std::vector<verify::ValueSketch> values;
+    std::vector<statistics::ValueSketch> values;
   };
 
   void settle();

@@ -29,15 +29,15 @@ std::vector<std::int64_t> wholes_from(const JsonReader& reader) {
   return numbers;
 }
 
-Json sketch_json(const verify::ValueSketch& sketch) {
+Json sketch_json(const statistics::ValueSketch& sketch) {
   const auto contents = sketch.contents();
   return {{"level", contents.level},        {"count", contents.count},
           {"least", bits(contents.least)},  {"largest", bits(contents.largest)},
           {"at", wholes_json(contents.at)}, {"counts", contents.counts}};
 }
 
-verify::ValueSketch sketch_from(const JsonReader& reader) {
-  verify::ValueSketch::Contents contents;
+statistics::ValueSketch sketch_from(const JsonReader& reader) {
+  statistics::ValueSketch::Contents contents;
   contents.level = reader.at("level").whole();
   contents.count = reader.at("count").count();
   contents.least = from_bits(reader.at("least"));
@@ -46,39 +46,39 @@ verify::ValueSketch sketch_from(const JsonReader& reader) {
   for (const JsonReader& item : reader.at("counts").items())
     contents.counts.push_back(item.count());
   if (contents.at.size() != contents.counts.size()) reader.fail("another number of counts");
-  return verify::ValueSketch::of(contents);
+  return statistics::ValueSketch::of(contents);
 }
 
-Json of_run_json(const std::optional<verify::OfRun>& of) {
+Json of_run_json(const std::optional<statistics::OfRun>& of) {
   return of ? Json{{"value", bits(of->value)}, {"run", of->run}} : Json();
 }
 
-std::optional<verify::OfRun> of_run_from(const JsonReader& reader) {
+std::optional<statistics::OfRun> of_run_from(const JsonReader& reader) {
   if (reader.is_null()) return std::nullopt;
-  return verify::OfRun{from_bits(reader.at("value")), reader.at("run").count()};
+  return statistics::OfRun{from_bits(reader.at("value")), reader.at("run").count()};
 }
 
-Json squares_json(const verify::SquaredErrors& squares) {
+Json squares_json(const statistics::SquaredErrors& squares) {
   return {{"elements", squares.elements},
           {"count", squares.count},
           {"sum", wholes_json(squares.sum.digits())},
           {"improper", squares.improper}};
 }
 
-verify::SquaredErrors squares_from(const JsonReader& reader) {
-  verify::SquaredErrors squares;
+statistics::SquaredErrors squares_from(const JsonReader& reader) {
+  statistics::SquaredErrors squares;
   squares.elements = static_cast<std::int64_t>(reader.at("elements").count());
   squares.count = reader.at("count").count();
   const std::vector<std::int64_t> found = wholes_from(reader.at("sum"));
-  verify::ExactSum::Digits digits{};
+  statistics::ExactSum::Digits digits{};
   if (found.size() != digits.size()) reader.fail("another number of digits");
   for (std::size_t k = 0; k < digits.size(); ++k) digits[k] = found[k];
-  squares.sum = verify::ExactSum::of(digits);
+  squares.sum = statistics::ExactSum::of(digits);
   squares.improper = reader.at("improper").count();
   return squares;
 }
 
-Json summary_json(const verify::FigureSummary& figure) {
+Json summary_json(const statistics::FigureSummary& figure) {
   Json document = {{"title", figure.title},
                    {"observer", figure.observer},
                    {"values", sketch_json(figure.values)},
@@ -90,8 +90,8 @@ Json summary_json(const verify::FigureSummary& figure) {
   return document;
 }
 
-verify::FigureSummary summary_from(const JsonReader& reader) {
-  verify::FigureSummary figure;
+statistics::FigureSummary summary_from(const JsonReader& reader) {
+  statistics::FigureSummary figure;
   figure.title = reader.at("title").text();
   figure.observer = reader.at("observer").text();
   figure.values = sketch_from(reader.at("values"));
@@ -105,15 +105,15 @@ verify::FigureSummary summary_from(const JsonReader& reader) {
 
 }  // namespace
 
-Json ranges_json(const verify::RunSet& runs) {
+Json ranges_json(const statistics::RunSet& runs) {
   Json ranges = Json::array();
-  for (const verify::RunRange& range : runs.ranges())
+  for (const statistics::RunRange& range : runs.ranges())
     ranges.push_back(Json::array({range.first, range.last}));
   return ranges;
 }
 
-verify::RunSet ranges_from(const JsonReader& reader) {
-  verify::RunSet runs;
+statistics::RunSet ranges_from(const JsonReader& reader) {
+  statistics::RunSet runs;
   for (const JsonReader& range : reader.items()) {
     const std::vector<JsonReader> ends = range.items();
     if (ends.size() != 2) range.fail("expected the first run and the one behind the last");
@@ -123,10 +123,11 @@ verify::RunSet ranges_from(const JsonReader& reader) {
   return runs;
 }
 
-Json to_json(const verify::SurveyOfRuns& figures) {
-  const verify::FigureSurvey& survey = figures.survey;
+Json to_json(const statistics::SurveyOfRuns& figures) {
+  const statistics::FigureSurvey& survey = figures.survey;
   Json list = Json::array();
-  for (const verify::FigureSummary& figure : survey.figures) list.push_back(summary_json(figure));
+  for (const statistics::FigureSummary& figure : survey.figures)
+    list.push_back(summary_json(figure));
   return {{"ranges", ranges_json(figures.runs)},
           {"runs", survey.runs},
           {"early", survey.early},
@@ -135,10 +136,10 @@ Json to_json(const verify::SurveyOfRuns& figures) {
           {"figures", list}};
 }
 
-verify::SurveyOfRuns survey_from(const JsonReader& reader) {
-  verify::SurveyOfRuns figures;
+statistics::SurveyOfRuns survey_from(const JsonReader& reader) {
+  statistics::SurveyOfRuns figures;
   figures.runs = ranges_from(reader.at("ranges"));
-  verify::FigureSurvey& survey = figures.survey;
+  statistics::FigureSurvey& survey = figures.survey;
   survey.runs = reader.at("runs").count();
   survey.early = reader.at("early").count();
   survey.early_run = reader.at("early_run").count();

@@ -12,7 +12,7 @@ namespace gainsmith::app {
 
 namespace {
 
-using verify::FigureSummary;
+using statistics::FigureSummary;
 using Summaries = std::vector<const FigureSummary*>;  ///< of a figure, by observer
 
 /// Bars of one width, next to each other.
@@ -138,7 +138,7 @@ report::Panel panel_of(const Summaries& figures) {
 
 }  // namespace
 
-std::string histograms(const std::string& title, const verify::FigureSurvey& survey) {
+std::string histograms(const std::string& title, const statistics::FigureSurvey& survey) {
   report::Figure picture;
   picture.title = title;
   for (std::size_t k = 0; k < survey.figures.size();) {

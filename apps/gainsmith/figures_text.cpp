@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/number.h"
-#include "verify/quantiles.h"
+#include "statistics/quantiles.h"
 
 namespace gainsmith::app {
 
@@ -176,7 +176,7 @@ std::string resolution_text(const std::vector<model::FigureRecord>& figures) {
                       : "";
 }
 
-model::FigureRecord figure_record(const verify::FigureSummary& summary,
+model::FigureRecord figure_record(const statistics::FigureSummary& summary,
                                   std::optional<double> confidence, std::optional<double> fit) {
   model::FigureRecord record;
   record.figure = summary.title;
@@ -190,8 +190,8 @@ model::FigureRecord figure_record(const verify::FigureSummary& summary,
     record.largest_run = summary.largest->run;
   }
   for (const double probability : {0.05, kMedian, 0.95}) {
-    const verify::Quantile quantile =
-        verify::quantile_of(summary.values, probability, confidence.value_or(kMedian));
+    const statistics::Quantile quantile =
+        statistics::quantile_of(summary.values, probability, confidence.value_or(kMedian));
     record.quantiles.push_back({probability, quantile.value, {}, {}});
     if (!confidence) continue;
     record.quantiles.back().low = quantile.low;
@@ -199,7 +199,7 @@ model::FigureRecord figure_record(const verify::FigureSummary& summary,
   }
   record.resolution = summary.values.resolution();
   if (!fit || summary.squares.count + summary.squares.improper == 0) return record;
-  const verify::Consistency found = verify::consistency_of(summary.squares, *fit);
+  const statistics::Consistency found = statistics::consistency_of(summary.squares, *fit);
   record.consistency = {to_string(found.fit),
                         summary.squares.count,
                         summary.squares.improper,
@@ -217,11 +217,11 @@ std::string title_of(const model::FigureRecord& figure) {
   return (figure.observer.empty() ? "" : figure.observer + ": ") + figure.figure;
 }
 
-model::FiguresRecord figures_record(const verify::FigureSurvey& survey, std::uint64_t asked,
+model::FiguresRecord figures_record(const statistics::FigureSurvey& survey, std::uint64_t asked,
                                     std::uint64_t seed, std::optional<double> confidence,
                                     std::optional<double> fit) {
   model::FiguresRecord record{survey.runs, asked, seed, confidence, {}};
-  for (const verify::FigureSummary& summary : survey.figures)
+  for (const statistics::FigureSummary& summary : survey.figures)
     record.figures.push_back(figure_record(summary, confidence, fit));
   return record;
 }

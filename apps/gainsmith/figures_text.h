@@ -6,14 +6,14 @@
 #include <string>
 
 #include "model/figure_record.h"
-#include "verify/figure_survey.h"
+#include "statistics/figure_survey.h"
 
 namespace gainsmith::app {
 
 /// With the quantiles 5, 50 and 95 %. `asked`: how many runs were to be made. `confidence`: of their
 /// intervals; none where nothing is drawn. `fit`: the probability with which a consistent filter
 /// passes; none likewise.
-model::FiguresRecord figures_record(const verify::FigureSurvey& survey, std::uint64_t asked,
+model::FiguresRecord figures_record(const statistics::FigureSurvey& survey, std::uint64_t asked,
                                     std::uint64_t seed, std::optional<double> confidence,
                                     std::optional<double> fit);
 

@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// How each verdict looks.
-struct VerdictLook {
+/// How each verdict styles.
+struct VerdictStyle {
   const char* word;
   const char* label;
   report::Mark mark;
@@ -23,7 +23,7 @@ struct VerdictLook {
   const char* fill;
 };
 
-constexpr std::array<VerdictLook, 5> kLooks = {{
+constexpr std::array<VerdictStyle, 5> kStyles = {{
     {"yes", "feasible", report::Mark::dot, 2, "#8fd0b6"},
     {"no", "infeasible", report::Mark::cross, 1, "#e4e4e4"},
     {"undecided", "undecided", report::Mark::triangle, 4, "#fbf3df"},
@@ -31,10 +31,10 @@ constexpr std::array<VerdictLook, 5> kLooks = {{
     {"interrupted", "interrupted", report::Mark::dot, 7, "#ffffff"},
 }};
 
-std::size_t look_of(const std::string& word) {
-  return static_cast<std::size_t>(std::find_if(kLooks.begin(), kLooks.end(),
+std::size_t style_of(const std::string& word) {
+  return static_cast<std::size_t>(std::find_if(kStyles.begin(), kStyles.end(),
                                                [&](const auto& one) { return word == one.word; }) -
-                                  kLooks.begin());
+                                  kStyles.begin());
 }
 
 std::vector<std::optional<double>> quantities_of(const ScanPicture& picture,
@@ -49,21 +49,21 @@ std::vector<std::optional<double>> quantities_of(const ScanPicture& picture,
 }
 
 /// A row for each verdict that occurs, with its marks.
-report::Panel verdict_panel(const std::vector<double>& at, const std::vector<std::size_t>& looks) {
+report::Panel verdict_panel(const std::vector<double>& at, const std::vector<std::size_t>& styles) {
   report::Panel panel;
   panel.title = "verdict";
-  for (std::size_t look = 0; look < kLooks.size(); ++look) {
-    if (std::find(looks.begin(), looks.end(), look) == looks.end()) continue;
+  for (std::size_t style = 0; style < kStyles.size(); ++style) {
+    if (std::find(styles.begin(), styles.end(), style) == styles.end()) continue;
     report::Curve marks;
-    marks.mark = kLooks[look].mark;
-    marks.colour = kLooks[look].colour;
+    marks.mark = kStyles[style].mark;
+    marks.colour = kStyles[style].colour;
     marks.joined = false;
     for (std::size_t k = 0; k < at.size(); ++k) {
-      if (looks[k] != look) continue;
+      if (styles[k] != style) continue;
       marks.t.push_back(at[k]);
       marks.value.push_back(static_cast<double>(panel.rows.size()));
     }
-    panel.rows.emplace_back(kLooks[look].label);
+    panel.rows.emplace_back(kStyles[style].label);
     panel.curves.push_back(std::move(marks));
   }
   return panel;
@@ -87,10 +87,10 @@ std::string scan_lines(const ScanPicture& picture, const std::vector<design::Sca
   figure.axis = picture.axes.front().name;
   figure.logarithmic = picture.axes.front().logarithmic;
   std::vector<double> at;
-  std::vector<std::size_t> looks;
+  std::vector<std::size_t> styles;
   for (const design::ScanRow& row : rows) {
     at.push_back(row.at.front());
-    looks.push_back(look_of(verdict_of(row)));
+    styles.push_back(style_of(verdict_of(row)));
   }
   for (std::size_t k = 0; k < picture.quantities.size(); ++k) {
     report::Curve curve;
@@ -101,15 +101,15 @@ std::string scan_lines(const ScanPicture& picture, const std::vector<design::Sca
     report::Panel panel{picture.quantities[k], "", is_wide(curve.value), {std::move(curve)}};
     figure.panels.push_back(std::move(panel));
   }
-  figure.panels.push_back(verdict_panel(at, looks));
+  figure.panels.push_back(verdict_panel(at, styles));
   return report::svg(figure);
 }
 
 std::string scan_map(const ScanPicture& picture, const std::vector<design::ScanRow>& rows) {
   report::MapFigure figure{picture.title, picture.axes[0], picture.axes[1], {}, {}};
-  for (const VerdictLook& look : kLooks)
-    figure.kinds.push_back(
-        {look.label, look.fill, look.mark == report::Mark::dot ? report::Mark::none : look.mark});
+  for (const VerdictStyle& style : kStyles)
+    figure.kinds.push_back({style.label, style.fill,
+                            style.mark == report::Mark::dot ? report::Mark::none : style.mark});
   const std::size_t width = figure.across.values.size(), height = figure.up.values.size();
   const std::size_t maps = std::max<std::size_t>(1, picture.quantities.size());
   for (std::size_t k = 0; k < maps; ++k) {
@@ -118,7 +118,7 @@ std::string scan_map(const ScanPicture& picture, const std::vector<design::ScanR
     for (std::size_t up = 0; up < height; ++up)
       for (std::size_t across = 0; across < width; ++across) {
         const design::ScanRow& row = rows[across * height + up];
-        report::Cell cell{look_of(verdict_of(row)), std::nullopt};
+        report::Cell cell{style_of(verdict_of(row)), std::nullopt};
         if (!picture.quantities.empty()) cell.value = quantities_of(picture, row)[k];
         map.cells.push_back(cell);
       }
@@ -153,14 +153,14 @@ report::Band bracket_of(const std::vector<search::Sample>& asked, bool largest) 
 /// The values that were tried, a curve of marks for each verdict.
 void add_tried(const std::vector<search::Sample>& asked, const std::optional<double>& from,
                report::Panel& panel) {
-  for (const VerdictLook& look : kLooks) {
+  for (const VerdictStyle& style : kStyles) {
     report::Curve marks;
-    marks.label = look.label;
-    marks.mark = look.mark;
-    marks.colour = look.colour;
+    marks.label = style.label;
+    marks.mark = style.mark;
+    marks.colour = style.colour;
     marks.joined = false;
     for (const search::Sample& sample : asked) {
-      if (std::string(word_of(sample.answer)) != look.word) continue;
+      if (std::string(word_of(sample.answer)) != style.word) continue;
       marks.t.push_back(sample.order + 1);
       marks.value.push_back(from ? std::abs(sample.value - *from) : sample.value);
     }

@@ -29,7 +29,7 @@
 #include "io/figures_json.h"
 #include "io/given_run_json.h"
 #include "io/json_text.h"
-#include "verify/figure_survey.h"
+#include "statistics/figure_survey.h"
 
 namespace gainsmith::app {
 
@@ -66,7 +66,7 @@ std::string claims_text(const std::vector<verify::ReplayedClaim>& claims, bool e
                           end_text(finding));
       continue;
     }
-    if (!finding.looked) {
+    if (!finding.sampled) {
       text +=
           fmt::format("  {:<12} {}\n", claim.name,
                       early ? "undecided: never checked, as the run ends before"
@@ -183,9 +183,9 @@ ExitCode compare(const SimulateOptions& options, const LoadedGains& loaded, std:
   if (figures.empty())
     throw InputError({options.gains},
                      "the problem names nothing to compare: compare: [{peak: norm(e)}, ...]");
-  const auto setup = verify::make_event_setup(bind::run_texts(loaded.stated, loaded.gains));
-  const verify::FigureSurvey survey =
-      verify::survey_figures(*setup, figures, seed, {runs.size(), runs});
+  const auto setup = claims::make_run_setup(bind::run_texts(loaded.stated, loaded.gains));
+  const statistics::FigureSurvey survey =
+      statistics::survey_figures(*setup, figures, seed, {runs.size(), runs});
   const Telling telling;
   // These runs were chosen, so nothing is said of others.
   const bool drawn = !hybrid::different_runs(setup->system, setup->scenario);

@@ -22,8 +22,8 @@
 #include "gainsmith/worst_text.h"
 #include "io/campaign_json.h"
 #include "model/stated_file.h"
-#include "verify/figure_survey.h"
-#include "verify/statistics.h"
+#include "statistics/figure_survey.h"
+#include "statistics/sample_bounds.h"
 #include "verify/worst.h"
 
 namespace gainsmith::app {
@@ -52,7 +52,7 @@ std::optional<std::uint64_t> runs_of(const VerifyOptions& options) {
   if (!options.probability) return options.runs;
   if (options.runs)
     throw InputError(Place{}, "either --runs or --probability: the latter says how many runs");
-  return verify::runs_for(*options.probability, options.confidence);
+  return statistics::runs_for(*options.probability, options.confidence);
 }
 
 /// How the gains are called on a command line. A gain file holds what was set.
@@ -88,10 +88,10 @@ void require_figures(const VerifyOptions& options, const model::Design& design) 
 /// A part of a campaign that is made.
 struct PartWork {
   const verify::Campaign& campaign;
-  verify::RunRange range;
+  statistics::RunRange range;
   PartFile& file;
   /// Adds figures over these runs, where they are asked for.
-  std::function<void(const verify::RunRange&, const verify::Save&)> survey;
+  std::function<void(const statistics::RunRange&, const verify::Save&)> survey;
   bool compare = false;
 
   bool is_whole() const {
@@ -147,12 +147,12 @@ ExitCode verify_gains(const VerifyOptions& options) {
   require_figures(options, design);
   const auto setup = verify::make_setup(loaded.stated, loaded.gains);
   PartFile file;
-  const auto survey = [&](const verify::RunRange& runs, const verify::Save& grown) {
+  const auto survey = [&](const statistics::RunRange& runs, const verify::Save& grown) {
     if (options.compare)
-      verify::grow(*setup->events, design.compare, file.part.facts.seed, runs, options.threads,
-                   file.part.figures, grown);
+      statistics::grow(*setup->events, design.compare, file.part.facts.seed, runs, options.threads,
+                       file.part.figures, grown);
   };
-  verify::RunRange range;
+  statistics::RunRange range;
   verify::CampaignOptions asked{runs_of(options), options.seed, options.threads, options.confidence,
                                 !options.until.empty()};
   if (options.compare)
@@ -163,7 +163,7 @@ ExitCode verify_gains(const VerifyOptions& options) {
       campaign_statement(file.part.facts, io::gains_hash(loaded.gains), options.compare);
   file.source = source_of(options, loaded);
   file.shard = parse_shard(options.shard);
-  range = verify::shard_of(campaign.asked(), file.shard.index, file.shard.of);
+  range = statistics::shard_of(campaign.asked(), file.shard.index, file.shard.of);
   const PartWork work{campaign, range, file, survey, options.compare};
   make_runs(options, work);
   if (!options.shard.empty()) return tell_campaign_part(options, work);

@@ -38,7 +38,7 @@ std::string claim_text(const verify::WorstReport& report, std::size_t number, st
   const claims::Finding& finding = claim.finding;
   std::string text = fmt::format("  {:<{}} {:<17} {:<13}  ", claim.name, width,
                                  kind_text(claim.kind), claim_word(report, finding));
-  if (!finding.looked && !finding.ended)
+  if (!finding.sampled && !finding.ended)
     return text + "no run reaches the time or event of the claim\n";
   if (finding.ended) return text + "the run " + end_text(finding) + "\n";
   return text + fmt::format("worst: {} against {} at (t, j) = ({}, {})\n", brief(finding.value),

@@ -6,13 +6,12 @@
 #include <tuple>
 #include <utility>
 
+#include "base/unit_roundoff.h"
 #include "claims/tolerances.h"
 
 namespace gainsmith::claims {
 
 namespace {
-
-constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
 
 bool is_number(const Bounded& value) { return !std::isnan(value.value); }
 
@@ -30,7 +29,7 @@ Judgement compare(const Bounded& value, const Bounded& bound, bool holds) {
   if (holds) return Judgement::held;
   if (!is_number(value) || !is_number(bound)) return Judgement::undecided;
   const double excess = value.value - bound.value;
-  const double rounding = value.bound + bound.bound + 2 * kUnit * std::abs(excess);
+  const double rounding = value.bound + bound.bound + 2 * kUnitRoundoff * std::abs(excess);
   if (excess > rounding) return Judgement::violated;
   if (excess <= -rounding || (excess <= 0 && value.bound + bound.bound == 0))
     return Judgement::held;
@@ -98,7 +97,7 @@ Finding ClaimCheck::judged(const Track& track, bool holds) const {
 Bounded ClaimCheck::eased(const Bounded& bound, double size, double error) const {
   if (claim_->tolerance == 0) return bound;
   const double forgiven = claim_->tolerance * size;
-  const double rounded = kUnit * (forgiven + std::abs(bound.value));
+  const double rounded = kUnitRoundoff * (forgiven + std::abs(bound.value));
   return {bound.value + forgiven, bound.bound + claim_->tolerance * error + 2 * rounded};
 }
 
@@ -197,7 +196,7 @@ Finding ClaimCheck::nonincreasing(const Track& track, bool holds) const {
 
 Finding ClaimCheck::nothing_counts(const Track& track) const {
   Finding finding;
-  finding.looked = false;
+  finding.sampled = false;
   finding.score = -std::numeric_limits<double>::infinity();
   finding.t = track.t.back();
   finding.j = track.j.back();
@@ -286,7 +285,7 @@ Finding ClaimCheck::shrinks(const Track& track, bool holds) const {
   Bounded bound{factor.value * start.value, 0};
   const double size = std::abs(start.value);
   bound.bound = std::abs(factor.value) * start.bound + factor.bound * (size + start.bound) +
-                kUnit * std::abs(bound.value);
+                kUnitRoundoff * std::abs(bound.value);
   const double scale = bound.value;
   const Bounded most = eased(bound, std::abs(bound.value), bound.bound);
   const bool nothing = start.value == 0;

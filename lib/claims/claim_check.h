@@ -73,7 +73,7 @@ struct Finding {
   /// The largest value, relative to v(0), that was not compared because no digits are left; 0:
   /// none. Of a comparison with a bound that of its terms, relative to the largest.
   double floor = 0;
-  bool looked = true;     ///< false: the run has no sample at which the claim is made
+  bool sampled = true;    ///< false: the run has no sample at which the claim is made
   bool ended = false;     ///< the run ends at t, before its horizon, and the claim is left open
   bool disputed = false;  ///< the run repeated says otherwise, so that `judgement` is undecided
   double tolerance = 0;   ///< the claim's, which `judgement` forgives and `score` does not

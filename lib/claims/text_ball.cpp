@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "base/unit_roundoff.h"
 #include "claims/tolerances.h"
 
 namespace gainsmith::claims {
@@ -14,8 +15,7 @@ using Eigen::VectorXd;
 using Enclosed = numbers::Enclosed<double>;
 
 numbers::EnclosedValues<double> rounded_once(const numbers::Values& constants) {
-  constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
-  const auto error = [](double x) { return std::rint(x) == x ? 0 : kUnit * std::abs(x); };
+  const auto error = [](double x) { return std::rint(x) == x ? 0 : kUnitRoundoff * std::abs(x); };
   numbers::EnclosedValues<double> enclosed;
   for (const auto& [name, value] : constants)
     enclosed.emplace(name, Enclosed{value, value.unaryExpr(error)});

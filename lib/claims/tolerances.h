@@ -4,6 +4,23 @@
 namespace gainsmith::claims {
 
 // clang-format off
+constexpr double kAccuracyOfMany = 1e-8;  ///< relative, and absolute | the runs of a campaign are
+        ///< integrated to it unless the campaign asks for another accuracy |
+        ///< Campaign.IntegratedFlowsAreNoCauseOfWrongVerdicts
+constexpr double kAccuracyOfOne = 1e-10;  ///< relative, and absolute | a run that is shown, or
+        ///< repeated because a claim is undecided | Campaign.FlowsThatAreNotAffineAreIntegrated
+constexpr double kSharper = 1e-2;  ///< of the accuracy | the accuracy of the second run, whose
+        ///< difference from the first one shows the error |
+        ///< Campaign.IntegratedFlowsAreNoCauseOfWrongVerdicts
+constexpr int kSamplesBeside = 2;  ///< samples on each side | the difference of two runs at a
+        ///< sample is the largest among these, since the runs may cross |
+        ///< Campaign.IntegratedFlowsAreNoCauseOfWrongVerdicts
+constexpr double kLeastRise = 1e-3;  ///< of the accuracy, of the value | a smaller rise of a value
+        ///< that must not increase is sought only at the samples |
+        ///< FasterThanTheSteps/NarrowClaims.AreJudgedAsTheyAre
+constexpr double kBeforeEnd = 1.0/64;  ///< of the last step | the rate of a guard at an event is
+        ///< that over this part of the step |
+        ///< EventDoubts.AnOrderWithinTheErrorThatMattersIsUncertain
 constexpr int kPartsOfFlow = 32;  ///< parts | claims are compared at the ends of so many equal
         ///< parts of an integrated flow | FasterThanTheSteps/NarrowClaims.AreJudgedAsTheyAre
 constexpr double kErrorOfDifference = 4;  ///< factor | the error of the sharper of two runs, of

@@ -18,7 +18,7 @@ namespace {
 verdict::Margins margins_at(const Posed& posed, const Attempt& attempt,
                             const std::vector<double>& x) {
   return verdict::compute_margins(posed.inequalities, posed.lmi, attempt.formulation.balance,
-                                  posed.choices().margin, x, posed.look);
+                                  posed.choices().margin, x, posed.check);
 }
 
 /// Whether the gains at x are as small as was asked for.

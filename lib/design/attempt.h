@@ -34,9 +34,9 @@ struct Posed {
   const lmi::Inequalities& inequalities;
   const forall::Plan& plan;
   const lmi::Lmi& lmi;
-  bool wide = true;    ///< whether 31 and 100 digits may be tried where double does not decide
-  verdict::Look look;  ///< without `describe` nothing but the verdict is asked for
-  bool thin = false;   ///< an exchange may be given more points before more digits are tried
+  bool wide = true;  ///< whether 31 and 100 digits may be tried where double does not decide
+  verdict::CheckOptions check;  ///< without `describe` nothing but the verdict is asked for
+  bool thin = false;  ///< an exchange may be given more points before more digits are tried
 
   const model::SynthesisOptions& choices() const { return inequalities.design().synthesis; }
 };

@@ -69,7 +69,7 @@ struct Attempts {
     return climb.posed_.lmi.rows() > kMostRows;
   }
   static bool may_want_digits(const Climb& climb) {
-    return climb.posed_.wide && climb.posed_.lmi.stands_for_points() && nothing_holds_at_all(climb);
+    return climb.posed_.wide && climb.posed_.lmi.represents_points() && nothing_holds_at_all(climb);
   }
   static bool digits_are_due(const Climb& climb) {
     return may_want_digits(climb) && !climb.waits_for_points();
@@ -86,16 +86,16 @@ struct Attempts {
     return digits_are_due(climb) && !is_large(climb);
   }
   static bool faces_are_due(const Climb& climb) {
-    return climb.posed_.lmi.stands_for_points() && nothing_holds_at_all(climb) &&
+    return climb.posed_.lmi.represents_points() && nothing_holds_at_all(climb) &&
            !climb.waits_for_points();
   }
   static bool equations_are_due(const Climb& climb) {
-    return climb.posed_.lmi.stands_for_points() && nothing_holds_at_all(climb) &&
+    return climb.posed_.lmi.represents_points() && nothing_holds_at_all(climb) &&
            states_equations(climb.posed_.lmi);
   }
   static bool tighter_is_due(const Climb& climb) {
     const Attempt* point = climb.point();
-    if (!climb.posed_.look.describe || point == nullptr || !climb.is_yes(*point) ||
+    if (!climb.posed_.check.describe || point == nullptr || !climb.is_yes(*point) ||
         !has_minimum(climb) || climb.is_free(*point))
       return false;
     const auto bounds = lmi::reached_bounds(climb.bounds_, point->x);

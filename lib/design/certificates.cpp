@@ -39,7 +39,7 @@ class Certificates {
 
   /// One program in double, of the inequalities as they stand.
   verdict::Refutation by_violation(const Solve& solve) const {
-    if (!in_double() || !formulation_.homogenised || !posed_.lmi.stands_for_points()) return {};
+    if (!in_double() || !formulation_.homogenised || !posed_.lmi.represents_points()) return {};
     const lmi::Formulation violation = lmi::formulate_violation(posed_.lmi);
     const sdp::Solution solution = solve(violation.problem, {"double", 1e-10});
     if (solution.x.empty() || !(lmi::interior_margin(solution) < 0)) return {};
@@ -48,7 +48,7 @@ class Certificates {
 
   /// The same of homogeneous inequalities, one unknown of which is a scale.
   verdict::Refutation by_violation_in_scale(const Solve& solve) const {
-    if (!in_double() || formulation_.homogenised || !posed_.lmi.stands_for_points()) return {};
+    if (!in_double() || formulation_.homogenised || !posed_.lmi.represents_points()) return {};
     const auto scale = lmi::find_scale(posed_.lmi, posed_.inequalities.unknowns);
     if (!scale) return {};
     const lmi::Formulation violation = lmi::formulate_violation(lmi::scaled(posed_.lmi, *scale));

@@ -65,7 +65,7 @@ std::string blunt_text(double backward_error, bool to_the_end) {
 }
 
 /// What the verdict rests on where an inequality holds for all values of a variable.
-void report_ways(const forall::Plan& plan, int rounds, model::Gains& gains) {
+void report_plans(const forall::Plan& plan, int rounds, model::Gains& gains) {
   if (plan.uses_exchange()) {
     std::string text = "exchange: " + std::to_string(plan.points()) + " points in " +
                        std::to_string(rounds) + (rounds == 1 ? " round" : " rounds");
@@ -99,12 +99,12 @@ void note_stop(const std::string& doing, int iterations, model::Gains& gains) {
                                          : "stopped while looking for " + doing);
 }
 
-verdict::Look look_of(Depth depth) {
+verdict::CheckOptions check_options(Depth depth) {
   constexpr std::size_t kQuickPieces = 1000;
-  verdict::Look look;
-  look.describe = depth != Depth::verdict;
-  if (depth == Depth::quick) look.most_pieces = kQuickPieces;
-  return look;
+  verdict::CheckOptions check;
+  check.describe = depth != Depth::verdict;
+  if (depth == Depth::quick) check.most_pieces = kQuickPieces;
+  return check;
 }
 
 /// Names the gains that are larger than a bound that the problem states: a bound is imposed on products
@@ -241,7 +241,7 @@ class Synthesis {
     const Concluding concluding;
     if (climb_ && climb_->has_begun()) {
       conclude(*climb_, gains);
-      report_ways(plan_, round_, gains);
+      report_plans(plan_, round_, gains);
     }
     // A point inside, where a minimum was asked for, is not all that was to come.
     if (stopped &&
@@ -294,7 +294,7 @@ class Synthesis {
   bool climbs_again() {
     forall::Plan denser = plan_;
     const bool thin = !thickened_ && thicken(denser, inequalities_);
-    climb_.emplace(Posed{inequalities_, plan_, lmi_, digits_, look_of(depth_), thin}, bounds_,
+    climb_.emplace(Posed{inequalities_, plan_, lmi_, digits_, check_options(depth_), thin}, bounds_,
                    [this](const auto&... asked) { return solve(asked...); });
     climb_->to_point();
     bool again = grown();

@@ -110,6 +110,11 @@ Program combination(const std::vector<Program>& factors, const std::vector<std::
   return compose.take(sum);
 }
 
+Program input_program(const std::string& name, Shape shape) {
+  Composer compose({});
+  return compose.take(compose.input(name, shape));
+}
+
 Program with_identity(const Program& program, const std::string& scale, const std::string& name) {
   Assembly assembly;
   const int difference = add_program(assembly, program, nullptr);

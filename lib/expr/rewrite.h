@@ -56,6 +56,9 @@ class Composer {
 Program combination(const std::vector<Program>& factors, const std::vector<std::string>& terms,
                     Shape shape, const Place& place);
 
+/// The program that reads one input.
+Program input_program(const std::string& name, Shape shape);
+
 /// program + scale * s * I, with s the 1 x 1 input `name` (1 where there is no name) and `scale` a
 /// decimal.
 Program with_identity(const Program& program, const std::string& scale,

@@ -16,7 +16,7 @@
 //   noise    noise     two an element and drawing of normal noise, sqrt(-2 log(1 - u)) cos(2 pi v);
 //                      one of uniform noise; none of vertices and corners, where run k takes one
 //                      by its number
-//   places   moved run signs of moves in the last places (last_places.h)
+//   places   moved run signs of moves in the last places (simulate/last_places.h)
 #pragma once
 
 #include <cstdint>

@@ -20,7 +20,7 @@ Json check_json(const model::ClaimRecord& check) {
     result["missing"] = check.missing;
     return result;
   }
-  result["looked_at"] = check.looked_at;
+  result["looked_at"] = check.sampled;
   result["violations"] = check.violations;
   result["undecided"] = check.undecided;
   result["worst_run"] = check.worst_run;
@@ -54,7 +54,7 @@ model::ClaimRecord check_of(const JsonReader& reader) {
     check.missing = texts(reader.at("missing"));
     return check;
   }
-  check.looked_at = reader.at("looked_at").truth();
+  check.sampled = reader.at("looked_at").truth();
   check.violations = reader.at("violations").count();
   check.undecided = reader.at("undecided").count();
   check.worst_run = reader.at("worst_run").count();

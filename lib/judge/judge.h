@@ -1,9 +1,9 @@
 // The judge of event-driven runs: whether a Trajectory satisfies the texts of its Dynamics.
 //
 // It shares nothing with what simulates but the evaluator. Rules: model/dynamics.h. It checks
-//   flows    each recorded step again by Gauss steps (gauss.h) from its start, at its quarters and
-//            at its end, to 100 times the accuracy of the run; the sum of the differences over a
-//            flow; what rests (modes, frozen components, noise) rests; clocks run at their rates
+//   flows    each recorded step again by Gauss steps (ode/gauss.h) from its start, at its quarters
+//            and at its end, to 100 times the accuracy of the run; the sum of the differences
+//            over a flow; what rests (modes, frozen components, noise) rests; clocks run at their rates
 //            Rates inside of a step are those of compiled programs where these agree with the texts
 //            at both of its ends; a step that differs is judged by the texts alone.
 //   jumps    recomputed from the texts: reactions, passes, counts; a component without a reaction

@@ -74,13 +74,13 @@ class Builder {
     result_.layout.timer = system_.layout.timer;
     for (const hybrid::Slot& slot : system_.layout.slots)
       if (!in_errors_.replaces(slot.name))
-        add(slot.name, {input_program(slot.name, slot.shape), {}, {}, false});
+        add(slot.name, {expr::input_program(slot.name, slot.shape), {}, {}, false});
     for (const StateDifference& pair : pairs_)
-      add(pair.name,
-          {difference(input_program(pair.plus, pair.shape), input_program(pair.minus, pair.shape)),
-           {},
-           {},
-           false});
+      add(pair.name, {difference(expr::input_program(pair.plus, pair.shape),
+                                 expr::input_program(pair.minus, pair.shape)),
+                      {},
+                      {},
+                      false});
     std::map<std::string, const StateDifference*> pair_of;
     for (const StateDifference& pair : pairs_) pair_of[pair.name] = &pair;
     for (std::size_t i = 0; i < result_.list.size(); ++i) {
@@ -101,7 +101,7 @@ class Builder {
     const auto entry = [&](const std::string& name) -> Program {
       const auto found = entries.find(name);
       if (found != entries.end()) return found->second;
-      return keeps ? input_program(name, slot.shape) : zero_program(slot.shape);
+      return keeps ? expr::input_program(name, slot.shape) : zero_program(slot.shape);
     };
     if (pair == nullptr) {
       if (!entries.contains(slot.name)) return std::nullopt;
@@ -199,7 +199,7 @@ class Builder {
     Coordinate made;
     made.start = product(replace_inputs(map, {{time.name, ticks.start}}), from.start);
     const auto after = [](const Coordinate& one, const hybrid::Slot& of) {
-      return one.jump ? *one.jump : input_program(of.name, of.shape);
+      return one.jump ? *one.jump : expr::input_program(of.name, of.shape);
     };
     made.jump = product(replace_inputs(map, {{time.name, after(ticks, time)}}), after(from, slot));
     add(*name, std::move(made));
@@ -217,7 +217,7 @@ class Builder {
       const auto name = image(exponential, x);
       if (!name) continue;
       const hybrid::Slot& slot = result_.layout.slots[coordinate(*name)];
-      const Polynomial whole = polynomials_.of(input_program(*name, slot.shape));
+      const Polynomial whole = polynomials_.of(expr::input_program(*name, slot.shape));
       const Word& word = whole.terms.begin()->first;
       chain[i] = {word.chain.empty() ? word.scalars.front() : word.chain.front().atom, turned};
       chain.erase(chain.begin() + static_cast<std::ptrdiff_t>(i) + 1);

@@ -50,8 +50,8 @@ std::vector<StateDifference> find_differences(const std::vector<expr::Program>& 
 ErrorRewriting::ErrorRewriting(const std::vector<StateDifference>& differences,
                                const hybrid::StateLayout& layout) {
   for (const StateDifference& one : differences) {
-    by_[one.minus] =
-        difference(input_program(one.plus, one.shape), input_program(one.name, one.shape));
+    by_[one.minus] = difference(expr::input_program(one.plus, one.shape),
+                                expr::input_program(one.name, one.shape));
     names_.insert(one.name);
   }
   for (const hybrid::Slot& slot : layout.slots)

@@ -80,11 +80,6 @@ Program single(Op op, Shape shape) {
 
 }  // namespace
 
-Program input_program(const std::string& name, Shape shape) {
-  expr::Composer compose({});
-  return compose.take(compose.input(name, shape));
-}
-
 Program difference(const Program& a, const Program& b) {
   expr::Composer compose({});
   const int first = compose.program(a);

@@ -85,7 +85,4 @@ expr::Program replace_inputs(const expr::Program& program,
 /// The program of a - b.
 expr::Program difference(const expr::Program& a, const expr::Program& b);
 
-/// The program that reads one input.
-expr::Program input_program(const std::string& name, expr::Shape shape);
-
 }  // namespace gainsmith::linear

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 namespace gainsmith::linear {
 
@@ -12,6 +13,28 @@ constexpr double kCoefficientNoise = 1e-80;  ///< of the largest coefficient | a
         ///< digits below it is 0 | CoordinatesTest.LeaveOutWhatNoClaimDependsOn
 constexpr std::size_t kMostWords = 2000;  ///< words | a text that expands to a longer polynomial is
         ///< judged as it is written | PolynomialTest.IsTheFunctionOfItsText
+constexpr int kMostLengthDegree = 96;  ///< degree | functions of a length that no polynomial of it
+        ///< follows are not run as linear packs | LengthTable.RefusesWhatItDoesNotFollow
+constexpr double kLengthTail = 1e-25;  ///< of the largest coefficient | the last quarter of the
+        ///< coefficients is below, so that what no coefficient shows is rounding |
+        ///< LengthTable.RefusesWhatItDoesNotFollow
+constexpr double kLengthRest = 1e-14;  ///< of the largest coefficient | what a polynomial may leave out,
+        ///< which is part of all bounds | Systems/LinearPacks.NoErrorIsBeyondItsBound
+constexpr double kLengthNoise = 1e-70;  ///< of the largest coefficient of all functions | a function
+        ///< below is the rounding of 0 | LengthTable.WhatIsRoundingIsNothing
+constexpr double kLengthFaded = 1e-40;  ///< of the largest coefficient of all functions | a function
+        ///< below is 0 up to its size: that of a fast mode | Systems/LinearPacks.NoErrorIsBeyondItsBound
+constexpr double kLongestPiece = 30;  ///< the norm of the matrix times the length | functions of
+        ///< longer flows have other polynomials next to their start | Systems/LinearPacks.NoErrorIsBeyondItsBound
+constexpr double kLongestFlow = 1e9;  ///< the norm of the matrix times the length | longer flows are
+        ///< not run as linear packs | LinearPacks.RunWhatTheyCan
+constexpr double kFlowMargin = 1e-9;  ///< relative | that a value falls along flows is shown in
+        ///< double with so much to spare | LinearProof.NeedsMoreThanRounding
+constexpr double kMostGrowth = 4;  ///< factor | errors of linear runs are bounded for all flows
+        ///< of a block at once, which may grow the bounds so much |
+        ///< LinearPacks.FollowWhatFallsWhereFlowsMayGrow
+constexpr std::int64_t kMostFlowsOfBlock = 16;  ///< flows | and is no longer than so many |
+        ///< Systems/LinearPacks.NoErrorIsBeyondItsBound
 // clang-format on
 
 }  // namespace gainsmith::linear

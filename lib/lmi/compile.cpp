@@ -171,7 +171,7 @@ double Lmi::multiplications() const {
   return sum;
 }
 
-bool Lmi::stands_for_points() const {
+bool Lmi::represents_points() const {
   return std::all_of(blocks.begin(), blocks.end(),
                      [](const Block& block) { return block.where.has_value(); });
 }

@@ -27,7 +27,7 @@ struct Lmi {
 
   /// Whether every block stands for a point of its domain (Block::where), so that what excludes the
   /// blocks excludes the inequalities.
-  bool stands_for_points() const;
+  bool represents_points() const;
   /// Of all blocks together.
   int rows() const;
   /// Multiplications of one step of a solver, up to a factor: those of the equations for x.

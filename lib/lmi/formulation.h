@@ -4,9 +4,9 @@
 // so what comes out does not depend on the units of the problem.
 //
 //   objective   minimise c'x + weight sum_k tr(B_k(x)),  B_k(x) >= shift I, strict or not; gain
-//               bounds >= 0; in units of the data without weight, and again in units of the solution
-//               where these are far from the first (in_units_of_solution). The weight bounds what
-//               the objective does not see.
+//               bounds >= 0; in units of the data without weight, and again in units of the
+//               solution where these are far from the first (in_units_of_solution). The weight
+//               bounds what the objective does not see.
 //   interior    the largest unit-free margin, min over k of the smallest eigenvalue of
 //               D^-1/2 B_k(x) D^-1/2 with D = diag(B_k(x)), of the homogenised blocks
 //                 x_0 B_k0 + sum_i x_i B_ki > 0,   x_0 > 0  (where a block has a constant part):
@@ -15,7 +15,7 @@
 //               begun with t = 0, D_k = I and repeated with t the margin found and D_k =
 //               diag(B_k(x)): t rises to the largest margin. The program always has a solution, s
 //               >= 0. With s > 0 x / x_0 satisfies every inequality strictly; with s = 0 the dual
-//               solution is a certificate that none does (refutation.h).
+//               solution is a certificate that none does (verdict/refutation.h).
 #pragma once
 
 #include <functional>
@@ -111,8 +111,9 @@ std::vector<double> read_back(const Lmi& lmi, const Formulation& formulation,
 std::optional<Round> next_round(const Lmi& lmi, const GainBounds& bounds,
                                 const Formulation& formulation, const std::vector<double>& x);
 
-/// The same objective in units of a solution x: rows of blocks in which the terms of their diagonals,
-/// sum_i |x_i B_ki|, are near 1, and unknowns whose largest coefficient is near 1. Without the program.
+/// The same objective in units of a solution x: rows of blocks in which the terms of their
+/// diagonals, sum_i |x_i B_ki|, are near 1, and unknowns whose largest coefficient is near 1.
+/// Without the program.
 Formulation in_units_of_solution(const Lmi& lmi, const GainBounds& bounds,
                                  const Formulation& formulation, const std::vector<double>& x);
 

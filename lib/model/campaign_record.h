@@ -28,7 +28,7 @@ struct ClaimRecord {
   std::string kind;  ///< in words: "never increases"
   bool stated = true;
   std::vector<std::string> missing;  ///< what has no value; then all below is void
-  bool looked_at = true;
+  bool sampled = true;
   std::uint64_t violations = 0;
   std::uint64_t undecided = 0;
   std::uint64_t worst_run = 0;

@@ -58,8 +58,8 @@ class Cholesky {
   bool definite_ = false;
 };
 
-/// e^M, in balanced units (balance.h): in units that are powers of two apart it has the same
-/// digits.
+/// e^M, in balanced units (numerics/balance.h): in units that are powers of two apart it has the
+/// same digits.
 Matrix exponential(const Matrix& M);
 
 /// Of any matrix, largest first.

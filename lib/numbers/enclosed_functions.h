@@ -220,8 +220,8 @@ Enclosed<S> enclosed_in_units(const Enclosed<S>& x, const std::vector<int>& expo
   return out;
 }
 
-/// e^A in balanced units (balance.h) by scaling and squaring; the errors of the squarings are
-/// carried along by the products. Nothing is known when A is so large that it has no value in
+/// e^A in balanced units (numerics/balance.h) by scaling and squaring; the errors of the squarings
+/// are carried along by the products. Nothing is known when A is so large that it has no value in
 /// double.
 template <class S>
 Enclosed<S> exponential(const Enclosed<S>& A) {

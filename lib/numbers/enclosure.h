@@ -28,7 +28,7 @@ namespace gainsmith::numbers {
 /// - The projections have no bound and are refused by name.
 ///
 /// EvaluationError for what certainly has no value, and for a middle that is not finite. Elements
-/// in units that are powers of two apart have the same digits (expm: balance.h).
+/// in units that are powers of two apart have the same digits (expm: numerics/balance.h).
 template <class S>
 struct Enclosure {
   using Value = Enclosed<S>;

@@ -1,8 +1,9 @@
 // The value of Op::extremum: maximum(f, x in [a, b], ...) and minimum.
 //
-// It is f at the point of the box that largest_over_box (box_search.h) finds for f or -f in double:
-// an estimate, from below of a maximum and from above of a minimum. Over more digits f is evaluated
-// at that point, whose coordinates at an end of the box are that end in all its digits.
+// It is f at the point of the box that largest_over_box (numerics/box_search.h) finds for f or -f
+// in double: an estimate, from below of a maximum and from above of a minimum. Over more digits f
+// is evaluated at that point, whose coordinates at an end of the box are that end in all its
+// digits.
 #pragma once
 
 #include "expr/number_type.h"

@@ -2,9 +2,9 @@
 //
 //   z(0) = x,   dz/ds = e(z, t + s),   result z(d);      x, z r x c, d 1 x 1 of any sign
 //
-// by extrapolation (extrapolation.h) of dz/dq = d e(z, t + q d) over q in [0, 1]. A smooth e is
-// integrated until the error of a step is within 16 units in the last place of z; where e has a
-// kink or a jump the steps become short, and the error is some thousand units. No branch of e is
+// by extrapolation (numerics/extrapolation.h) of dz/dq = d e(z, t + q d) over q in [0, 1]. A smooth
+// e is integrated until the error of a step is within 16 units in the last place of z; where e has
+// a kink or a jump the steps become short, and the error is some thousand units. No branch of e is
 // passed over, however short it is taken.
 //
 // The slope of the result is that of the same equation in dual numbers (dual.h): with z' the slope

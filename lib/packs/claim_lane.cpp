@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/unit_roundoff.h"
 #include "claims/tolerances.h"
 #include "hybrid/tolerances.h"
 #include "packs/tolerances.h"
@@ -13,11 +14,10 @@ namespace {
 
 using model::ClaimKind;
 
-constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 double rounding(double value, double terms) {
-  return 8 * kUnit * std::abs(value) + hybrid::kTermRounding * terms;
+  return 8 * kUnitRoundoff * std::abs(value) + hybrid::kTermRounding * terms;
 }
 
 }  // namespace
@@ -71,7 +71,7 @@ void ClaimLane::at(double t, const Reading& reading, std::optional<std::size_t> 
   const bool is_jump = event.has_value();
   const Known value = known(reading, is_jump);
   if (!counts(t) || (claim_->over && event != claim_->over)) return;
-  const double change = looked_ && is_jump && !claim_->over ? value.value - last_.value : kNever;
+  const double change = sampled_ && is_jump && !claim_->over ? value.value - last_.value : kNever;
   const bool is_rounding = std::abs(change) <= rounding(value.value, reading.terms);
   compare(value, reading.terms, change == 0, is_rounding);
 }
@@ -81,9 +81,9 @@ void ClaimLane::along(double t, const StepSamples& samples, const StepPolynomial
   const Known value = known(end, false);
   if (claim_->over || !counts(t)) return;
   const bool stays = samples.start.rate == 0 && samples.middle.rate == 0 && samples.end.rate == 0;
-  const bool same = (stays || end.fine == end.coarse) && looked_ && value.value == last_.value &&
+  const bool same = (stays || end.fine == end.coarse) && sampled_ && value.value == last_.value &&
                     samples.middle.value == samples.start.value;
-  if (!looked_ || same) return compare(value, end.terms, same, halved);
+  if (!sampled_ || same) return compare(value, end.terms, same, halved);
   if (claim_->kind == ClaimKind::nonincreasing)
     compare({samples.middle.value, value.error}, end.terms, false, true);
   compare(value, end.terms, false, halved);
@@ -93,8 +93,8 @@ void ClaimLane::along(double t, const StepSamples& samples, const StepPolynomial
 /// The value at a point where the claim is made.
 void ClaimLane::compare(Known value, double terms, bool same, bool crowded) {
   last_ = value;
-  if (!looked_) {
-    looked_ = true;
+  if (!sampled_) {
+    sampled_ = true;
     first_ = low_ = high_ = value;
     if (claim_->kind == ClaimKind::nonincreasing || claim_->kind == ClaimKind::shrinks) return;
   }
@@ -166,7 +166,7 @@ void ClaimLane::compare_within(const StepSamples& samples, const StepPolynomial&
 }
 
 void ClaimLane::finish() {
-  if (!looked_ || open_) return;
+  if (!sampled_ || open_) return;
   // How near a run comes is what the worst one is chosen by.
   if (possible_score_ > score_ + kScore * (1 + std::abs(score_))) open_ = true;
   const double scale = std::abs(first_.value);

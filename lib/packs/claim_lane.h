@@ -38,7 +38,7 @@ class ClaimLane {
 
   bool open() const { return open_; }
   bool violated() const { return violated_; }
-  bool looked() const { return looked_; }
+  bool sampled() const { return sampled_; }
   double score() const { return score_; }
   double floor() const { return floor_; }
 
@@ -72,7 +72,7 @@ class ClaimLane {
   double least_ = 0, most_ = 0, size_ = 0;  ///< of the values so far
   bool seen_ = false;
   Known first_, last_, low_, high_;
-  bool looked_ = false, open_ = false, violated_ = false;
+  bool sampled_ = false, open_ = false, violated_ = false;
   double score_ = -std::numeric_limits<double>::infinity();
   double possible_score_ = -std::numeric_limits<double>::infinity();  ///< amid branches
   double floor_ = 0;

@@ -11,7 +11,7 @@ bool LaneSet::settle(std::size_t l) {
   if (!find_sides(l)) return false;
   const std::optional<bool> changed = set_branches(l);
   if (!changed) return false;
-  if (*changed) return true;  // to be looked at again
+  if (*changed) return true;  // to be evaluated again
   for (std::size_t c = 0; c < lane.claims.size(); ++c) {
     if (lane.fresh || lane.jumped)
       lane.claims[c].at(lane.t, reading(c, l, start_, coarse_start_), lane.jumped);
@@ -99,7 +99,7 @@ bool LaneSet::go_on(std::size_t l) {
   }
   // A branch that changes here is to be set before the flow goes on.
   if (has_open_branch(lane)) {
-    lane.phase = Phase::look;
+    lane.phase = Phase::evaluate;
     return true;
   }
   return begin_flow(l);
@@ -183,7 +183,7 @@ bool LaneSet::begin_flow(std::size_t l) {
   for (const PackClaim& claim : pack_.claims)
     if (claim.after > lane.t) lane.stop = std::min(lane.stop, claim.after);
   lane.flow_start = lane.t;
-  lane.looks = lane.steps = 0;
+  lane.evaluations = lane.steps = 0;
   lane.has_jumped = false;
   lane.largest.setZero();
   lane.phase = Phase::step;
@@ -191,7 +191,7 @@ bool LaneSet::begin_flow(std::size_t l) {
   return lane.stop > lane.t || open(Why::jumps);
 }
 
-void LaneSet::move(std::size_t l, LaneValues& values, const LaneLook& seen, double time) {
+void LaneSet::move(std::size_t l, LaneValues& values, const LanePoint& seen, double time) {
   for (std::size_t k = 0; k < pack_.rows.size(); ++k)
     values.at(static_cast<std::size_t>(pack_.rows[k]), l) +=
         time * seen.at(PackSystem::rates, k, l);
@@ -227,7 +227,7 @@ bool LaneSet::arrive_at_root(std::size_t l, std::size_t target) {
     lane.wanted =
         std::min(lane.wanted, std::max(2 * (lane.t - lane.flow_start), hybrid::kHardly * horizon_));
   keep_before(l);
-  lane.phase = Phase::look;
+  lane.phase = Phase::evaluate;
   return !lane.due || begin_jump(l);
 }
 
@@ -256,7 +256,7 @@ bool LaneSet::arrive_at_stop(std::size_t l) {
   if (lane.noise.draw_due(lane.t, scratch_)) {
     for (std::size_t k = 0; k < pack_.system->noise.size(); ++k)
       if (pack_.system->noise[k].every) take_noise(k, l);
-    lane.phase = Phase::look;
+    lane.phase = Phase::evaluate;
     return true;
   }
   return go_on(l);

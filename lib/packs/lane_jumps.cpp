@@ -47,8 +47,8 @@ void LaneSet::take_noise(std::size_t noise, std::size_t l) {
 }
 
 std::uint32_t LaneSet::allowed(std::size_t event, std::uint32_t mask) {
-  look(look_, fine_, middle_, mask);
-  look(look_, coarse_, end_, mask);
+  evaluate(point_, fine_, middle_, mask);
+  evaluate(point_, coarse_, end_, mask);
   std::uint32_t goes = 0;
   each(mask, [&](std::size_t l) {
     Sides sides(pack_.watches.size(), 0);
@@ -73,7 +73,7 @@ std::uint32_t LaneSet::allowed(std::size_t event, std::uint32_t mask) {
     lane.spent[event] =
         pack_.system->dynamics.events[event].kind == Dynamics::EventKind::when ? 1 : 0;
     keep_before(l);
-    lane.phase = Phase::look;
+    lane.phase = Phase::evaluate;
   });
   return goes;
 }
@@ -114,7 +114,7 @@ void LaneSet::jump(std::size_t event, std::uint32_t mask, LaneMachine& machine) 
     keep_before(l);
     lane.happened[event] = 1;
     lane.jumped = event;
-    lane.phase = Phase::look;
+    lane.phase = Phase::evaluate;
   });
 }
 

@@ -23,9 +23,9 @@ LaneSet::LaneSet(const PackSystem& pack)
     : pack_(pack),
       horizon_(pack.scenario->horizon),
       step_(*pack.step),
-      look_(*pack.look),
-      look_coarse_(*pack.look_coarse),
-      look_between_(*pack.look_between),
+      point_(*pack.point),
+      coarse_point_(*pack.coarse_point),
+      between_points_(*pack.between_points),
       polynomials_(*pack.polynomials),
       begin_(*pack.start),
       coarse_(pack.whole),
@@ -37,9 +37,9 @@ LaneSet::LaneSet(const PackSystem& pack)
       lengths_(1),
       errors_(1),
       scratch_(Eigen::VectorXd::Zero(pack.system->whole)) {
-  for (LaneLook* look :
-       {&start_, &coarse_start_, &middle_, &end_, &coarse_look_, &quarter_, &three_quarters_})
-    for (std::size_t r = 0; r < look->of.size(); ++r) look->of[r] = LaneValues(rows_of(r));
+  for (LanePoint* point :
+       {&start_, &coarse_start_, &middle_, &end_, &coarse_at_end_, &quarter_, &three_quarters_})
+    for (std::size_t r = 0; r < point->of.size(); ++r) point->of[r] = LaneValues(rows_of(r));
   for (const PackEvent& event : pack.events) {
     jumps_.emplace_back(*event.jump);
     lost_.emplace_back();
@@ -83,8 +83,8 @@ void LaneSet::run_waiting(const PackAccuracy& accuracy) {
     refill();
     if (const std::uint32_t jumping = in(Phase::jump)) {
       jump_all(jumping);
-    } else if (const std::uint32_t looking = in(Phase::look)) {
-      look_all(looking);
+    } else if (const std::uint32_t due = in(Phase::evaluate)) {
+      evaluate_all(due);
     } else if (stepping != 0) {
       step_all(stepping);
     } else {
@@ -154,7 +154,7 @@ void LaneSet::finish(std::size_t l) {
     verdict.open = verdict.open || claim.open();
     if (claim.open()) verdict.why = Why::claim;
     verdict.claims.push_back(
-        {claim.violated(), claim.looked(), claim.score(), claim.floor(), 0, 0, 0});
+        {claim.violated(), claim.sampled(), claim.score(), claim.floor(), 0, 0, 0});
   }
   verdict.happened = lane.happened;
   lanes_[l].reset();
@@ -168,8 +168,8 @@ void LaneSet::fill_clocks(std::size_t l) {
       set(element, l, std::max(lane.clocks.due(e) - lane.t, 0.0));
 }
 
-void LaneSet::look(lanes::LaneMachine& by, const LaneValues& values, LaneLook& seen,
-                   std::uint32_t active) {
+void LaneSet::evaluate(lanes::LaneMachine& by, const LaneValues& values, LanePoint& seen,
+                       std::uint32_t active) {
   std::copy_n(values.row(0), values.rows() * kLanes, by.input(0));
   by.run(active);
   seen.faults = by.faults();
@@ -193,15 +193,15 @@ std::uint32_t LaneSet::begin_claims(std::uint32_t mask) {
   return begin_.faults() & fresh;
 }
 
-void LaneSet::look_all(std::uint32_t mask) {
-  look(look_, fine_, middle_, mask);
-  look(look_, coarse_, end_, mask);
+void LaneSet::evaluate_all(std::uint32_t mask) {
+  evaluate(point_, fine_, middle_, mask);
+  evaluate(point_, coarse_, end_, mask);
   const std::uint32_t faults = middle_.faults | end_.faults | begin_claims(mask);
   each(mask, [&](std::size_t l) {
     start_.copy_lane(middle_, l);
     coarse_start_.copy_lane(end_, l);
     const bool fault = (faults >> l & 1U) != 0 && !open(Why::no_value);
-    const bool endless = ++lanes_[l]->looks > kMostLooks && !open(Why::jumps);
+    const bool endless = ++lanes_[l]->evaluations > kMostAtOneInstant && !open(Why::jumps);
     if (fault || endless || !settle(l)) leave_open(l);
   });
 }

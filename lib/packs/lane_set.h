@@ -50,19 +50,20 @@ class LaneSet {
 
   // --- Looking at values. ---
 
-  void look(lanes::LaneMachine& by, const LaneValues& values, LaneLook& seen, std::uint32_t active);
+  void evaluate(lanes::LaneMachine& by, const LaneValues& values, LanePoint& seen,
+                std::uint32_t active);
   /// How far a watched difference may be from the true one.
-  static double error_of(std::size_t w, std::size_t l, const LaneLook& fine,
-                         const LaneLook& coarse) {
+  static double error_of(std::size_t w, std::size_t l, const LanePoint& fine,
+                         const LanePoint& coarse) {
     return kErrorOfPair * std::abs(fine.at(PackSystem::watch_values, w, l) -
                                    coarse.at(PackSystem::watch_values, w, l)) +
            hybrid::kTermRounding * fine.at(PackSystem::watch_terms, w, l);
   }
-  void look_all(std::uint32_t mask);
+  void evaluate_all(std::uint32_t mask);
   /// With what the claims of lanes that begin are compared; the lanes in which it has no value.
   std::uint32_t begin_claims(std::uint32_t mask);
-  Reading reading(std::size_t claim, std::size_t l, const LaneLook& fine,
-                  const LaneLook& coarse) const {
+  Reading reading(std::size_t claim, std::size_t l, const LanePoint& fine,
+                  const LanePoint& coarse) const {
     return {fine.at(PackSystem::claim_values, claim, l),
             coarse.at(PackSystem::claim_values, claim, l),
             fine.at(PackSystem::claim_terms, claim, l)};
@@ -108,7 +109,7 @@ class LaneSet {
     lane.forced = 0;
   }
   /// Along the flow, to first order.
-  void move(std::size_t l, LaneValues& values, const LaneLook& seen, double time);
+  void move(std::size_t l, LaneValues& values, const LanePoint& seen, double time);
   /// Whether the conditions that hung on unknown sides are as they must be, and flow sets hold.
   bool still_inside(std::size_t l);
   bool arrive_at_root(std::size_t l, std::size_t target);
@@ -136,7 +137,7 @@ class LaneSet {
             std::uint32_t& faults);
   void step_all(std::uint32_t mask);
   /// The finer run at a quarter of the step, or at three quarters (`mirrored`), by its quintic.
-  void look_between(bool mirrored, LaneLook& seen, std::uint32_t active);
+  void evaluate_between(bool mirrored, LanePoint& seen, std::uint32_t active);
   static double choose_length(PackLane& lane);
   bool shorten(PackLane& lane, double factor);
   bool judge_step(std::size_t l, bool fault);
@@ -147,7 +148,7 @@ class LaneSet {
     return {polynomials_, pack_.claims.size() + watch, l};
   }
   StepSamples claim_samples(std::size_t claim, std::size_t l) const {
-    const auto at = [&](const LaneLook& seen) {
+    const auto at = [&](const LanePoint& seen) {
       return Sample{seen.at(PackSystem::claim_values, claim, l),
                     seen.at(PackSystem::claim_rates, claim, l)};
     };
@@ -188,15 +189,15 @@ class LaneSet {
 
   const PackSystem& pack_;
   double horizon_;
-  lanes::LaneMachine step_, look_, look_coarse_, look_between_, polynomials_, begin_;
+  lanes::LaneMachine step_, point_, coarse_point_, between_points_, polynomials_, begin_;
   std::vector<lanes::LaneMachine> jumps_;
   std::vector<std::optional<lanes::LaneMachine>> lost_;
   LaneValues coarse_, fine_;  ///< now
   LaneValues coarse_end_, fine_middle_, fine_end_;
   LaneValues between_;  ///< at a quarter of the step
   LaneValues lengths_, errors_;
-  LaneLook start_, coarse_start_;  ///< at the values now
-  LaneLook middle_, end_, coarse_look_, quarter_, three_quarters_;
+  LanePoint start_, coarse_start_;  ///< at the values now
+  LanePoint middle_, end_, coarse_at_end_, quarter_, three_quarters_;
   bool ends_in_zeno_ = false;      ///< whether events without a clock may accumulate
   std::vector<bool> is_crossing_;  ///< by watch: of rises, falls, crosses
   std::vector<std::size_t> times_;

@@ -21,9 +21,9 @@ void LaneSet::step(const LaneValues& from, double share, LaneValues& to, std::ui
                 to.row(static_cast<std::size_t>(pack_.rows[k])));
 }
 
-void LaneSet::look_between(bool mirrored, LaneLook& seen, std::uint32_t active) {
+void LaneSet::evaluate_between(bool mirrored, LanePoint& seen, std::uint32_t active) {
   const LaneValues* const values[] = {&fine_, &fine_middle_, &fine_end_};
-  const LaneLook* const looks[] = {&start_, &middle_, &end_};
+  const LanePoint* const points[] = {&start_, &middle_, &end_};
   std::copy_n(fine_.row(0), pack_.whole * kLanes, between_.row(0));
   for (std::size_t k = 0; k < pack_.rows.size(); ++k) {
     const auto row = static_cast<std::size_t>(pack_.rows[k]);
@@ -33,20 +33,20 @@ void LaneSet::look_between(bool mirrored, LaneLook& seen, std::uint32_t active) 
         const std::size_t weight = mirrored ? 2 - point : point;
         const double length = mirrored ? -lengths_.at(0, l) : lengths_.at(0, l);
         sum += QuarterWeights::values[weight] * values[point]->at(row, l) +
-               length * QuarterWeights::rates[weight] * looks[point]->at(PackSystem::rates, k, l);
+               length * QuarterWeights::rates[weight] * points[point]->at(PackSystem::rates, k, l);
       }
       between_.at(row, l) = sum;
     }
   }
-  look(look_between_, between_, seen, active);
+  evaluate(between_points_, between_, seen, active);
 }
 
 void LaneSet::follow(std::uint32_t active) {
   using Polynomials = StepPolynomials;
   std::copy_n(lengths_.row(0), kLanes, polynomials_.input(0));
-  const auto give = [&](std::size_t value, PackSystem::LookResult values,
-                        PackSystem::LookResult rates, std::size_t k) {
-    const auto copy = [&](const LaneLook& seen, PackSystem::LookResult of,
+  const auto give = [&](std::size_t value, PackSystem::PointResult values,
+                        PackSystem::PointResult rates, std::size_t k) {
+    const auto copy = [&](const LanePoint& seen, PackSystem::PointResult of,
                           Polynomials::InputOfValue which) {
       std::copy_n(seen.of[of].row(k), kLanes,
                   polynomials_.input(Polynomials::input_of(value, which)));
@@ -76,14 +76,14 @@ void LaneSet::step_all(std::uint32_t mask) {
   std::copy_n(step_.result(PackSystem::error, 0), kLanes, errors_.row(0));
   step(fine_, 0.5, fine_middle_, mask, faults);
   step(fine_middle_, 0.5, fine_end_, mask, faults);
-  look(look_, fine_middle_, middle_, mask);
+  evaluate(point_, fine_middle_, middle_, mask);
   faults |= middle_.faults;
-  look(look_, fine_end_, end_, mask);
+  evaluate(point_, fine_end_, end_, mask);
   faults |= end_.faults;
-  look(look_coarse_, coarse_end_, coarse_look_, mask);
-  faults |= coarse_look_.faults;
-  look_between(false, quarter_, mask);
-  look_between(true, three_quarters_, mask);
+  evaluate(coarse_point_, coarse_end_, coarse_at_end_, mask);
+  faults |= coarse_at_end_.faults;
+  evaluate_between(false, quarter_, mask);
+  evaluate_between(true, three_quarters_, mask);
   faults |= quarter_.faults | three_quarters_.faults;
   follow(mask);
   each(mask, [&](std::size_t l) {
@@ -154,7 +154,7 @@ bool LaneSet::find_root(std::size_t l, int& target, double& share) {
     if (lane.relevant[w] == 0 || !pack_.watches[w].moves) continue;
     const StepPolynomial along = along_watch(w, l);
     const double error =
-        std::max(error_of(w, l, start_, coarse_start_), error_of(w, l, end_, coarse_look_)) +
+        std::max(error_of(w, l, start_, coarse_start_), error_of(w, l, end_, coarse_at_end_)) +
         along.error();
     const auto& b = along.coefficients();
     const int known = lane.sides[w];
@@ -239,7 +239,7 @@ bool LaneSet::accept(std::size_t l) {
   lane.claims_before = lane.claims;
   for (std::size_t c = 0; c < lane.claims.size(); ++c) {
     lane.claims[c].along(now, claim_samples(c, l), along_claim(c, l),
-                         reading(c, l, end_, coarse_look_), may_branch(c, l),
+                         reading(c, l, end_, coarse_at_end_), may_branch(c, l),
                          lane.halvings > 0 || 2 * lane.h < lane.wanted);
     if (!lane.claims[c].open()) continue;
     // Two halves may say more.
@@ -260,7 +260,7 @@ bool LaneSet::accept(std::size_t l) {
   coarse_.copy_lane(coarse_end_, l);
   fine_.copy_lane(fine_end_, l);
   start_.copy_lane(end_, l);
-  coarse_start_.copy_lane(coarse_look_, l);
+  coarse_start_.copy_lane(coarse_at_end_, l);
   const double wanted = lane.h * ode::step_factor(errors_.at(0, l));
   const bool shortened = lane.forced > 0 || lane.h < lane.wanted;
   lane.wanted = shortened ? std::max(lane.wanted, wanted) : wanted;
@@ -310,7 +310,7 @@ void LaneSet::find_new_sides(std::size_t l) {
   for (std::size_t w = 0; w < pack_.watches.size(); ++w) {
     if (!pack_.watches[w].moves) continue;
     const double value = std::abs(end_.at(PackSystem::watch_values, w, l));
-    const double error = error_of(w, l, end_, coarse_look_);
+    const double error = error_of(w, l, end_, coarse_at_end_);
     if (static_cast<int>(w) == lane.target) {
       lane.sides[w] = static_cast<std::int8_t>(-lane.sides[w]);
       lane.zero[w] = std::max(error, 2 * value);

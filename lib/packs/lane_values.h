@@ -1,4 +1,4 @@
-// Values of all lanes: row k is the kLanes numbers of value k, and what `look` says of them.
+// Values of all lanes: row k is the kLanes numbers of value k, and those that the texts have there.
 #pragma once
 
 #include <algorithm>
@@ -32,15 +32,15 @@ inline std::int8_t sign_of(double x) {
   return static_cast<std::int8_t>(x > 0 ? 1 : x < 0 ? -1 : 0);
 }
 
-/// The results of `look`, by PackSystem::LookResult.
-struct LaneLook {
+/// The results of PackSystem::point, by PointResult.
+struct LanePoint {
   std::array<LaneValues, PackSystem::extras + 1> of;
   std::uint32_t faults = 0;
 
-  double at(PackSystem::LookResult result, std::size_t k, std::size_t lane) const {
+  double at(PackSystem::PointResult result, std::size_t k, std::size_t lane) const {
     return of[result].at(k, lane);
   }
-  void copy_lane(const LaneLook& from, std::size_t lane) {
+  void copy_lane(const LanePoint& from, std::size_t lane) {
     for (std::size_t r = 0; r < of.size(); ++r) of[r].copy_lane(from.of[r], lane);
   }
 };

@@ -7,9 +7,9 @@
 
 #include "base/stop.h"
 #include "hybrid/tolerances.h"
+#include "linear/length_table.h"
 #include "linear/tolerances.h"
 #include "packs/lane_lengths.h"
-#include "packs/length_table.h"
 #include "packs/tolerances.h"
 
 namespace gainsmith::packs {
@@ -21,14 +21,14 @@ using model::ClaimKind;
 /// What is drawn, over lanes.
 class LaneStarts {
  public:
-  explicit LaneStarts(const LinearModel& model) : model_(&model) {}
+  explicit LaneStarts(const linear::LinearModel& model) : model_(&model) {}
 
   /// Bit by bit that of hybrid::draw_start, to the inputs from `first` on.
   void draw(std::uint64_t seed, const LaneRuns& runs, std::size_t first, LaneMachine& machine) {
     if (model_->scenario->given_for(runs.front()) != nullptr)
       return take_given(seed, runs, first, machine);
     for (std::size_t k = 0; k < model_->drawn.size(); ++k) {
-      const DrawnElement& element = model_->drawn[k];
+      const linear::DrawnElement& element = model_->drawn[k];
       const hybrid::StartRule& rule = *model_->scenario->starts[element.variable];
       double* const out = machine.input(first + k);
       if (rule.kind == model::StartKind::box) {
@@ -56,7 +56,7 @@ class LaneStarts {
       if (l == 0 || runs[l] != runs[l - 1])
         start = hybrid::draw_start(system, *model_->scenario, seed, runs[l]);
       for (std::size_t k = 0; k < model_->drawn.size(); ++k) {
-        const DrawnElement& drawn = model_->drawn[k];
+        const linear::DrawnElement& drawn = model_->drawn[k];
         machine.input(first + k)[l] =
             start(system.layout.slots[drawn.variable].offset + drawn.element);
       }
@@ -76,12 +76,12 @@ class LaneStarts {
     }
   }
 
-  const LinearModel* model_;
+  const linear::LinearModel* model_;
 };
 
 class LinearLanes {
  public:
-  explicit LinearLanes(const LinearSystem& system)
+  explicit LinearLanes(const linear::LinearSystem& system)
       : system_(system),
         starts_(system.model),
         lengths_(*system.model.sampled->dynamics, *system.model.scenario),
@@ -313,7 +313,7 @@ class LinearLanes {
     LaneNumbers sum{}, error{};
   };
 
-  const LinearSystem& system_;
+  const linear::LinearSystem& system_;
   LaneStarts starts_;
   LaneLengths lengths_;
   LaneMachine first_, step_, gather_, last_;
@@ -330,12 +330,12 @@ class LinearLanes {
 
 bool LinearLanes::judge_rise(std::size_t c, std::size_t l, PackVerdict::Claim& claim) const {
   const Known before = start(c, l), after = end(c, l);
-  const bool compared = is_compared(system_.model.claims[c]);
+  const bool compared = linear::is_compared(system_.model.claims[c]);
   const double open = compared ? carried(c, 2, l) : 0, rise = compared ? carried(c, 3, l) : 0;
   const double scale = std::abs(before.value);
   claim.violated = rise > 0;
   const bool tolerant = compared && system_.model.claims[c].tolerance > 0;
-  const double whole = tolerant ? carried(c, kWholeRise, l) : rise;
+  const double whole = tolerant ? carried(c, linear::kWholeRise, l) : rise;
   claim.score = (claim.violated ? unit_of(l) * whole : after.value - before.value) / scale;
   claim.bound = before.value;
   claim.error = after.error;
@@ -360,7 +360,7 @@ bool LinearLanes::judge_cost(std::size_t c, std::size_t l, PackVerdict::Claim& c
 }
 
 bool LinearLanes::judge_shrinking(std::size_t c, std::size_t l, PackVerdict::Claim& claim) const {
-  const LinearClaim& stated = system_.model.claims[c];
+  const linear::LinearClaim& stated = system_.model.claims[c];
   const Known before = start(c, l), after = end(c, l);
   const double factor = stated.squared ? stated.factor * stated.factor : stated.factor;
   const Known goal{factor * before.value, factor * before.error};
@@ -396,7 +396,7 @@ PackVerdict LinearLanes::verdict(std::size_t l) const {
   return verdict;
 }
 
-LinearRunner::LinearRunner(const LinearSystem& system)
+LinearRunner::LinearRunner(const linear::LinearSystem& system)
     : lanes_(std::make_unique<LinearLanes>(system)) {}
 LinearRunner::LinearRunner(LinearRunner&&) noexcept = default;
 LinearRunner& LinearRunner::operator=(LinearRunner&&) noexcept = default;

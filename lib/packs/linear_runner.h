@@ -1,11 +1,11 @@
-// Runs of a linear system, kLanes at once (linear_system.h): those of one law together.
+// Runs of a linear system, kLanes at once (linear/system.h): those of one law together.
 #pragma once
 
 #include <cstdint>
 #include <memory>
 #include <vector>
 
-#include "packs/linear_system.h"
+#include "linear/system.h"
 #include "packs/pack_runner.h"
 
 namespace gainsmith::packs {
@@ -15,7 +15,7 @@ class LinearLanes;
 class LinearRunner {
  public:
   /// One for each thread. The system must outlive it.
-  explicit LinearRunner(const LinearSystem& system);
+  explicit LinearRunner(const linear::LinearSystem& system);
   LinearRunner(LinearRunner&&) noexcept;
   LinearRunner& operator=(LinearRunner&&) noexcept;
   ~LinearRunner();

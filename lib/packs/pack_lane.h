@@ -12,9 +12,9 @@
 namespace gainsmith::packs {
 
 enum class Phase : std::uint8_t {
-  look,  ///< at an instant, its values have changed: what follows is to be found out
-  step,  ///< flows
-  jump   ///< an event is due
+  evaluate,  ///< at an instant, its values have changed: what follows is to be found out
+  step,      ///< flows
+  jump       ///< an event is due
 };
 
 struct PackLane {
@@ -36,7 +36,7 @@ struct PackLane {
         largest(Eigen::VectorXd::Zero(pack.system->size)) {}
 
   std::uint64_t run_number = 0;
-  Phase phase = Phase::look;
+  Phase phase = Phase::evaluate;
   bool fresh = true;  ///< at the start, of which no claim knows yet
   double t = 0;
   double stop = 0;  ///< to which the flow is stepped
@@ -48,7 +48,7 @@ struct PackLane {
   int target = -1;  ///< the watch whose root a step goes to
   int retakes = 0;
   int steps = 0;            ///< in this flow
-  int looks = 0;            ///< at this instant
+  int evaluations = 0;      ///< at this instant
   bool has_jumped = false;  ///< at this instant
   hybrid::EventClocks clocks;
   hybrid::NoiseDraws noise;

@@ -41,7 +41,7 @@ std::string to_string(Why why);
 struct PackVerdict {
   struct Claim {
     bool violated = false;
-    bool looked = true;
+    bool sampled = true;
     double score = 0;  ///< claims::Finding::score
     double floor = 0;
     double value = 0, bound = 0;  ///< of it; of linear runs

@@ -3,12 +3,12 @@
 #include <algorithm>
 
 #include "expr/branches.h"
+#include "expr/square_of_norm.h"
 #include "hybrid/breaks.h"
 #include "numbers/scalar_rules.h"
 #include "ode/dormand_prince.h"
 #include "packs/jump_code.h"
 #include "packs/sharp_parts.h"
-#include "packs/square_of_norm.h"
 #include "packs/step_polynomial.h"
 #include "packs/tolerances.h"
 
@@ -139,9 +139,9 @@ class StepCode {
 
 // --- Claims and what is watched. ---
 
-class LookCode {
+class PointCode {
  public:
-  explicit LookCode(PackSystem& pack)
+  explicit PointCode(PackSystem& pack)
       : pack_(pack), texts_(*pack.system, pack.costs), sharp_(*pack.system, texts_.graph()) {
     x_ = texts_.inputs();
     rates_ = texts_.rates(x_);
@@ -155,7 +155,7 @@ class LookCode {
     made.over = claim.over;
     made.tolerance = claim.tolerance;
     if (claim.kind == model::ClaimKind::cost) return add_cost(claim);
-    const auto square = is_compared_once(claim) ? square_of_norm(claim.value) : std::nullopt;
+    const auto square = is_compared_once(claim) ? expr::square_of_norm(claim.value) : std::nullopt;
     made.squared = square.has_value();
     const expr::Program& text = square ? *square : claim.value;
     const numbers::TracedMatrix value = texts_.moving(text, x_, rates_);
@@ -216,11 +216,11 @@ class LookCode {
   }
 
   void make() {
-    pack_.look.emplace(texts_.graph(), results_, pack_.whole);
+    pack_.point.emplace(texts_.graph(), results_, pack_.whole);
     using Is = PackSystem;
-    pack_.look_coarse.emplace(
+    pack_.coarse_point.emplace(
         without({Is::rates, Is::claim_rates, Is::claim_terms, Is::watch_terms, Is::extras}));
-    pack_.look_between.emplace(
+    pack_.between_points.emplace(
         without({Is::rates, Is::claim_rates, Is::claim_terms, Is::watch_rates, Is::watch_terms}));
   }
 
@@ -233,9 +233,9 @@ class LookCode {
             claim.kind == ClaimKind::shrinks);
   }
 
-  LaneCode without(std::initializer_list<PackSystem::LookResult> left_out) {
+  LaneCode without(std::initializer_list<PackSystem::PointResult> left_out) {
     auto results = results_;
-    for (const PackSystem::LookResult one : left_out) results[one].clear();
+    for (const PackSystem::PointResult one : left_out) results[one].clear();
     return {texts_.graph(), results, pack_.whole, {}, numbers::Computed::needed};
   }
 
@@ -270,7 +270,7 @@ class LookCode {
                                         : texts_.graph().negate(node);
   }
 
-  void push(PackSystem::LookResult result, int node) { results_[result].push_back(node); }
+  void push(PackSystem::PointResult result, int node) { results_[result].push_back(node); }
 
   PackSystem& pack_;
   PackGraph texts_;
@@ -299,21 +299,21 @@ lanes::LaneCode start_code(const PackSystem& pack, const std::vector<claims::Cla
   return {texts.graph(), results, pack.whole};
 }
 
-bool add_event(const Dynamics::Event& event, LookCode& look, PackSystem& pack) {
+bool add_event(const Dynamics::Event& event, PointCode& point, PackSystem& pack) {
   PackEvent& made = pack.events.emplace_back();
-  if (event.condition && !look.add(*event.condition, made.when.emplace())) return false;
-  if (event.only_if && !look.add(*event.only_if, made.only_if.emplace())) return false;
-  if (event.crossing) made.crossing = look.watch(event.crossing->program).front();
+  if (event.condition && !point.add(*event.condition, made.when.emplace())) return false;
+  if (event.only_if && !point.add(*event.only_if, made.only_if.emplace())) return false;
+  if (event.crossing) made.crossing = point.watch(event.crossing->program).front();
   return true;
 }
 
 /// A kink is continuous: the control of steps sees to it.
-void add_switches(LookCode& look, PackSystem& pack) {
+void add_switches(PointCode& point, PackSystem& pack) {
   for (const hybrid::Switch& one : pack.system->switches) {
     if (one.kind == hybrid::Switch::Kind::kink) continue;
     const auto& slot = pack.system->layout.slots[*pack.system->slot(one.input)];
     auto element = static_cast<std::size_t>(slot.offset);
-    for (const Watched& watched : look.watch(one.difference))
+    for (const Watched& watched : point.watch(one.difference))
       pack.watches[watched.watch].branches.push_back(
           {element++, watched.factor, one.kind == hybrid::Switch::Kind::sign, one.strict});
   }
@@ -340,16 +340,16 @@ std::unique_ptr<const PackSystem> make_pack_system(const hybrid::System& system,
   pack->rows = PackGraph(system, pack->costs).rows();
   try {
     pack->step.emplace(StepCode(*pack).make(relative, absolute));
-    LookCode look(*pack);
+    PointCode point(*pack);
     for (const claims::Claim& claim : claims)
-      if (claim.stated()) look.add(claim);
+      if (claim.stated()) point.add(claim);
     for (const Dynamics::Event& event : system.dynamics.events)
-      if (!add_event(event, look, *pack)) return nullptr;
+      if (!add_event(event, point, *pack)) return nullptr;
     for (const Dynamics::Component& component : system.dynamics.components)
       for (const auto& set : component.flow_sets)
-        if (!look.add(set.where, pack->flow_sets.emplace_back())) return nullptr;
-    add_switches(look, *pack);
-    look.make();
+        if (!point.add(set.where, pack->flow_sets.emplace_back())) return nullptr;
+    add_switches(point, *pack);
+    point.make();
     pack->polynomials.emplace(StepPolynomials::code(pack->claims.size() + pack->watches.size()));
     pack->start.emplace(start_code(*pack, claims));
   } catch (const numbers::NoFormula&) {

@@ -3,7 +3,7 @@
 //   step    values, h, the factors of a PackAccuracy -> the values that move after a step of length
 //           h by the method of order 8 of Dormand and Prince, and its error as a part of what is
 //           allowed
-//   look    values -> rates, claims with their rates, and what is watched: the differences of
+//   point   values -> rates, claims with their rates, and what is watched: the differences of
 //           conditions, of crossings and of switches, with their rates
 //   jump    of each event: values -> values after its maps
 //
@@ -89,7 +89,7 @@ struct PackSystem {
   std::optional<lanes::LaneCode> step, start;
   /// At the points of steps; at the end of the coarser run, without rates and terms of claims; and
   /// between the points, values alone.
-  std::optional<lanes::LaneCode> look, look_coarse, look_between;
+  std::optional<lanes::LaneCode> point, coarse_point, between_points;
   /// Of claims, then of watches, over a step (step_polynomial.h).
   std::optional<lanes::LaneCode> polynomials;
 
@@ -98,9 +98,9 @@ struct PackSystem {
   /// Results of `start`, of each claim: the bound or the factor, of a cost its value at the start;
   /// of a cost also the sum of the absolute values of its terms.
   enum StartResult : std::size_t { limits, limit_terms };
-  /// Results of `look`. terms: the sums of the absolute values of the terms of a value; extras: the
+  /// Results of `point`. terms: the sums of the absolute values of the terms of a value; extras: the
   /// differences that claims branch on.
-  enum LookResult : std::size_t {
+  enum PointResult : std::size_t {
     rates,
     claim_values,
     claim_rates,

@@ -10,7 +10,7 @@ namespace {
 
 std::string verdict_of(const model::ClaimRecord& check) {
   if (!check.stated) return "not stated";
-  if (!check.looked_at) return "never checked";
+  if (!check.sampled) return "never checked";
   if (check.violations > 0) return "violated in " + count_of(check.violations, "run");
   if (check.undecided > 0) return "undecided in " + count_of(check.undecided, "run");
   return "held";
@@ -24,7 +24,7 @@ std::string claim_line(const model::ClaimRecord& check) {
   add(check.name);
   add(check.kind);
   add(verdict_of(check));
-  if (check.stated && check.looked_at) {
+  if (check.stated && check.sampled) {
     add(std::to_string(check.worst_run));
     add(shown(check.worst.value));
     add(shown(check.worst.bound));
@@ -70,7 +70,7 @@ std::vector<std::uint64_t> worst_runs(const model::CampaignRecord& campaign) {
     if (std::find(runs.begin(), runs.end(), run) == runs.end()) runs.push_back(run);
   };
   for (const model::ClaimRecord& check : campaign.checks)
-    if (check.stated && check.looked_at) add(check.worst_run);
+    if (check.stated && check.sampled) add(check.worst_run);
   if (campaign.first_unfinished) add(campaign.first_unfinished->run);
   if (campaign.first_undecided) add(campaign.first_undecided->run);
   return runs;
@@ -110,9 +110,8 @@ std::string campaign_section(const Results& results) {
                                   std::to_string(campaign.first_undecided->run) + ": " +
                                   campaign.first_undecided->why);
   if (campaign.repeated > 0)
-    text +=
-        text_element("p", count_of(campaign.repeated, "run") + " repeated more accurately; " +
-                              std::to_string(campaign.confirmed.size()) + " violated again.");
+    text += text_element("p", count_of(campaign.repeated, "run") + " repeated more accurately; " +
+                                  std::to_string(campaign.confirmed.size()) + " violated again.");
   for (const std::string& note : campaign.notes) text += text_element("p", "Note: " + note + ".");
   return section("Campaign", text + replay_text(campaign));
 }

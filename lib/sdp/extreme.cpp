@@ -10,7 +10,7 @@ namespace {
 /// How sharp the bound must be, relative to the eigenvalue.
 constexpr double kSharpness = 0.01, kTridiagonalSharpness = 0.001;
 /// Ritz values are looked at from this step on, every few steps.
-constexpr Eigen::Index kFirstLook = 8, kBetweenLooks = 4;
+constexpr Eigen::Index kFirstCheck = 8, kBetweenChecks = 4;
 
 /// Are all eigenvalues of T above `shift`?
 bool all_above(const Eigen::Ref<const Eigen::VectorXd>& diagonal,
@@ -73,7 +73,7 @@ double Lanczos::lower_bound(const Matrix& factor, const Matrix& D, double enough
     }
     beta_[k] = image_.norm();
     const bool exhausted = beta_[k] <= 1e-14 * std::abs(alpha_[0]) + 1e-300 || k + 1 == n;
-    if (exhausted || (k + 1 >= kFirstLook && (k + 1) % kBetweenLooks == 0)) {
+    if (exhausted || (k + 1 >= kFirstCheck && (k + 1) % kBetweenChecks == 0)) {
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(k + 1);
       ritz.computeFromTridiagonal(alpha_.head(k + 1), beta_.head(k), Eigen::ComputeEigenvectors);
       const double theta = ritz.eigenvalues()[0];

@@ -61,7 +61,7 @@ bool Preconditioner::shares_a_side(std::size_t P, std::size_t Y, bool transposed
 }
 
 /// Has P two terms in a block of Y? Then Y + P K leaves one that is coupled with Y all the same.
-bool Preconditioner::stands_twice(std::size_t P, std::size_t Y) const {
+bool Preconditioner::is_twice(std::size_t P, std::size_t Y) const {
   for (const MatrixOperator::Block& block : of_.blocks()) {
     const auto terms_of = [&](std::size_t unknown) {
       return std::count_if(block.terms.begin(), block.terms.end(),
@@ -80,7 +80,7 @@ void Preconditioner::find_links() {
     for (std::size_t P = 0; P < unknowns.size() && !found; ++P)
       for (const bool transposed : {false, true}) {
         if (found || !unknowns[P].symmetric || !shares_a_side(P, Y, transposed)) continue;
-        if (stands_twice(P, Y)) continue;
+        if (is_twice(P, Y)) continue;
         links_.push_back({P, Y, transposed, {}});
         found = true;
       }

@@ -43,7 +43,7 @@ class Preconditioner {
 
   void find_links();
   bool shares_a_side(std::size_t P, std::size_t Y, bool transposed) const;
-  bool stands_twice(std::size_t P, std::size_t Y) const;
+  bool is_twice(std::size_t P, std::size_t Y) const;
   Terms scaled_terms(std::size_t unknown, const Blocks<double>& G) const;
   void decouple(Link& link, std::vector<Terms>& terms) const;
   Basis symmetric_basis(const Terms& terms, Eigen::Index n) const;

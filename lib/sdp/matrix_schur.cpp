@@ -30,12 +30,12 @@ std::size_t MatrixSchur::count(std::size_t unknown) const {
 }
 
 bool MatrixSchur::is_coupled(std::size_t V, std::size_t U) const {
-  const auto stands_in = [&](const MatrixOperator::Block& block, std::size_t unknown) {
+  const auto is_in = [&](const MatrixOperator::Block& block, std::size_t unknown) {
     return std::any_of(block.terms.begin(), block.terms.end(),
                        [&](const auto& term) { return term.unknown == unknown; });
   };
   return std::any_of(of_.blocks().begin(), of_.blocks().end(),
-                     [&](const auto& block) { return stands_in(block, V) && stands_in(block, U); });
+                     [&](const auto& block) { return is_in(block, V) && is_in(block, U); });
 }
 
 // Those with the fewest neighbours first, counted in variables.

@@ -100,7 +100,7 @@ class Ladder {
     }
     if (!from || !over()) attempt(narrow, 1);
     if (digits == 0) descend(narrow);
-    if (!narrow.left()) search_both_ways(narrow);
+    if (!narrow.left()) search_in_both_directions(narrow);
     if (over() || !wider_) return;
 
     Ipm<DoubleDouble> wide(problem_, presolved_, options_);
@@ -111,7 +111,7 @@ class Ladder {
       run(wide, Model::fixed);
     }
     if (!over() && !relay(narrow, Leave::imprecise, wide, kFarther)) attempt(wide, kFarther);
-    search_both_ways(narrow);
+    search_in_both_directions(narrow);
     if (over() || cost() > kWideCost) return;
     reason_ = reason(name_of<DoubleDouble>());
     Ipm<Decimal100> widest(problem_, presolved_, options_);
@@ -166,7 +166,7 @@ class Ladder {
 
   /// Where no solution is in sight: the homogeneous model, which is slower but finds infeasibility
   /// on any problem, once.
-  void search_both_ways(Ipm<double>& narrow) {
+  void search_in_both_directions(Ipm<double>& narrow) {
     if (over() || best_error_ <= kInSight || searched_) return;
     searched_ = true;
     narrow.start_at_identity();

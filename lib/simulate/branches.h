@@ -1,4 +1,4 @@
-// The branches that a flow takes (switches.h), in one run.
+// The branches that a flow takes (hybrid/switches.h), in one run.
 //
 // A branch is wrong once its D has been on the other side by more than a slack:
 //

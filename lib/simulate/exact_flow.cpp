@@ -44,7 +44,7 @@ WideMatrix short_step(const WideMatrix& G, long double length) {
 
 class ExactFlow : public Flow {
  public:
-  ExactFlow(VectorField& field, double longest, const hybrid::LastPlaces* moved)
+  ExactFlow(VectorField& field, double longest, const LastPlaces* moved)
       : field_(&field), longest_(longest), moved_(moved) {}
 
   void start(double t, const VectorXd& values, double last) override {
@@ -233,14 +233,13 @@ class ExactFlow : public Flow {
   VectorXd z_;
   VectorXd peaks_;  ///< the largest sizes of this flow
   VectorXd sizes_;  ///< of the terms at the end of the step
-  const hybrid::LastPlaces* moved_;
+  const LastPlaces* moved_;
   VectorXd moves_;  ///< at the end of the step
 };
 
 }  // namespace
 
-std::unique_ptr<Flow> exact_flow(VectorField& field, double longest,
-                                 const hybrid::LastPlaces* moved) {
+std::unique_ptr<Flow> exact_flow(VectorField& field, double longest, const LastPlaces* moved) {
   return std::make_unique<ExactFlow>(field, longest, moved);
 }
 

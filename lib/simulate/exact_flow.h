@@ -9,6 +9,6 @@ namespace gainsmith::simulate {
 
 /// As make_flow (flow.h), of an affine system.
 std::unique_ptr<Flow> exact_flow(VectorField& field, double longest,
-                                 const hybrid::LastPlaces* moved = nullptr);
+                                 const LastPlaces* moved = nullptr);
 
 }  // namespace gainsmith::simulate

@@ -14,7 +14,7 @@ Accuracy Accuracy::times(double factor) const {
 }
 
 std::unique_ptr<Flow> make_flow(VectorField& field, const Accuracy& accuracy, double longest,
-                                const hybrid::LastPlaces* moved) {
+                                const LastPlaces* moved) {
   return field.system().affine ? exact_flow(field, longest, moved)
                                : integrated_flow(field, accuracy, longest);
 }

@@ -5,14 +5,14 @@
 //                that balance M (numerics/balance.h): after a start they grow as long as the series
 //                of degree 12 agrees to rounding, up to 1/w with w the largest |Im| or Re of an
 //                eigenvalue, so that nothing is stepped over.
-//   integrated   the steps of an integrator (integrator.h), and their polynomials.
+//   integrated   the steps of an integrator (ode/integrator.h), and their polynomials.
 #pragma once
 
 #include <Eigen/Core>
 #include <memory>
 
-#include "hybrid/last_places.h"
 #include "hybrid/trajectory.h"
+#include "simulate/last_places.h"
 #include "simulate/vector_field.h"
 
 namespace gainsmith::simulate {
@@ -39,7 +39,7 @@ class Flow {
   /// From the next start on errors count as absolute below `part` of the accuracy's: flows that
   /// shrink lead to values that shrink with them.
   virtual void sharpen(double part) { (void)part; }
-  /// The step from where the last one ended, at most to `last`. IntegrationError (integrator.h)
+  /// The step from where the last one ended, at most to `last`. IntegrationError (ode/integrator.h)
   /// where the flow ends before.
   virtual hybrid::DenseStep next() = 0;
 };
@@ -49,6 +49,6 @@ class Flow {
 /// start, so that what has just happened does not happen again. Integrated flows to two accuracies
 /// differ in rounding by themselves.
 std::unique_ptr<Flow> make_flow(VectorField& field, const Accuracy& accuracy, double longest,
-                                const hybrid::LastPlaces* moved = nullptr);
+                                const LastPlaces* moved = nullptr);
 
 }  // namespace gainsmith::simulate

@@ -47,7 +47,7 @@ JumpMaps::JumpMaps(const hybrid::System& system) : system_(&system) {
 }
 
 VectorXd JumpMaps::operator()(std::size_t event, bool lost, const VectorXd& before,
-                              const hybrid::LastPlaces* moved) {
+                              const LastPlaces* moved) {
   moved_ = moved;
   VectorXd after = before;
   std::int64_t passes = 0;

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "hybrid/event_functions.h"
-#include "hybrid/last_places.h"
 #include "hybrid/trajectory.h"
+#include "simulate/last_places.h"
 
 namespace gainsmith::simulate {
 
@@ -32,7 +32,7 @@ class JumpMaps {
   /// has no value; InputError for a mode that is no whole number and a symmetric state that is not.
   /// `moved`: by which results of arithmetic are moved, in a twin.
   Eigen::VectorXd operator()(std::size_t event, bool lost, const Eigen::VectorXd& before,
-                             const hybrid::LastPlaces* moved = nullptr);
+                             const LastPlaces* moved = nullptr);
 
  private:
   struct MapEntry {
@@ -40,7 +40,7 @@ class JumpMaps {
     hybrid::SystemFunction value;
     Place place;
     std::unique_ptr<const expr::Program> terms_program;
-    std::optional<hybrid::SystemFunction> terms;  ///< rounding_terms.h; none: the value is exact
+    std::optional<hybrid::SystemFunction> terms;  ///< none: the value is exact
   };
   struct Map {
     std::vector<MapEntry> entries;
@@ -59,7 +59,7 @@ class JumpMaps {
   const hybrid::System* system_;
   std::vector<Maps> maps_;                ///< by reaction
   std::vector<numbers::Matrix> results_;  ///< of one map
-  const hybrid::LastPlaces* moved_ = nullptr;
+  const LastPlaces* moved_ = nullptr;
 };
 
 }  // namespace gainsmith::simulate

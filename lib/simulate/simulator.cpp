@@ -10,7 +10,6 @@
 
 #include "base/number.h"
 #include "base/stop.h"
-#include "hybrid/measured_rows.h"
 #include "hybrid/zeno.h"
 #include "ode/integrator.h"
 #include "ode/tolerances.h"
@@ -19,6 +18,7 @@
 #include "simulate/event_watch.h"
 #include "simulate/flow_sets.h"
 #include "simulate/jump_maps.h"
+#include "simulate/measured_rows.h"
 #include "simulate/run_record.h"
 #include "simulate/sliding.h"
 #include "simulate/tolerances.h"
@@ -49,8 +49,7 @@ class EventRun {
         watch_(watch),
         maps_(maps),
         horizon_(scenario.horizon),
-        moved_(moved ? std::optional<hybrid::LastPlaces>(std::in_place, seed, run, *moved)
-                     : std::nullopt),
+        moved_(moved ? std::optional<LastPlaces>(std::in_place, seed, run, *moved) : std::nullopt),
         due_(system, watch, hybrid::EventClocks(system, scenario, seed, run), scenario.horizon),
         noise_(system, scenario, seed, run),
         rows_(system),
@@ -103,7 +102,7 @@ class EventRun {
     require_range();
   }
 
-  const hybrid::LastPlaces* places() const { return moved_ ? &*moved_ : nullptr; }
+  const LastPlaces* places() const { return moved_ ? &*moved_ : nullptr; }
 
   VectorXd variables(const VectorXd& values) const { return values.head(system_.size); }
 
@@ -340,10 +339,10 @@ class EventRun {
   EventWatch& watch_;
   JumpMaps& maps_;
   double horizon_;
-  std::optional<hybrid::LastPlaces> moved_;
+  std::optional<LastPlaces> moved_;
   DueEvents due_;
   hybrid::NoiseDraws noise_;
-  hybrid::MeasuredRows rows_;
+  MeasuredRows rows_;
   Branches branches_;
   std::unique_ptr<Flow> flow_;
   hybrid::ZenoDetector zeno_;

@@ -19,7 +19,7 @@
 // and `when` is due again once its condition has been false. `lost` is asked for each jump.
 //
 // Between zero crossings `where`, `sign`, `abs`, `max` and `min` in a flow keep their branch
-// (switches.h, branches.h); where one changes the flow starts again with the new branch.
+// (hybrid/switches.h, branches.h); where one changes the flow starts again with the new branch.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,8 @@
 // The number type "exact affine form": matrices that are affine in the unknown scalars x_1 ... x_m,
 //   M(x) = sum over i of x_i M_i,   x_0 = 1,
-// whose coefficients are sparse and carry bounds of their errors. What an affine form (affine.h) is
-// to a solver, this is to a check: nothing goes through double, and the coefficients of all
-// unknowns come out of one evaluation.
+// whose coefficients are sparse and carry bounds of their errors. What an affine form
+// (lmi/affine.h) is to a solver, this is to a check: nothing goes through double, and the
+// coefficients of all unknowns come out of one evaluation.
 #pragma once
 
 #include <utility>

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/stop.h"
+#include "base/unit_roundoff.h"
 #include "numbers/dense.h"
 
 namespace gainsmith::verdict {
@@ -14,8 +15,6 @@ namespace {
 using Eigen::Index;
 using numbers::Matrix;
 using numbers::Vector;
-
-constexpr double kUnit = 0x1p-53;
 
 /// g_i and a bound of its error in the norm of Frobenius.
 struct Images {
@@ -30,7 +29,7 @@ void add_images(const FactoredBlock<S>& one, Index first, Images& images) {
   const Index n = L.rows(), rank = L.cols();
   const Vector rows = L.rowwise().norm() * (1 + 1e-12);
   // |L'| |B| |L| is the sum of these terms at most, whatever the order of the sums.
-  const double rounding = static_cast<double>(2 * n + 12) * kUnit;
+  const double rounding = static_cast<double>(2 * n + 12) * kUnitRoundoff;
   const double root = std::sqrt(2.0);
   Matrix BL(n, rank);
   for (const auto& [i, elements] : one.block->terms) {
@@ -84,7 +83,7 @@ bool is_exact_in_double(const std::vector<FactoredBlock<S>>& blocks,
       continue;
     }
     const double missing = (std::abs(r[i]) + error[i]) / length * (1 + 1e-12);
-    const double change = images.error[i] / length + 4 * kUnit;
+    const double change = images.error[i] / length + 4 * kUnitRoundoff;
     norm += missing * missing;
     moved += change * change;
     images.G.col(used++) = images.G.col(i) / length;
@@ -98,7 +97,7 @@ bool is_exact_in_double(const std::vector<FactoredBlock<S>>& blocks,
   // sigma >= 2 |D r|, so that r' H^-1 r <= 1/4.
   if (!std::isfinite(norm) || !std::isfinite(moved)) return false;
   const double sigma = (2 * std::sqrt(norm) + std::sqrt(moved)) * (1 + 1e-9) + 1e-150;
-  const double rounding = 4 * (static_cast<double>(size) + m + 8) * kUnit * m;
+  const double rounding = 4 * (static_cast<double>(size) + m + 8) * kUnitRoundoff * m;
   H.diagonal().array() -= sigma * sigma + rounding;
   H.triangularView<Eigen::StrictlyUpper>() = H.transpose();
   return static_cast<bool>(numbers::Cholesky(H));

@@ -63,14 +63,14 @@ namespace {
 class Checker {
  public:
   Checker(const lmi::Inequalities& of, const lmi::Lmi& lmi, const lmi::Balance& balance,
-          const std::vector<double>& x, const Look& look)
+          const std::vector<double>& x, const CheckOptions& options)
       : of_(of),
         lmi_(lmi),
         balance_(balance),
         x_(x),
-        describe_(look.describe),
+        describe_(options.describe),
         values_(of.instance.values),
-        printed_(of, x, look.most_pieces) {
+        printed_(of, x, options.most_pieces) {
     for (auto& [name, matrix] : of.unknowns.values(x)) values_[name] = matrix;
   }
 
@@ -189,8 +189,8 @@ class Checker {
 
 Margins compute_margins(const lmi::Inequalities& of, const lmi::Lmi& lmi,
                         const lmi::Balance& balance, double wished, const std::vector<double>& x,
-                        const Look& look) {
-  return Checker(of, lmi, balance, x, look).run(wished);
+                        const CheckOptions& options) {
+  return Checker(of, lmi, balance, x, options).run(wished);
 }
 
 }  // namespace gainsmith::verdict

@@ -22,15 +22,15 @@ struct Violation {
 struct Margins {
   std::vector<model::Margin> margins;  ///< one for each comparison of each inequality
   std::vector<Violation> violations;   ///< of inequalities with variables
-  /// What is not settled of inequalities that hold wherever they were looked at: "contraction:
+  /// What is not settled of inequalities that hold wherever they were checked: "contraction:
   /// too many pieces near tau in [0.2, 0.25]". Empty when there is nothing.
   std::string open;
 };
 
-/// How closely a point is looked at.
-struct Look {
+/// How closely a point is checked.
+struct CheckOptions {
   /// Without it the check of the printed decimals comes first, and where it shows that an
-  /// inequality holds its minima are not looked for: its margin is then that of the imposed points.
+  /// inequality holds its minima are not sought: its margin is then that of the imposed points.
   bool describe = true;
   std::size_t most_pieces = forall::ProofOptions{}.most_pieces;  ///< of one check
 };
@@ -44,7 +44,7 @@ struct Look {
 /// (printed_check.h): it holds when that shows it.
 Margins compute_margins(const lmi::Inequalities& inequalities, const lmi::Lmi& lmi,
                         const lmi::Balance& balance, double wished, const std::vector<double>& x,
-                        const Look& look = {});
+                        const CheckOptions& options = {});
 
 /// Whether all of them hold, and nothing is open.
 bool all_hold(const Margins& margins);

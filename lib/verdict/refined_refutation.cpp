@@ -100,7 +100,7 @@ BoundaryPair violated_pair_of(const lmi::Lmi& lmi, const lmi::Formulation& formu
 
 Refutation refute_on_boundary(const lmi::Inequalities& of, const lmi::Lmi& lmi,
                               const lmi::Formulation& formulation, const sdp::Solution& solution) {
-  if (!lmi.stands_for_points()) return {};
+  if (!lmi.represents_points()) return {};
   const auto blocks = exact_blocks<Decimal100>(of, lmi, formulation);
   const ExactBlock<Decimal100> constant = block_of_constant();
   std::vector<const ExactBlock<Decimal100>*> all;
@@ -153,7 +153,7 @@ bool close(const std::vector<ExactBlock<Decimal100>>& blocks, const lmi::Scale& 
 
 Refutation refute_by_violation(const lmi::Inequalities& of, const lmi::Lmi& lmi,
                                const lmi::Formulation& formulation, const sdp::Solution& solution) {
-  if (!lmi.stands_for_points()) return {};
+  if (!lmi.represents_points()) return {};
   const auto blocks = exact_blocks<Decimal100>(of, lmi, formulation);
   auto Y = violation_of(blocks, lmi.unknowns, violated_pair_of(lmi, formulation, solution));
   return Y ? refute<Decimal100>(lmi, blocks, std::move(*Y), Exactness::in_double) : Refutation{};
@@ -162,7 +162,7 @@ Refutation refute_by_violation(const lmi::Inequalities& of, const lmi::Lmi& lmi,
 Refutation refute_by_violation(const lmi::Inequalities& of, const lmi::Lmi& lmi,
                                const lmi::Scale& scale, const lmi::Formulation& formulation,
                                const sdp::Solution& solution) {
-  if (!lmi.stands_for_points()) return {};
+  if (!lmi.represents_points()) return {};
   lmi::Formulation stated;
   stated.balance = formulation.balance;
   stated.balance.unknowns.insert(stated.balance.unknowns.begin() + scale.unknown - 1, 0);
@@ -188,7 +188,7 @@ Refutation refute_refined(const lmi::Inequalities& of, const lmi::Lmi& lmi,
   // What is left beside the range of a singular certificate.
   constexpr double kRanges[] = {1e-4, 1e-7, 1e-2, 1e-10};
   Refutation best;
-  if (!lmi.stands_for_points()) return best;
+  if (!lmi.represents_points()) return best;
   const auto blocks = exact_blocks<Decimal100>(of, lmi, formulation);
   double whole = 0;
   for (const auto& y : Y) whole += trace_of(y);
@@ -197,11 +197,11 @@ Refutation refute_refined(const lmi::Inequalities& of, const lmi::Lmi& lmi,
     if (found.exact || found.backward_error < best.backward_error) best = found;
     return best.exact || best.backward_error <= kNothing;
   };
-  std::size_t looked_at = 0;
+  std::size_t checked = 0;
   for (const double share : kShares) {
     Kept kept = kept_of(blocks, Y, share * whole, 0);
-    if (kept.which.size() == looked_at) continue;
-    looked_at = kept.which.size();
+    if (kept.which.size() == checked) continue;
+    checked = kept.which.size();
     const bool settled = steps == Steps::in_double
                              ? refine_in_double(kept.multipliers, lmi.unknowns)
                              : refine(kept.multipliers, lmi.unknowns);

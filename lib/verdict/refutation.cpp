@@ -264,13 +264,13 @@ Refutation refute(const lmi::Lmi& lmi, const std::vector<ExactBlock<S>>& blocks,
     weighed.push_back({&blocks[k], &Y[k], trace, lmi.blocks[k].strict});
     whole += trace;
   }
-  std::size_t looked_at = 0;
+  std::size_t checked = 0;
   for (const double share : kShares) {
     const auto count = static_cast<std::size_t>(std::count_if(
         weighed.begin(), weighed.end(),
         [&](const auto& one) { return one.trace > 0 && one.trace >= share * whole; }));
-    if (share > 0 && count == looked_at) continue;
-    looked_at = count;
+    if (share > 0 && count == checked) continue;
+    checked = count;
     const auto m = static_cast<Eigen::Index>(lmi.unknowns) + 1;
     const Refutation found = refute_by(weighed, share * whole, m, exactness);
     best.exact |= found.exact;
@@ -283,7 +283,7 @@ Refutation refute(const lmi::Lmi& lmi, const std::vector<ExactBlock<S>>& blocks,
 template <class S>
 Refutation refute(const lmi::Inequalities& of, const lmi::Lmi& lmi,
                   const lmi::Formulation& formulation, const Multipliers& Y, Exactness exactness) {
-  if (!lmi.stands_for_points()) return {};
+  if (!lmi.represents_points()) return {};
   return refute<S>(lmi, exact_blocks<S>(of, lmi, formulation), converted<S>(Y), exactness);
 }
 

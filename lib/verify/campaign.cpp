@@ -34,7 +34,7 @@ class Collector {
   Collector(CampaignPart& part, const Save& save, const Doing& doing)
       : part_(part), save_(save), doing_(doing), next_(part.runs.count()) {}
 
-  void add(RunRange range, const Tally& tally) {
+  void add(statistics::RunRange range, const Tally& tally) {
     if (range.count() == 0) return;
     const std::scoped_lock lock(mutex_);
     if (!part_.facts.until_violated) return take(range, tally);
@@ -64,11 +64,11 @@ class Collector {
 
  private:
   struct Waiting {
-    RunRange range;
+    statistics::RunRange range;
     Tally tally;
   };
 
-  void take(RunRange range, const Tally& tally) {
+  void take(statistics::RunRange range, const Tally& tally) {
     part_.runs.add(range);
     verify::add(tally, part_.tally);
     unsaved_ = true;
@@ -95,7 +95,7 @@ class Collector {
 namespace {
 
 /// Makes these runs, or those until the campaign is stopped. Slow runs are handed over as they come.
-void judge_runs(RunRange range, PackJudge& judge, Collector& collector) {
+void judge_runs(statistics::RunRange range, PackJudge& judge, Collector& collector) {
   constexpr Seconds kSlow(1);
   Tally sum;
   std::uint64_t from = range.first, next = range.first;
@@ -191,10 +191,10 @@ void confirm_violations(const Setup& setup, CampaignPart& part) {
 
 }  // namespace
 
-RunRange add(const CampaignPart& more, CampaignPart& sum) {
-  RunSet both = sum.runs;
-  for (const RunRange& range : more.runs.ranges())
-    if (const RunRange known = both.add(range); known.count() > 0) return known;
+statistics::RunRange add(const CampaignPart& more, CampaignPart& sum) {
+  statistics::RunSet both = sum.runs;
+  for (const statistics::RunRange& range : more.runs.ranges())
+    if (const statistics::RunRange known = both.add(range); known.count() > 0) return known;
   sum.runs = std::move(both);
   add(more.tally, sum.tally);
   sum.figures.add(more.figures);
@@ -220,11 +220,11 @@ bool Campaign::packs_go_on(const PackJudge& first) const {
   return 2 * first.careful_count() <= std::min(facts_.asked, kFirstRuns);
 }
 
-void Campaign::make_range(RunRange range, const Packs* packs, const PackJudge* prepared,
+void Campaign::make_range(statistics::RunRange range, const Packs* packs, const PackJudge* prepared,
                           std::uint64_t size, Collector& collector) const {
   parallel_for((range.count() + size - 1) / size, threads_, [&](std::size_t block) {
-    const RunRange own{range.first + block * size,
-                       std::min(range.last, range.first + (block + 1) * size)};
+    const statistics::RunRange own{range.first + block * size,
+                                   std::min(range.last, range.first + (block + 1) * size)};
     if (collector.is_behind_the_end(own.first)) return;
     PackJudge judge(*setup_, packs);
     try {
@@ -237,11 +237,11 @@ void Campaign::make_range(RunRange range, const Packs* packs, const PackJudge* p
   check_stop();
 }
 
-void Campaign::make_runs(RunRange range, CampaignPart& part, const Save& save) const {
-  const std::vector<RunRange> missing = part.runs.missing_in(range);
+void Campaign::make_runs(statistics::RunRange range, CampaignPart& part, const Save& save) const {
+  const std::vector<statistics::RunRange> missing = part.runs.missing_in(range);
   if (missing.empty() || part.ended()) return;
   std::uint64_t count = 0;
-  for (const RunRange& one : missing) count += one.count();
+  for (const statistics::RunRange& one : missing) count += one.count();
   const Doing doing("runs", range.count(), range.count() - count);
   Collector collector(part, save, doing);
   try {
@@ -256,14 +256,16 @@ void Campaign::make_runs(RunRange range, CampaignPart& part, const Save& save) c
     const auto work_between = [&] {
       if (between_ && part.tally.runs > 0) between_(part.tally.runs);
     };
-    for (const RunRange& one : missing) {
-      const RunRange early{one.first, packs_ ? std::min(one.last, kFirstRuns) : one.first};
-      const RunRange late{std::max(one.first, packs_ ? kFirstRuns : 0), one.last};
+    for (const statistics::RunRange& one : missing) {
+      const statistics::RunRange early{one.first,
+                                       packs_ ? std::min(one.last, kFirstRuns) : one.first};
+      const statistics::RunRange late{std::max(one.first, packs_ ? kFirstRuns : 0), one.last};
       if (early.first < early.last)
         make_range(early, &packs_, &first, packs ? kFirstRuns : single, collector);
       work_between();
       std::uint64_t at_once = grows ? kFirstRuns : one.count();
-      for (RunRange next = late; next.first < late.last && !part.ended(); at_once *= 2) {
+      for (statistics::RunRange next = late; next.first < late.last && !part.ended();
+           at_once *= 2) {
         next.last = next.first + std::min(late.last - next.first, std::max(at_once, size));
         make_range(next, packs, nullptr, size, collector);
         next.first = next.last;

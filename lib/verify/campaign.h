@@ -107,7 +107,7 @@ class Campaign {
   /// Adds those of these runs that the part has not; after a stop (base/stop.h) those that were
   /// made. `save` is called now and then, on any thread, one at a time: meanwhile the part does
   /// not change. A campaign until its first violated run begins with run 0, and has those up to it.
-  void make_runs(RunRange range, CampaignPart& part, const Save& save = {}) const;
+  void make_runs(statistics::RunRange range, CampaignPart& part, const Save& save = {}) const;
 
   /// Adds what conclude() asks of the worst runs. Of a campaign that was stopped they are not
   /// confirmed, and repeated only as far as half a second goes. Stopped (base/stop.h) where
@@ -116,8 +116,8 @@ class Campaign {
 
  private:
   bool packs_go_on(const PackJudge& first) const;
-  void make_range(RunRange range, const Packs* packs, const PackJudge* prepared, std::uint64_t size,
-                  Collector& collector) const;
+  void make_range(statistics::RunRange range, const Packs* packs, const PackJudge* prepared,
+                  std::uint64_t size, Collector& collector) const;
 
   const Setup* setup_;
   unsigned threads_;

@@ -11,8 +11,8 @@
 #include "claims/claim_check.h"
 #include "claims/track.h"
 #include "model/words.h"
-#include "verify/figure_survey.h"
-#include "verify/run_set.h"
+#include "statistics/figure_survey.h"
+#include "statistics/run_set.h"
 #include "verify/tally.h"
 
 namespace gainsmith::verify {
@@ -60,10 +60,10 @@ struct Repeat {
 
 struct CampaignPart {
   CampaignFacts facts;
-  RunSet runs;
+  statistics::RunSet runs;
   Tally tally;
   std::map<std::uint64_t, Repeat> repeats;  ///< by run: the worst runs of the part
-  SurveyOfRuns figures;                     ///< where they are asked for
+  statistics::SurveyOfRuns figures;         ///< where they are asked for
 
   /// Whether it has the run that ends the campaign before all runs are made.
   bool ended() const { return facts.until_violated && tally.violations > 0; }
@@ -73,6 +73,6 @@ struct CampaignPart {
 
 /// Adds a part of the same campaign with other runs. Those runs of it that are there already: none,
 /// or the first of them; then nothing is added.
-RunRange add(const CampaignPart& more, CampaignPart& sum);
+statistics::RunRange add(const CampaignPart& more, CampaignPart& sum);
 
 }  // namespace gainsmith::verify

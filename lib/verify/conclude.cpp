@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "base/stop.h"
+#include "statistics/sample_bounds.h"
 #include "verify/campaign.h"
-#include "verify/statistics.h"
 
 namespace gainsmith::verify {
 
@@ -137,8 +137,8 @@ void take_counts(const CampaignPart& part, const Tally& tally, Report& report) {
 /// much of the probability as runs whose number was fixed (Bernoulli trials up to the first success).
 double probability_bound(const Report& report) {
   const std::uint64_t last = report.ended ? 1 : 0;
-  return violation_probability_bound(report.violations + report.undecided - last,
-                                     report.runs - last, report.confidence);
+  return statistics::violation_probability_bound(report.violations + report.undecided - last,
+                                                 report.runs - last, report.confidence);
 }
 
 }  // namespace

@@ -134,7 +134,7 @@ void ErrorStates::find_jumps() {
       const auto minus = after(places_[k].minus);
       if (!plus && !minus) continue;
       const auto value = [&](const auto& found, const std::string& name) {
-        return found ? found->value.program : linear::input_program(name, differences_[k].shape);
+        return found ? found->value.program : expr::input_program(name, differences_[k].shape);
       };
       Dynamics::Assignment& own = map_of(e, places_[k].minus, plus ? *plus : *minus);
       own.value.program = linear::difference(value(plus, differences_[k].plus),
@@ -178,7 +178,7 @@ std::optional<std::size_t> ErrorStates::first_bound() const {
 model::RunTexts ErrorStates::rewritten(model::RunTexts texts) {
   std::map<std::string, Program> names;
   for (const linear::StateDifference& one : differences_)
-    names[one.minus] = linear::input_program(one.name, one.shape);
+    names[one.minus] = expr::input_program(one.name, one.shape);
   const auto rename = [&](Program& start) { start = linear::replace_inputs(start, names); };
   texts.dynamics = std::move(dynamics_);
   for (Dynamics::Variable& variable : texts.dynamics.variables)

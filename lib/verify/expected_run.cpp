@@ -11,8 +11,8 @@
 #include "base/number.h"
 #include "base/stop.h"
 #include "bind/stated.h"
-#include "verify/bound_figure.h"
-#include "verify/careful_runs.h"
+#include "claims/run_setup.h"
+#include "statistics/bound_figure.h"
 
 namespace gainsmith::verify {
 
@@ -28,11 +28,13 @@ struct FoundFigure {
 class TwoRuns {
  public:
   /// The setup must outlive it.
-  TwoRuns(const EventSetup& setup, std::uint64_t seed, std::optional<hybrid::Trajectory> usual)
+  TwoRuns(const claims::RunSetup& setup, std::uint64_t seed,
+          std::optional<hybrid::Trajectory> usual)
       : setup_(&setup) {
     simulate::Simulator simulator(setup_->system, setup_->scenario);
-    usual_ = usual ? std::move(*usual) : simulator.run(seed, 0, setup_->accuracy(kAccuracyOfOne));
-    sharper_ = simulator.run(seed, 0, setup_->accuracy(kAccuracyOfOne, kSharper));
+    usual_ = usual ? std::move(*usual)
+                   : simulator.run(seed, 0, setup_->accuracy(claims::kAccuracyOfOne));
+    sharper_ = simulator.run(seed, 0, setup_->accuracy(claims::kAccuracyOfOne, claims::kSharper));
     check_stop();
   }
 
@@ -46,7 +48,7 @@ class TwoRuns {
     if (figure.kind == Kind::count || figure.kind == Kind::passes || figure.kind == Kind::lost)
       return 0;
     if (!value || !std::isfinite(*value)) return 0;
-    const simulate::Accuracy accuracy = setup_->accuracy(kAccuracyOfOne);
+    const simulate::Accuracy accuracy = setup_->accuracy(claims::kAccuracyOfOne);
     return accuracy.relative * std::abs(*value) + accuracy.absolute;
   }
 
@@ -62,12 +64,12 @@ class TwoRuns {
 
  private:
   std::pair<std::optional<double>, std::optional<double>> numbers(const model::Figure& figure) {
-    BoundFigure bound(figure, *setup_);
+    statistics::BoundFigure bound(figure, *setup_);
     const auto usual = bound.of(usual_);
     return {usual, bound.of(sharper_)};
   }
 
-  const EventSetup* setup_;
+  const claims::RunSetup* setup_;
   hybrid::Trajectory usual_;
   hybrid::Trajectory sharper_;
 };
@@ -85,7 +87,7 @@ RunDifferences run_differences(const model::Instance& instance, const model::Gai
   RunDifferences result;
   const auto& expect = instance.design->expect;
   if (!expect || expect->run.empty()) return result;
-  const auto setup = make_event_setup(bind::run_texts(instance, gains));
+  const auto setup = claims::make_run_setup(bind::run_texts(instance, gains));
   TwoRuns runs(*setup, instance.design->campaign.seed, std::move(made));
   for (const model::ExpectedFigure& expected : expect->run) {
     ++result.figures;

@@ -79,7 +79,7 @@ const Track& Judge::noted(std::uint64_t seed, std::uint64_t run, double factor) 
 }
 
 RunVerdict Judge::confirm(std::uint64_t seed, std::uint64_t run) {
-  constexpr double sharper = kAccuracyOfOne / kAccuracyOfMany;
+  constexpr double sharper = claims::kAccuracyOfOne / claims::kAccuracyOfMany;
   RunVerdict verdict = last_verdict(noted(seed, run, sharper), checks_);
   if (verdict.judgement != claims::Judgement::undecided ||
       !tracks_.can_decide_more(sharper * sharper))

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "claims/run_tracks.h"
 #include "verify/setup.h"
-#include "verify/tracks.h"
 
 namespace gainsmith::verify {
 
@@ -47,7 +47,7 @@ class Judge {
 
   std::size_t event_count_;
   std::vector<char> happened_;  ///< by event, in the runs made of one number
-  EventTracks tracks_;
+  claims::RunTracks tracks_;
   const claims::Track* track_ = nullptr;  ///< the last one
   std::vector<claims::ClaimCheck> checks_;
 };

@@ -9,11 +9,11 @@ namespace gainsmith::verify {
 
 using claims::Judgement;
 
-std::unique_ptr<const packs::LinearSystem> make_linear_packs(const Setup& setup) {
+std::unique_ptr<const linear::LinearSystem> make_linear_packs(const Setup& setup) {
   if (!setup.linear) return nullptr;
-  auto model = packs::make_linear_model(*setup.linear->system, setup.events->scenario,
-                                        setup.linear->coordinates, setup.events->claims);
-  return model ? packs::make_linear_system(std::move(*model)) : nullptr;
+  auto model = linear::make_linear_model(*setup.linear->system, setup.events->scenario,
+                                         setup.linear->coordinates, setup.events->claims);
+  return model ? linear::make_linear_system(std::move(*model)) : nullptr;
 }
 
 std::vector<claims::Finding> findings_of(const packs::PackVerdict& pack,
@@ -27,7 +27,7 @@ std::vector<claims::Finding> findings_of(const packs::PackVerdict& pack,
     finding.value = claim.value;
     finding.bound = claim.bound;
     finding.floor = claim.floor;
-    finding.looked = claim.looked;
+    finding.sampled = claim.sampled;
     finding.tolerance = claims[c].tolerance;
   }
   return findings;
@@ -45,8 +45,8 @@ Packs make_packs(const Setup& setup, std::uint64_t runs) {
   Packs made;
   made.linear = make_linear_packs(setup);
   if (made.linear || runs < kFewestInPacks) return made;
-  const EventSetup& events = setup.judged();
-  const simulate::Accuracy accuracy = events.accuracy(kAccuracyOfMany);
+  const claims::RunSetup& events = setup.judged();
+  const simulate::Accuracy accuracy = events.accuracy(claims::kAccuracyOfMany);
   const Eigen::VectorXd absolute =
       accuracy.absolute_of.size() > 0
           ? accuracy.absolute_of
@@ -109,7 +109,7 @@ std::vector<bool> held(const std::vector<claims::Finding>& findings) {
 
 }  // namespace
 
-RunVerdict verdict_on_run(Judge& judge, const packs::LinearSystem* linear,
+RunVerdict verdict_on_run(Judge& judge, const linear::LinearSystem* linear,
                           const std::vector<claims::JudgedClaim>& claims, std::uint64_t seed,
                           std::uint64_t run) {
   std::vector<bool> holds;

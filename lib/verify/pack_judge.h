@@ -26,14 +26,14 @@ struct CampaignVerdictOnRun {
 
 /// What packs run: dynamics that are linear, or any other; neither: all runs are careful.
 struct Packs {
-  std::unique_ptr<const packs::LinearSystem> linear;
+  std::unique_ptr<const linear::LinearSystem> linear;
   std::unique_ptr<const packs::PackSystem> any;
 
   explicit operator bool() const { return linear || any; }
 };
 
 /// None where the dynamics or a claim are of another kind. The setup must outlive it.
-std::unique_ptr<const packs::LinearSystem> make_linear_packs(const Setup& setup);
+std::unique_ptr<const linear::LinearSystem> make_linear_packs(const Setup& setup);
 
 /// Of a run that is not open; `claims` are those that are stated.
 std::vector<claims::Finding> findings_of(const packs::PackVerdict& pack,
@@ -72,7 +72,7 @@ class PackJudge {
 
 /// The careful run alone, with what linear packs prove of its claims. `linear`: nullptr, or those of
 /// the setup of the judge, whose claims `claims` are.
-RunVerdict verdict_on_run(Judge& judge, const packs::LinearSystem* linear,
+RunVerdict verdict_on_run(Judge& judge, const linear::LinearSystem* linear,
                           const std::vector<claims::JudgedClaim>& claims, std::uint64_t seed,
                           std::uint64_t run);
 

@@ -54,7 +54,7 @@ struct Source {
 
 class EventTable {
  public:
-  explicit EventTable(const EventSetup& setup) : setup_(setup) {
+  explicit EventTable(const claims::RunSetup& setup) : setup_(setup) {
     const model::Dynamics& dynamics = setup.texts.dynamics;
     for (const model::Dynamics::Component& one : dynamics.components)
       if (one.observer) observers_.push_back(one.name);
@@ -202,7 +202,7 @@ class EventTable {
     }
   }
 
-  const EventSetup& setup_;
+  const claims::RunSetup& setup_;
   std::vector<std::string> observers_;
   std::vector<Source> sources_;
   std::vector<const expr::Program*> programs_;         ///< of the signals and claims of all rows
@@ -211,9 +211,9 @@ class EventTable {
 };
 
 /// Starts that the campaign gives are asked about with what is drawn.
-std::vector<judge::Fault> faults_of(const hybrid::Trajectory& run, const EventSetup& setup,
+std::vector<judge::Fault> faults_of(const hybrid::Trajectory& run, const claims::RunSetup& setup,
                                     std::uint64_t seed, std::uint64_t number) {
-  const simulate::Accuracy accuracy = setup.accuracy(kAccuracyOfOne);
+  const simulate::Accuracy accuracy = setup.accuracy(claims::kAccuracyOfOne);
   judge::Question question{accuracy.relative, accuracy.absolute, accuracy.absolute_of, {}, {}};
   // What is given is not drawn again.
   if (setup.scenario.given == nullptr)
@@ -257,9 +257,9 @@ void add_rounding(const Setup& setup, double step, Replay& replay) {
 }
 
 hybrid::Trajectory run_of(const Setup& setup, std::uint64_t seed, std::uint64_t run) {
-  const EventSetup& events = *setup.events;
+  const claims::RunSetup& events = *setup.events;
   return simulate::Simulator(events.system, events.scenario)
-      .run(seed, run, events.accuracy(kAccuracyOfOne));
+      .run(seed, run, events.accuracy(claims::kAccuracyOfOne));
 }
 
 Replay table_of_run(const Setup& setup, std::uint64_t seed, std::uint64_t run, double step,
@@ -270,7 +270,7 @@ Replay table_of_run(const Setup& setup, std::uint64_t seed, std::uint64_t run, d
 
 Replay replay_run(const Setup& setup, std::uint64_t seed, std::uint64_t run, double step,
                   bool judged) {
-  const EventSetup& events = *setup.events;
+  const claims::RunSetup& events = *setup.events;
   Replay result = table_of_run(setup, seed, run, step);
   if (result.run.ending == hybrid::Ending::interrupted) return result;
   if (judged) result.faults = faults_of(result.run, events, seed, run);

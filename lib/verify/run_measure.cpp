@@ -4,16 +4,16 @@
 
 #include "base/stop.h"
 #include "bind/stated.h"
-#include "verify/bound_figure.h"
+#include "statistics/bound_figure.h"
 
 namespace gainsmith::verify {
 
 std::optional<double> mean_figure(const model::Instance& instance, const model::Gains& gains,
                                   const model::Figure& figure, std::uint64_t runs) {
-  const auto setup = make_event_setup(bind::run_texts(instance, gains));
+  const auto setup = claims::make_run_setup(bind::run_texts(instance, gains));
   simulate::Simulator simulator(setup->system, setup->scenario);
-  BoundFigure bound(figure, *setup);
-  const simulate::Accuracy accuracy = setup->accuracy(kAccuracyOfMany);
+  statistics::BoundFigure bound(figure, *setup);
+  const simulate::Accuracy accuracy = setup->accuracy(claims::kAccuracyOfMany);
   double sum = 0;
   for (std::uint64_t run = 0; run < runs; ++run) {
     const auto trajectory = simulator.run(instance.design->campaign.seed, run, accuracy);

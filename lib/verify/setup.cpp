@@ -43,14 +43,14 @@ std::unique_ptr<const LinearSetup> make_linear_setup(const model::Instance& inst
 std::unique_ptr<const Setup> make_setup(const model::Instance& instance, const model::Gains& gains,
                                         const std::vector<hybrid::GivenRun>* given) {
   auto setup = std::make_unique<Setup>();
-  setup->events = make_event_setup(bind::run_texts(instance, gains), given);
+  setup->events = claims::make_run_setup(bind::run_texts(instance, gains), given);
   const std::vector<expr::Program> functions = functions_of(setup->events->claims);
   setup->linear = make_linear_setup(instance, gains, setup->events->system, functions);
   auto texts = setup->linear
                    ? std::optional(with_coordinates(
                          setup->events->texts, setup->linear->coordinates, setup->events->claims))
                    : with_error_states(setup->events->texts, functions);
-  if (texts) setup->errors = make_event_setup(std::move(*texts), given);
+  if (texts) setup->errors = claims::make_run_setup(std::move(*texts), given);
   return setup;
 }
 

@@ -4,9 +4,9 @@
 #include <memory>
 #include <vector>
 
+#include "claims/run_setup.h"
 #include "linear/coordinates.h"
 #include "linear/sampled_system.h"
-#include "verify/careful_runs.h"
 
 namespace gainsmith::verify {
 
@@ -17,14 +17,14 @@ struct LinearSetup {
 };
 
 struct Setup {
-  std::unique_ptr<const EventSetup> events;  ///< the careful run
-  std::unique_ptr<const EventSetup>
+  std::unique_ptr<const claims::RunSetup> events;  ///< the careful run
+  std::unique_ptr<const claims::RunSetup>
       errors;  ///< the same with errors as states; none: there are none
   std::unique_ptr<const LinearSetup> linear;  ///< none: the dynamics are of another kind
 
   const std::vector<claims::Claim>& claims() const { return events->claims; }
   /// By which the careful run judges.
-  const EventSetup& judged() const { return errors ? *errors : *events; }
+  const claims::RunSetup& judged() const { return errors ? *errors : *events; }
   double horizon() const { return events->scenario.horizon; }
 };
 

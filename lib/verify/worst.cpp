@@ -37,7 +37,7 @@ bool is_worse(const Worst& a, const Worst& b) {
 class Runs {
  public:
   /// `linear`: nullptr, or what makes the runs.
-  Runs(const Setup& setup, const packs::LinearSystem* linear, const Doing& doing,
+  Runs(const Setup& setup, const linear::LinearSystem* linear, const Doing& doing,
        hybrid::GivenRun& run, std::size_t number, std::uint64_t seed)
       : setup_(&setup),
         doing_(&doing),
@@ -260,7 +260,7 @@ class Search {
   }
 
   /// The worst runs by careful runs, as far as half a second goes: packs know their values at the end.
-  void look_again() {
+  void make_worst_carefully() {
     const Concluding concluding(0.5);
     given_.assign(claims(), {});
     Judge judge(*setup_);
@@ -278,7 +278,7 @@ class Search {
 
   /// What was found so far.
   void leave(WorstReport& report) {
-    if (linear_ && made_ > 0) look_again();
+    if (linear_ && made_ > 0) make_worst_carefully();
     report.runs = made_;
     report.interrupted = true;
     report.verdict = model::CampaignVerdict::undecided;
@@ -319,7 +319,7 @@ class Search {
   std::uint64_t runs_ = 0;
   std::vector<hybrid::GivenRun> given_;  ///< of the setup: those that are being made
   std::unique_ptr<const Setup> setup_;
-  std::unique_ptr<const packs::LinearSystem> linear_;  ///< none: runs are careful
+  std::unique_ptr<const linear::LinearSystem> linear_;  ///< none: runs are careful
   std::vector<DrawCube> cubes_;
   Point lengths_;
   std::vector<Worst> worst_;  ///< by claim
@@ -329,7 +329,7 @@ class Search {
 }  // namespace
 
 double margin_of(const claims::Finding& finding, model::ClaimKind kind) {
-  if (!finding.looked) return -kLargestMargin;
+  if (!finding.sampled) return -kLargestMargin;
   if (finding.ended) return finding.violated() ? kLargestMargin : 0;
   const bool above = kind == model::ClaimKind::above;
   const double value = above ? finding.bound : finding.value;

@@ -45,7 +45,7 @@ std::string merged_text(const verify::Campaign& campaign, std::uint64_t shards,
                         std::mt19937& random) {
   std::vector<verify::CampaignPart> parts;
   for (std::uint64_t k = 1; k <= shards; ++k) {
-    const verify::RunRange range = verify::shard_of(campaign.asked(), k, shards);
+    const statistics::RunRange range = statistics::shard_of(campaign.asked(), k, shards);
     verify::CampaignPart part = campaign.begin();
     campaign.make_runs({range.first, range.first + range.count() / 3}, part);
     campaign.make_runs(range, part);
@@ -147,7 +147,7 @@ TEST(CampaignParts, WithRunsThatAreThereAreNotAdded) {
   campaign.make_runs({0, 6}, first);
   campaign.make_runs({4, 10}, second);
   const verify::CampaignPart before = first;
-  EXPECT_EQ(add(second, first), (verify::RunRange{4, 6}));
+  EXPECT_EQ(add(second, first), (statistics::RunRange{4, 6}));
   EXPECT_EQ(first, before);
 }
 

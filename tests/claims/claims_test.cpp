@@ -8,9 +8,9 @@
 
 #include "bind/bind.h"
 #include "claims/case.h"
+#include "claims/run_setup.h"
 #include "io/problem_text.h"
 #include "verify/campaign.h"
-#include "verify/careful_runs.h"
 #include "verify/replay.h"
 
 namespace gainsmith::verify {

@@ -252,8 +252,8 @@ TEST(NarrowClaims, WhatIsNeverComparedSaysSo) {
                   "scalar, start: 0}}, at: {never: {n: 1}}}\n");
   const Report report = run_campaign(*make_setup(instance, {}), options);
   EXPECT_EQ(report.verdict, CampaignVerdict::held);
-  EXPECT_FALSE(report.checks[0].worst.looked);
-  EXPECT_TRUE(report.checks[1].worst.looked);
+  EXPECT_FALSE(report.checks[0].worst.sampled);
+  EXPECT_TRUE(report.checks[1].worst.sampled);
 }
 
 TEST(NarrowFigures, SettlesAfterTheLastTop) {

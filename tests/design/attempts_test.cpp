@@ -249,7 +249,7 @@ TEST(Attempts, BlocksThatStandForNoPointAreNotSolvedInMoreDigits) {
       "  unknowns: {x: scalar}\n  require:\n    a: {forall: \"t in [0, 1]\", that: \"x*(3 - "
       "exp(t)) "
       "> t + exp(-t)\"}\n    b: x < 0\nsynthesis: {forall: hull}\n");
-  ASSERT_FALSE(of.lmi.stands_for_points());
+  ASSERT_FALSE(of.lmi.represents_points());
   const Scripted run(of, {undecided()});
   EXPECT_EQ(run.tried, AttemptKinds{AttemptKind::inside});
   EXPECT_EQ(run.gains.verdict, Verdict::undecided);

@@ -280,7 +280,7 @@ TEST(RefutationTest, ABlockThatStandsForNoPointRefutesNothing) {
   const Posed posed(
       "  unknowns: {x: scalar}\n  require:\n    a: {forall: \"t in [0, 1]\", that: \"x*(3 - "
       "exp(t)) > t + exp(-t)\"}\n    b: x < 0\nsynthesis: {forall: hull}\n");
-  ASSERT_FALSE(posed.lmi.stands_for_points());
+  ASSERT_FALSE(posed.lmi.represents_points());
   const lmi::Formulation asked = formulate_interior(posed.lmi, {}, {});
   const sdp::Solution solution = sdp::solve(asked.problem);
   const auto Y = multipliers_of(asked, posed.lmi.blocks.size(), solution);

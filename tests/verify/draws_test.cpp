@@ -10,10 +10,10 @@
 
 #include "bind/bind.h"
 #include "bind/stated.h"
+#include "claims/run_setup.h"
 #include "io/problem_text.h"
+#include "statistics/figure_survey.h"
 #include "support/linear_algebra.h"
-#include "verify/careful_runs.h"
-#include "verify/figure_survey.h"
 
 namespace gainsmith::verify {
 namespace {
@@ -24,8 +24,9 @@ model::Instance instance_of(const std::string& method, const std::string& proble
   return bind::bind(io::read_problem("problem: p\nmethod:\n  method: m\n" + method + problem));
 }
 
-std::unique_ptr<const EventSetup> setup_of(const std::string& method, const std::string& problem) {
-  return make_event_setup(bind::run_texts(instance_of(method, problem), {}));
+std::unique_ptr<const claims::RunSetup> setup_of(const std::string& method,
+                                                 const std::string& problem) {
+  return claims::make_run_setup(bind::run_texts(instance_of(method, problem), {}));
 }
 
 const std::string kPlant =
@@ -37,12 +38,12 @@ const std::string kPlant =
   claims: {c: {below: norm(x), bound: 1e9}}
 )";
 
-VectorXd part(const EventSetup& setup, const VectorXd& values, const std::string& name) {
+VectorXd part(const claims::RunSetup& setup, const VectorXd& values, const std::string& name) {
   const hybrid::Slot& slot = setup.system.layout.slots[setup.system.slot(name).value()];
   return values.segment(slot.offset, slot.shape.size());
 }
 
-VectorXd start(const EventSetup& setup, std::uint64_t seed, std::uint64_t run) {
+VectorXd start(const claims::RunSetup& setup, std::uint64_t seed, std::uint64_t run) {
   return hybrid::draw_start(setup.system, setup.scenario, seed, run);
 }
 
@@ -196,8 +197,8 @@ TEST(EventDraws, LostJumpsAreCounted) {
   const auto instance = instance_of(method, R"(campaign: {horizon: 5.05, runs: 1}
 compare: [{count: sample}, {lost: sample}, {at: {t: 5.02}, value: n}, {at: {t: 5.02}, value: k}]
 )");
-  const auto setup = make_event_setup(bind::run_texts(instance, {}));
-  const auto found = survey_figures(*setup, instance.design->compare, 1, {1}).figures;
+  const auto setup = claims::make_run_setup(bind::run_texts(instance, {}));
+  const auto found = statistics::survey_figures(*setup, instance.design->compare, 1, {1}).figures;
   ASSERT_EQ(found.size(), 4U);
   const auto value = [&](std::size_t k) { return found[k].least->value; };
   EXPECT_EQ(value(0), 50);

@@ -52,9 +52,9 @@ TEST(ErrorStates, RunsOfBothSystemsAreTheSame) {
   const auto& written = both->events;
   const auto& errors = both->errors;
   ASSERT_NE(errors, nullptr);
-  const auto end_of = [](const EventSetup& setup) {
-    const hybrid::Trajectory run =
-        simulate::Simulator(setup.system, setup.scenario).run(7, 0, setup.accuracy(kAccuracyOfOne));
+  const auto end_of = [](const claims::RunSetup& setup) {
+    const hybrid::Trajectory run = simulate::Simulator(setup.system, setup.scenario)
+                                       .run(7, 0, setup.accuracy(claims::kAccuracyOfOne));
     return std::get<hybrid::FlowPiece>(run.parts[40]).start;
   };
   const Eigen::VectorXd x = end_of(*written);

@@ -6,7 +6,7 @@
 
 #include "verify/pack_cases.h"
 
-namespace gainsmith::verify::linear {
+namespace gainsmith::verify::linear_packs {
 
 using Case = PackCase;
 
@@ -141,4 +141,4 @@ campaign: {runs: 160, horizon: 3, initial: {x: {box: [-2, 3]}}}
   return cases;
 }
 
-}  // namespace gainsmith::verify::linear
+}  // namespace gainsmith::verify::linear_packs

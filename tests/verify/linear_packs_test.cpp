@@ -13,12 +13,12 @@
 #include "verify/linear_cases.h"
 #include "verify/pack_judge.h"
 
-namespace gainsmith::verify::linear {
+namespace gainsmith::verify::linear_packs {
 namespace {
 
 using claims::Judgement;
-using packs::LinearSystem;
-using packs::Wide;
+using linear::LinearSystem;
+using linear::Wide;
 
 struct Made {
   std::unique_ptr<const Setup> setup;
@@ -86,7 +86,7 @@ class Beside {
 
   /// The largest part of a bound that an error takes over some flows.
   double largest_part(unsigned flows) {
-    const packs::LinearModel& model = system_.model;
+    const linear::LinearModel& model = system_.model;
     const auto m = static_cast<Eigen::Index>(model.drawn.size());
     Wide xi = Wide::Ones(m + (model.constant ? 1 : 0), 1);
     first_.input(0)[0] = length(0, model.first_low, model.first_high);
@@ -152,7 +152,7 @@ class Beside {
 
  private:
   const LinearSystem& system_;
-  packs::WideFlow flow_;
+  linear::WideFlow flow_;
   lanes::LaneMachine first_, step_, gather_;
   double gathered_ = 0, root_ = 0;
 };
@@ -170,9 +170,9 @@ INSTANTIATE_TEST_SUITE_P(Systems, LinearPacks, testing::ValuesIn(linear_cases())
 /// A coefficient of a table that is wrong by 1e-11 is seen.
 TEST(LinearFaults, AWrongCoefficientIsFoundByBounds) {
   const Made made = make(linear_cases()[0].text);
-  packs::LinearModel wrong = made.packs.linear->model;
+  linear::LinearModel wrong = made.packs.linear->model;
   wrong.A(0, 1) += Decimal100(1e-11);
-  auto system = packs::make_linear_system(wrong);
+  auto system = linear::make_linear_system(wrong);
   ASSERT_NE(system, nullptr);
   const_cast<LinearSystem&>(*system).model.A(0, 1) -= Decimal100(1e-11);
   EXPECT_GT(Beside(*system).largest_part(20), 1);
@@ -358,4 +358,4 @@ TEST(LinearPacks, ThreadsDoNotMatter) {
 }
 
 }  // namespace
-}  // namespace gainsmith::verify::linear
+}  // namespace gainsmith::verify::linear_packs

@@ -294,12 +294,12 @@ TEST_P(PackRuns, AgreeWithCarefulRuns) {
     for (std::size_t c = 0; c < pack.claims.size(); ++c) {
       const claims::Finding& finding = careful.findings[c];
       ++(pack.claims[c].violated ? violated : held);
-      EXPECT_EQ(pack.claims[c].looked, finding.looked);
+      EXPECT_EQ(pack.claims[c].sampled, finding.sampled);
       if (finding.undecided()) continue;
       EXPECT_EQ(pack.claims[c].violated, finding.violated())
           << "run " << run << ", claim " << c << ": " << finding.value << " and " << finding.bound
           << " at t = " << finding.t << ", j = " << finding.j;
-      if (!finding.looked || !std::isfinite(finding.score)) continue;
+      if (!finding.sampled || !std::isfinite(finding.score)) continue;
       EXPECT_NEAR(pack.claims[c].score, finding.score, 2e-2 * (1 + std::abs(finding.score)))
           << "run " << run << ", claim " << c;
     }

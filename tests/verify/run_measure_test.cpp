@@ -8,9 +8,9 @@
 #include <string>
 
 #include "bind/stated.h"
+#include "statistics/bound_figure.h"
 #include "support/stop.h"
 #include "support/yaml_problem.h"
-#include "verify/bound_figure.h"
 
 namespace gainsmith::verify {
 namespace {
@@ -37,10 +37,10 @@ class Measures : public testing::Test {
     return mean_figure(problem.instance, {}, *problem.instance.design->search->run_figure, runs);
   }
   static double start_of(const YamlProblem& problem, std::uint64_t run) {
-    const auto setup = make_event_setup(bind::run_texts(problem.instance, {}));
+    const auto setup = claims::make_run_setup(bind::run_texts(problem.instance, {}));
     simulate::Simulator simulator(setup->system, setup->scenario);
     const YamlProblem first(decay("{at: {t: 0}, value: x}"));
-    BoundFigure start(*first.instance.design->search->run_figure, *setup);
+    statistics::BoundFigure start(*first.instance.design->search->run_figure, *setup);
     return start.of(simulator.run(5, run)).value();
   }
 };

@@ -1,9 +1,9 @@
 // Campaigns that end with their first violated run, and what their bound promises.
 #include <gtest/gtest.h>
 
+#include "statistics/sample_bounds.h"
 #include "support/text_problem.h"
 #include "verify/campaign.h"
-#include "verify/statistics.h"
 
 namespace gainsmith::verify {
 namespace {
@@ -58,7 +58,7 @@ TEST(CampaignUntilViolated, KeepsItsPromises) {
   constexpr double kProbability = 0.03, kSlightlyLess = 0.029;
   TextProblem problem = three_in_a_hundred();
   const auto setup = make_setup(problem.instance(), problem.gains);
-  const std::uint64_t enough = runs_for(kSlightlyLess, 0.95);
+  const std::uint64_t enough = statistics::runs_for(kSlightlyLess, 0.95);
   int beyond = 0, held = 0;
   for (std::uint64_t seed = 1; seed <= kCampaigns; ++seed) {
     const Report report = run_campaign(*setup, {enough, seed, 1, 0.95, true});

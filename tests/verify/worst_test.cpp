@@ -73,7 +73,7 @@ class Drawn {
  public:
   Drawn()
       : instance_(instance_of(kDrawn, kCampaign)),
-        setup_(make_event_setup(bind::run_texts(instance_, {}))) {}
+        setup_(claims::make_run_setup(bind::run_texts(instance_, {}))) {}
 
   DrawCube cube(std::size_t period) const { return {setup_->system, setup_->scenario, period}; }
   std::size_t noise(const std::string& name) const {
@@ -83,11 +83,11 @@ class Drawn {
         all.begin());
   }
   std::size_t slot(const std::string& name) const { return setup_->system.slot(name).value(); }
-  const EventSetup& setup() const { return *setup_; }
+  const claims::RunSetup& setup() const { return *setup_; }
 
  private:
   model::Instance instance_;
-  std::unique_ptr<const EventSetup> setup_;
+  std::unique_ptr<const claims::RunSetup> setup_;
 };
 
 TEST(DrawCube, EndsOfTheCubeAreThoseOfTheRanges) {
@@ -150,7 +150,7 @@ TEST(DrawCube, ListsRepeatAfterAPeriodOrAtTheirMost) {
   EXPECT_EQ(lengths(drawn.cube(0)), 7U);  // 4/0.75, and one
   const model::Instance longer =
       instance_of(kDrawn, "campaign: {horizon: 1000, initial: {x: 0, z: 0}}\n");
-  const auto setup = make_event_setup(bind::run_texts(longer, {}));
+  const auto setup = claims::make_run_setup(bind::run_texts(longer, {}));
   EXPECT_EQ(lengths({setup->system, setup->scenario, 0}), 64U);
 }
 
@@ -207,7 +207,7 @@ TEST(Margin, RisesFromHeldToViolated) {
   claims::Finding negative = finding(-2, -1);
   EXPECT_EQ(margin_of(negative, ClaimKind::below), negative.score);
   claims::Finding open = finding(1, 2);
-  open.looked = false;
+  open.sampled = false;
   EXPECT_LE(margin_of(open, ClaimKind::below), -1e6);
   EXPECT_GE(margin_of(finding(NAN, 1), ClaimKind::below), 1e6);
 }

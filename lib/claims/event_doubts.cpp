@@ -1,0 +1,245 @@
+#include "claims/event_doubts.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/number.h"
+#include "claims/sample_points.h"
+#include "claims/tolerances.h"
+
+namespace gainsmith::claims {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+using hybrid::EventCondition;
+using hybrid::EventFunction;
+using hybrid::NearTurn;
+using EventKind = model::Dynamics::EventKind;
+
+double element(EventFunction& guard, const VectorXd& values, Index e) {
+  try {
+    return guard(values)(e);
+  } catch (const expr::EvaluationError&) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+double noise_of(EventFunction& guard, const VectorXd& values, Index e) {
+  try {
+    const double terms = guard.terms(values)(e);
+    return std::isnan(terms) ? 0 : hybrid::kTermRounding * terms;
+  } catch (const expr::EvaluationError&) {
+    return 0;
+  }
+}
+
+double length(const hybrid::FlowPiece& flow) { return flow.to() - flow.from(); }
+
+}  // namespace
+
+EventDoubts::EventDoubts(const hybrid::System& system)
+    : system_(&system), watch_(system), maps_(system), are_independent_(system.dynamics) {}
+
+VectorXd EventDoubts::whole(const VectorXd& variables) const {
+  VectorXd result = VectorXd::Zero(system_->whole);
+  result.head(variables.size()) = variables;
+  return result;
+}
+
+std::optional<std::string> EventDoubts::of_turn(const NearTurn& turn, const TwinFlow& flow) {
+  const int points = 2 * kSamplesBeside + 1;
+  if (flow.twin == nullptr) return std::nullopt;
+  EventFunction& guard = watch_.function_of(turn);
+  const double from = std::max(flow.flow->from(), flow.twin->from());
+  const double last = std::min({turn.t, flow.flow->to(), flow.twin->to()});
+  if (!(from < last)) return std::nullopt;
+  double difference = 0;
+  VectorXd here;
+  for (int k = 0; k < points; ++k) {
+    const double t = last - (last - from) * k / 16;
+    const auto at = [&](const hybrid::FlowPiece& one) {
+      return whole(state_at(one, std::min((t - one.from()) / length(one), 1.0)));
+    };
+    const VectorXd own = at(*flow.flow);
+    if (k == 0) here = own;
+    difference = std::fmax(difference, std::abs(element(guard, own, turn.element) -
+                                                element(guard, at(*flow.twin), turn.element)));
+  }
+  const double error = kErrorOfDifference * difference + noise_of(guard, here, turn.element);
+  if (!(std::abs(turn.value) <= error)) return std::nullopt;
+  return fmt::format("t = {}: '{}' turns at {} from being reached, and that is known to {}",
+                     brief(turn.t, 12), turn.text, brief(turn.value, 3), brief(error, 2));
+}
+
+/// None at the start, which no flow leads to.
+std::optional<EventDoubts::Instant> EventDoubts::instant(const TwinParts& twins, std::size_t jump,
+                                                         std::vector<bool>& happened) const {
+  const auto& own = std::get<TwinJump>(twins.parts[jump]);
+  for (std::size_t k = jump; k-- > 0;) {
+    const auto* flow = std::get_if<TwinFlow>(&twins.parts[k]);
+    if (flow == nullptr) {
+      happened[std::get<TwinJump>(twins.parts[k]).jump->event] = true;
+      continue;
+    }
+    if (length(*flow->flow) <= kInstantOfRun * own.jump->t) continue;
+    const hybrid::DenseStep& step = flow->flow->steps.back();
+    Instant at;
+    at.now = whole(own.jump->before);
+    at.twin = whole(own.twin_before);
+    at.since = (step.to - step.from) * kBeforeEnd;
+    at.before = whole(step(step.to - at.since));
+    at.t = own.jump->t;
+    at.event = own.jump->event;
+    at.lost = own.jump->lost;
+    return at;
+  }
+  return std::nullopt;
+}
+
+/// Those that a flow changes, of a condition all its elements.
+std::vector<EventDoubts::Guard> EventDoubts::guards(std::size_t event, const Instant& at) {
+  std::vector<Guard> result;
+  const auto add = [&](EventFunction& guard, std::size_t comparison) {
+    if (guard.rests()) return;
+    for (Index e = 0; e < guard.size(); ++e) {
+      const double value = element(guard, at.now, e);
+      const double difference = std::abs(value - element(guard, at.twin, e));
+      result.push_back({&guard, comparison, value, element(guard, at.before, e),
+                        kErrorOfDifference * difference + noise_of(guard, at.now, e)});
+    }
+  };
+  if (watch_.crossing[event]) add(*watch_.crossing[event], 0);
+  if (watch_.when[event]) {
+    auto& comparisons = watch_.when[event]->comparisons();
+    for (std::size_t k = 0; k < comparisons.size(); ++k) add(comparisons[k].function, k);
+  }
+  return result;
+}
+
+/// By the guard that comes to 0 there.
+void EventDoubts::set_time_error(Instant& at) {
+  at.time_error = 4 * std::numeric_limits<double>::epsilon() * at.t;
+  const auto nearest = std::min_element(
+      at.own.begin(), at.own.end(),
+      [](const Guard& a, const Guard& b) { return std::abs(a.value) < std::abs(b.value); });
+  if (nearest == at.own.end()) return;
+  const double rate = std::abs(nearest->value - nearest->before) / at.since;
+  if (rate > 0) at.time_error += noise_of(*nearest->function, at.now, 0) / rate;
+}
+
+/// Whether the event is arrived at, and lies within its error.
+bool EventDoubts::may_happen(std::size_t event, const Instant& at,
+                             const std::vector<Guard>& guards) {
+  for (const Guard& guard : guards) {
+    const double rate = std::abs(guard.value - guard.before) / at.since;
+    if (!(std::abs(guard.value) <= guard.error + rate * at.time_error)) continue;
+    const bool together = std::any_of(at.own.begin(), at.own.end(), [&](const Guard& own) {
+      return std::abs(own.value) == std::abs(guard.value) &&
+             std::abs(own.before) == std::abs(guard.before);
+    });
+    if (together) continue;
+    if (watch_.crossing[event]) {
+      const EventKind kind = system_->dynamics.events[event].kind;
+      const bool rising = guard.before < 0;
+      if (kind == EventKind::crosses || (kind == EventKind::rises) == rising) return true;
+      continue;
+    }
+    EventCondition& condition = *watch_.when[event];
+    if (!condition(at.before) &&
+        (condition(at.now) || condition.if_changed(at.now, guard.comparison)))
+      return true;
+  }
+  return false;
+}
+
+/// Whether it happens at these values, where what lies within its error counts as reached.
+bool EventDoubts::fires(std::size_t event, const std::vector<Guard>& guards, const Instant& at,
+                        const VectorXd& values) {
+  if (system_->has_clock(event)) return true;
+  const auto is_near = [&](const Guard& guard, double value) {
+    const double rate = std::abs(guard.value - guard.before) / at.since;
+    return std::abs(value) <= guard.error + rate * at.time_error;
+  };
+  if (watch_.crossing[event]) {
+    const double value = element(*watch_.crossing[event], values, 0);
+    return is_near(guards.front(), value) || (value > 0) != (guards.front().before > 0);
+  }
+  EventCondition& condition = *watch_.when[event];
+  if (condition(values)) return true;
+  return std::any_of(guards.begin(), guards.end(), [&](const Guard& guard) {
+    const auto difference = (*guard.function)(values).reshaped();
+    return is_near(guard, difference.cwiseAbs().minCoeff()) &&
+           condition.if_changed(values, guard.comparison);
+  });
+}
+
+bool EventDoubts::commute(std::size_t other, const std::vector<Guard>& guards, const Instant& at) {
+  if (are_independent_(at.event, other)) return true;
+  try {
+    VectorXd first = maps_(at.event, at.lost, at.now);
+    if (fires(other, guards, at, first)) first = maps_(other, false, first);
+    VectorXd second = maps_(other, false, at.now);
+    if (fires(at.event, at.own, at, second)) second = maps_(at.event, at.lost, second);
+    const auto sizes = first.cwiseAbs().cwiseMax(second.cwiseAbs()).cwiseMax(at.now.cwiseAbs());
+    return ((first - second).cwiseAbs().array() <= kValueRounding * sizes.array()).all();
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
+std::string EventDoubts::message(const Instant& at, std::size_t other, double distance,
+                                 double error) const {
+  const auto& events = system_->dynamics.events;
+  return fmt::format(
+      "t = {}: the events {} and {} lie within their errors ({}, known to {}), and what comes of "
+      "them depends on their order: make them one event, or set them apart",
+      brief(at.t, 12), events[at.event].name, events[other].name, brief(distance, 3),
+      brief(error, 2));
+}
+
+/// Clocks that strike so soon after an event that they may do so before it.
+std::optional<std::string> EventDoubts::clocks_after(const TwinParts& twins, std::size_t jump,
+                                                     const Instant& at) {
+  const auto& own = std::get<TwinJump>(twins.parts[jump]);
+  if (system_->has_clock(at.event)) return std::nullopt;
+  for (std::size_t k = jump + 1; k < twins.parts.size(); ++k) {
+    if (const auto* flow = std::get_if<TwinFlow>(&twins.parts[k])) {
+      if (length(*flow->flow) > kInstantOfRun * at.t) break;
+      continue;
+    }
+    const auto& next = std::get<TwinJump>(twins.parts[k]);
+    const std::size_t other = next.jump->event;
+    if (!system_->has_clock(other)) continue;
+    const double gap = next.jump->t - at.t;
+    const double error =
+        kErrorOfDifference * std::abs(gap - (next.twin_t - own.twin_t)) + at.time_error;
+    if (gap <= error && !commute(other, {}, at)) return message(at, other, gap, error);
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> EventDoubts::of_jump(const TwinParts& twins, std::size_t jump) {
+  const auto& events = system_->dynamics.events;
+  std::vector<bool> happened(events.size(), false);
+  auto at = instant(twins, jump, happened);
+  if (!at || events.size() < 2) return std::nullopt;
+  happened[at->event] = true;
+  if (!system_->has_clock(at->event)) at->own = guards(at->event, *at);
+  set_time_error(*at);
+  for (std::size_t other = 0; other < events.size(); ++other) {
+    if (happened[other] || system_->has_clock(other)) continue;
+    const std::vector<Guard> theirs = guards(other, *at);
+    if (!may_happen(other, *at, theirs) || commute(other, theirs, *at)) continue;
+    const auto nearest = std::min_element(
+        theirs.begin(), theirs.end(),
+        [](const Guard& a, const Guard& b) { return std::abs(a.value) < std::abs(b.value); });
+    return message(*at, other, nearest->value, nearest->error);
+  }
+  return clocks_after(twins, jump, *at);
+}
+
+}  // namespace gainsmith::claims

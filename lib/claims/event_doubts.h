@@ -1,0 +1,73 @@
+// Events within their errors: where it is not certain which of them happen, or in which order.
+//
+//   turn    a guard whose turning point lies nearer to 0 than its error there
+//   order   an event whose guard lies within its error when another one happens, so that it may
+//           come before or after, and whose maps do not commute on that state
+//
+// The error of a guard has three parts: four times the difference of the two runs, what its terms
+// round, and its rate times the error of the time of the other event. Clocks strike when they do:
+// two of them are in the order of the file, as are guards that are 0 together bit by bit.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "claims/independence.h"
+#include "claims/twin_parts.h"
+#include "simulate/event_watch.h"
+#include "simulate/jump_maps.h"
+
+namespace gainsmith::claims {
+
+class EventDoubts {
+ public:
+  /// The system must outlive it.
+  explicit EventDoubts(const hybrid::System& system);
+
+  /// Why a turning point is uncertain, in the flow in which it lies; none: it is certain.
+  std::optional<std::string> of_turn(const hybrid::NearTurn& turn, const TwinFlow& flow);
+  /// Why the order of a jump and another event is uncertain.
+  std::optional<std::string> of_jump(const TwinParts& twins, std::size_t jump);
+
+  simulate::JumpMaps& maps() { return maps_; }
+
+ private:
+  /// A guard at a jump and shortly before.
+  struct Guard {
+    hybrid::EventFunction* function = nullptr;
+    std::size_t comparison = 0;
+    double value = 0, before = 0;
+    double error = 0;  ///< without that of the time
+  };
+  /// What is known at a jump.
+  struct Instant {
+    Eigen::VectorXd now, twin, before;
+    double t = 0, since = 0;  ///< the time, and how long ago `before` was
+    double time_error = 0;    ///< of the event that happens
+    std::size_t event = 0;
+    bool lost = false;
+    std::vector<Guard> own;  ///< of that event
+  };
+
+  std::optional<Instant> instant(const TwinParts& twins, std::size_t jump,
+                                 std::vector<bool>& happened) const;
+  std::vector<Guard> guards(std::size_t event, const Instant& at);
+  void set_time_error(Instant& at);
+  bool may_happen(std::size_t event, const Instant& at, const std::vector<Guard>& guards);
+  std::optional<std::string> clocks_after(const TwinParts& twins, std::size_t jump,
+                                          const Instant& at);
+  bool fires(std::size_t event, const std::vector<Guard>& guards, const Instant& at,
+             const Eigen::VectorXd& values);
+  bool commute(std::size_t other, const std::vector<Guard>& guards, const Instant& at);
+  std::string message(const Instant& at, std::size_t other, double distance, double error) const;
+  Eigen::VectorXd whole(const Eigen::VectorXd& variables) const;
+
+  const hybrid::System* system_;
+  simulate::EventWatch watch_;
+  simulate::JumpMaps maps_;
+  Independence are_independent_;
+};
+
+}  // namespace gainsmith::claims

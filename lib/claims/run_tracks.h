@@ -1,0 +1,92 @@
+// Runs of dynamics with events as the samples that claims are judged by.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "claims/event_doubts.h"
+#include "claims/run_setup.h"
+#include "claims/text_ball.h"
+#include "claims/track.h"
+#include "claims/twin_parts.h"
+
+namespace gainsmith::claims {
+
+/// The runs of one (seed, number) as the samples of the functions: one to an accuracy, and its twin
+/// to a hundredth of it, of which every exact flow and every jump is moved by random units in the
+/// last place (simulate/last_places.h). One for each thread. The setup must outlive it.
+///
+///   samples   the sample points along each flow (claims/sample_points.h), and the values after
+///             each jump; at a point for the sake of one claim only its values, 0 for the others; so
+///             too after a jump over which a claim is not made
+///   bound     four times the largest difference between the two runs at five samples around it, or
+///             what a rounding for each step and jump so far makes of the value, up for some
+///             elements and down for the others, + 8 u |value| and what its evaluation rounds
+///             (text_ball.h): an estimate that leaves a margin, and no proof. Where such an error
+///             of the variables makes a branch uncertain, all values that are possible
+///
+/// Once the two runs differ by more than a thousandth of the range of a value so far, they are two
+/// runs that have nothing to do with each other: from there on bounds of the claim are infinite. So
+/// they are from where its text branches more often than can be searched.
+///
+/// Where it is not certain which events happen, because the two runs take others or because they
+/// lie within their errors (event_doubts.h), the run is lost: the samples end there. Events at one
+/// instant may come in another order (twin_parts.h). A run that ends by accumulating jumps is
+/// complete.
+class RunTracks {
+ public:
+  explicit RunTracks(const RunSetup& setup);
+
+  /// `factor`: of the accuracy of a campaign.
+  const Track& run(std::uint64_t seed, std::uint64_t run, double factor);
+
+  /// Whether a smaller factor may decide what the last run left open: its two runs differ by errors
+  /// of integration, and have not parted. Two runs that end early alike do so at any accuracy.
+  bool can_decide_more(double factor) const;
+
+ private:
+  void append(const SamplePoint& point, std::int64_t j, const Eigen::VectorXd& coarse,
+              const Eigen::VectorXd& fine, const Eigen::VectorXd& around, int pattern, int stride,
+              bool within_instant = false);
+  void add_flow(const TwinFlow& flow, const hybrid::Trajectory& fine);
+  void add_jump(const TwinParts& twins, std::size_t at);
+  /// The part of both runs that is certain; whether that is all.
+  bool add_parts(const hybrid::Trajectory& coarse, const hybrid::Trajectory& fine);
+  /// Whether the two runs have parted in a value; `size`: of the terms that it is the sum of.
+  bool parts(std::size_t function, double value, double difference, double size);
+  RiseLimits limits_of_rises(const Eigen::VectorXd& start, double accuracy);
+  void end(const hybrid::Trajectory& coarse, const hybrid::Trajectory& fine, bool certain);
+  void widen(std::size_t first);
+  bool counts(const SamplePoint& point, std::size_t function) const;
+  void come_to(std::size_t event);
+  Eigen::VectorXd values(const SamplePoint& point, const Eigen::VectorXd& x);
+  Eigen::VectorXd with_rounding(const Eigen::VectorXd& x, int bit) const;
+  Eigen::VectorXd errors(const Eigen::VectorXd& fine, const Eigen::VectorXd& around) const;
+
+  const RunSetup* setup_;
+  simulate::Simulator simulator_;
+  RunCosts costs_;
+  std::vector<RunValue> functions_;
+  std::vector<TextBall> balls_;  ///< of the functions
+  EventDoubts doubts_;
+  std::vector<char> rests_;   ///< by function: of a claim over another event than the last
+  bool amid_ = false;         ///< what comes is neither the start nor the last flow of a run
+  std::vector<bool> rounds_;  ///< by element: whether it is no whole number, which is exact
+  Track track_;
+  std::vector<double> rounding_;  ///< of the evaluation, as the bounds of the track
+  RiseLimits rises_;
+  /// What a function has been so far.
+  struct Range {
+    double low = 0, high = 0;
+    bool seen = false;
+  };
+  std::vector<Range> ranges_;  ///< by function
+  std::vector<double> sizes_;  ///< by claim, at its first function: of values and their terms
+  std::vector<char> parted_;   ///< the same: whether the two runs have
+  bool ended_early_ = false;   ///< the last run, both times alike, before its horizon
+  std::size_t next_turn_ = 0;  ///< of the turning points of the twin
+  std::string doubt_;          ///< why the run is lost
+  double rounded_ = 0;         ///< steps and jumps so far
+};
+
+}  // namespace gainsmith::claims

@@ -1,0 +1,114 @@
+#include "linear/jump.h"
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+#include "linear/coordinates.h"
+#include "numbers/degree.h"
+
+namespace gainsmith::linear {
+
+namespace {
+
+using Eigen::Index;
+
+}  // namespace
+
+struct LinearJump::Clocks {
+  const Coordinates* coordinates = nullptr;
+  Wide start, reset, rate;  ///< of all coordinates; 0 of those that are no clocks
+  std::vector<std::optional<WideFunction>> after;  ///< by coordinate; none: unchanged
+
+  /// Whether clock i is set to a constant by jumps, and starts at one.
+  bool add(std::size_t i, const Wide& start_of_all, const std::vector<bool>& same) {
+    const hybrid::Slot& slot = coordinates->layout.slots[i];
+    const auto& jump = coordinates->list[i].jump;
+    if (!jump || std::any_of(jump->inputs.begin(), jump->inputs.end(), [&](const auto& input) {
+          return coordinates->layout.moves(input.name);
+        }))
+      return false;
+    WideFunction value(*jump, coordinates->layout, coordinates->constants);
+    const Wide zero = Wide::Zero(coordinates->layout.size, 1);
+    reset.middleRows(slot.offset, slot.shape.size()) = value(zero).reshaped();
+    for (Index e = slot.offset; e < slot.offset + slot.shape.size(); ++e) {
+      if (!same[static_cast<std::size_t>(e)] || !coordinates->linear.row(e).isZero(0)) return false;
+      start(e) = start_of_all(e);
+      rate(e) = coordinates->constant(e);
+    }
+    return true;
+  }
+};
+
+LinearJump::LinearJump() = default;
+LinearJump::LinearJump(LinearJump&&) noexcept = default;
+LinearJump& LinearJump::operator=(LinearJump&&) noexcept = default;
+LinearJump::~LinearJump() = default;
+
+std::optional<LinearJump> LinearJump::make(const Coordinates& all, const Wide& start,
+                                           const std::vector<bool>& same) {
+  LinearJump made;
+  const Index n = all.layout.size;
+  if (const auto map = affine_jump(all)) {
+    for (Index e = 0; e < n; ++e) made.elements_.push_back(e);
+    made.constant_.resize(n, n + 1);
+    made.constant_ << map->linear, map->constant;
+    return made;
+  }
+  made.clocks_ = std::make_unique<Clocks>();
+  Clocks& clocks = *made.clocks_;
+  clocks.coordinates = &all;
+  clocks.start = clocks.reset = clocks.rate = Wide::Zero(n, 1);
+  std::set<std::string> others;
+  std::vector<Index> clock_elements;
+  for (std::size_t i = 0; i < all.list.size(); ++i) {
+    const hybrid::Slot& slot = all.layout.slots[i];
+    const bool is_clock = all.list[i].clock;
+    if (is_clock && !clocks.add(i, start, same)) return std::nullopt;
+    if (!is_clock) others.insert(slot.name);
+    for (int e = 0; e < slot.shape.size(); ++e)
+      (is_clock ? clock_elements : made.elements_).push_back(slot.offset + e);
+  }
+  if (!all.linear(made.elements_, clock_elements).isZero(0)) return std::nullopt;
+  for (const Coordinate& one : all.list) {
+    clocks.after.emplace_back();
+    if (one.clock || !one.jump) continue;
+    const auto degrees =
+        numbers::degrees(*one.jump, [&](const std::string& name) { return others.contains(name); });
+    if (degrees[static_cast<std::size_t>(one.jump->result)] == numbers::kNotAffine ||
+        one.jump->uses(all.layout.timer))
+      return std::nullopt;
+    clocks.after.back().emplace(*one.jump, all.layout, all.constants);
+  }
+  return made;
+}
+
+Wide LinearJump::operator()(const Decimal100& length, bool first) const {
+  if (!clocks_) return constant_;
+  const Coordinates& all = *clocks_->coordinates;
+  const Index n = all.layout.size;
+  Wide x = (first ? clocks_->start : clocks_->reset) + clocks_->rate * length;
+  Wide map = Wide::Zero(n, n + 1);
+  for (std::size_t i = 0; i < all.list.size(); ++i) {
+    const hybrid::Slot& slot = all.layout.slots[i];
+    auto& after = clocks_->after[i];
+    const Index rows = slot.shape.size();
+    if (!after) {
+      map.block(slot.offset, slot.offset, rows, rows).setIdentity();
+      continue;
+    }
+    const Wide constant = (*after)(x).reshaped();
+    map.block(slot.offset, n, rows, 1) = constant;
+    for (const Index j : elements_) {
+      x(j) = Decimal100(1);
+      map.block(slot.offset, j, rows, 1) = (*after)(x).reshaped() - constant;
+      x(j) = Decimal100(0);
+    }
+  }
+  remove_noise(map, largest_of(map));
+  std::vector<Index> columns = elements_;
+  columns.push_back(n);
+  return map(elements_, columns);
+}
+
+}  // namespace gainsmith::linear

@@ -1,0 +1,84 @@
+#include "simulate/measured_rows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "hybrid/tolerances.h"
+
+namespace gainsmith::simulate {
+
+namespace {
+
+auto row_of(const model::Series& series, std::size_t row) {
+  return series.values.row(static_cast<Eigen::Index>(row)).transpose();
+}
+
+}  // namespace
+
+MeasuredRows::MeasuredRows(const hybrid::System& system) {
+  using Kind = model::Dynamics::VariableKind;
+  for (const model::Dynamics::Measured& one : system.dynamics.measured)
+    quantities_.push_back({&one, 0, std::nullopt});
+  for (std::size_t k = 0; k < system.dynamics.variables.size(); ++k) {
+    const model::Dynamics::Variable& variable = system.dynamics.variables[k];
+    const Eigen::Index offset = system.layout.slots[k].offset;
+    if (variable.kind == Kind::measured) quantities_[variable.of].value = offset;
+    if (variable.kind == Kind::measured_rate) quantities_[variable.of].rate = offset;
+  }
+}
+
+void MeasuredRows::begin(Eigen::VectorXd& values) {
+  for (Quantity& one : quantities_) {
+    const model::Series& series = *one.measured->series;
+    one.row = series.not_before(0);
+    const model::Course course = course_at(series, one.measured->between, 0);
+    if (one.rate) values.segment(*one.rate, series.values.cols()) = course.rate;
+    if (!is_due(one, 0)) values.segment(one.value, series.values.cols()) = course.value;
+  }
+  arrive(0, values);
+}
+
+double MeasuredRows::next() const {
+  double earliest = std::numeric_limits<double>::infinity();
+  for (const Quantity& one : quantities_)
+    if (one.row < one.measured->series->times.size())
+      earliest = std::min(earliest, one.measured->series->times[one.row]);
+  return earliest;
+}
+
+bool MeasuredRows::is_due(const Quantity& one, double t) {
+  const std::vector<double>& times = one.measured->series->times;
+  return one.row < times.size() && times[one.row] <= t + hybrid::kOneInstant * std::abs(t);
+}
+
+bool MeasuredRows::arrive(double t, Eigen::VectorXd& values) const {
+  bool any = false;
+  for (const Quantity& one : quantities_) {
+    if (!is_due(one, t)) continue;
+    any = true;
+    const model::Series& series = *one.measured->series;
+    values.segment(one.value, series.values.cols()) = row_of(series, one.row);
+  }
+  return any;
+}
+
+bool MeasuredRows::leave(double t, Eigen::VectorXd& values) {
+  bool any = false;
+  for (Quantity& one : quantities_) {
+    if (!is_due(one, t)) continue;
+    any = true;
+    while (is_due(one, t)) ++one.row;
+    const model::Series& series = *one.measured->series;
+    values.segment(one.value, series.values.cols()) = row_of(series, one.row - 1);
+    if (!one.rate) continue;
+    auto rate = values.segment(*one.rate, series.values.cols());
+    rate.setZero();
+    if (one.row < series.times.size())
+      rate = (row_of(series, one.row) - row_of(series, one.row - 1)) /
+             (series.times[one.row] - series.times[one.row - 1]);
+  }
+  return any;
+}
+
+}  // namespace gainsmith::simulate

@@ -1,0 +1,171 @@
+#include "statistics/figure_survey.h"
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <utility>
+
+#include "base/parallel.h"
+#include "base/progress.h"
+#include "base/stop.h"
+#include "statistics/bound_figure.h"
+#include "statistics/run_blocks.h"
+
+namespace gainsmith::statistics {
+
+namespace {
+
+void keep_least(const std::optional<OfRun>& more, std::optional<OfRun>& least) {
+  if (more && (!least || std::pair(more->value, more->run) < std::pair(least->value, least->run)))
+    least = more;
+}
+
+void keep_largest(const std::optional<OfRun>& more, std::optional<OfRun>& largest) {
+  if (more &&
+      (!largest || std::pair(-more->value, more->run) < std::pair(-largest->value, largest->run)))
+    largest = more;
+}
+
+FigureSurvey empty_survey(const std::vector<model::Figure>& figures) {
+  FigureSurvey survey;
+  for (const model::Figure& figure : figures) {
+    FigureSummary& summary = survey.figures.emplace_back();
+    summary.title = figure.title;
+    summary.observer = figure.observer;
+    summary.squares.elements = figure.elements;
+    summary.whole = figure.kind == model::FigureKind::count ||
+                    figure.kind == model::FigureKind::passes ||
+                    figure.kind == model::FigureKind::lost;
+  }
+  return survey;
+}
+
+/// Figures of run after run; one for each thread.
+class Surveyor {
+ public:
+  Surveyor(const claims::RunSetup& setup, const std::vector<model::Figure>& figures,
+           std::uint64_t seed)
+      : setup_(setup),
+        seed_(seed),
+        simulator_(setup.system, setup.scenario),
+        survey_(empty_survey(figures)),
+        values_(figures.size()) {
+    for (const model::Figure& figure : figures)
+      figures_.push_back(std::make_unique<BoundFigure>(figure, setup));
+  }
+
+  void add(std::uint64_t run) {
+    const hybrid::Trajectory made =
+        simulator_.run(seed_, run, setup_.accuracy(claims::kAccuracyOfOne, claims::kSharper));
+    check_stop();
+    ++survey_.runs;
+    if (!is_complete(made.ending)) {
+      if (survey_.early++ == 0 || run < survey_.early_run) {
+        survey_.early_run = run;
+        survey_.early_why =
+            to_string(made.ending) + (made.message.empty() ? std::string() : ": " + made.message);
+      }
+    }
+    for (std::size_t k = 0; k < figures_.size(); ++k) add(k, run, made);
+  }
+
+  FigureSurvey result() {
+    for (std::size_t k = 0; k < values_.size(); ++k) survey_.figures[k].values.add(values_[k]);
+    return std::move(survey_);
+  }
+
+ private:
+  void add(std::size_t k, std::uint64_t run, const hybrid::Trajectory& made) {
+    FigureSummary& summary = survey_.figures[k];
+    const std::optional<double> value = figures_[k]->of(made);
+    if (summary.squares.elements > 0) summary.squares.add(figures_[k]->squares());
+    if (!value) {
+      ++summary.without;
+      return;
+    }
+    values_[k].push_back(*value);
+    keep_least(OfRun{*value, run}, summary.least);
+    keep_largest(OfRun{*value, run}, summary.largest);
+  }
+
+  const claims::RunSetup& setup_;
+  std::uint64_t seed_;
+  simulate::Simulator simulator_;
+  std::vector<std::unique_ptr<BoundFigure>> figures_;
+  FigureSurvey survey_;
+  std::vector<std::vector<double>> values_;  ///< by figure
+};
+
+}  // namespace
+
+void FigureSummary::add(const FigureSummary& more) {
+  values.add(more.values);
+  without += more.without;
+  keep_least(more.least, least);
+  keep_largest(more.largest, largest);
+  squares.add(more.squares);
+}
+
+void FigureSurvey::add(const FigureSurvey& more) {
+  runs += more.runs;
+  if (more.early > 0 && (early == 0 || more.early_run < early_run)) {
+    early_run = more.early_run;
+    early_why = more.early_why;
+  }
+  early += more.early;
+  for (std::size_t k = 0; k < figures.size(); ++k) figures[k].add(more.figures[k]);
+}
+
+FigureSurvey survey_figures(const claims::RunSetup& setup,
+                            const std::vector<model::Figure>& figures, std::uint64_t seed,
+                            const RunNumbers& runs, unsigned threads) {
+  FigureSurvey all = empty_survey(figures);
+  const Doing doing("figures", runs.count);
+  sum_over_runs(
+      runs.count, threads, [&] { return Surveyor(setup, figures, seed); },
+      [&](Surveyor& surveyor, std::uint64_t k) {
+        surveyor.add(runs[k]);
+        doing.step();
+      },
+      [&](Surveyor& surveyor) { all.add(surveyor.result()); });
+  return all;
+}
+
+void SurveyOfRuns::add(const SurveyOfRuns& more) {
+  if (more.runs.count() == 0) return;
+  if (runs.count() == 0) {
+    *this = more;
+    return;
+  }
+  for (const RunRange& range : more.runs.ranges()) runs.add(range);
+  survey.add(more.survey);
+}
+
+void grow(const claims::RunSetup& setup, const std::vector<model::Figure>& figures,
+          std::uint64_t seed, RunRange range, unsigned threads, SurveyOfRuns& sum,
+          const std::function<void()>& grown) {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::chrono::seconds kStep(1);
+  std::uint64_t size = std::uint64_t{64} * thread_count(threads);
+  const std::vector<RunRange> missing = sum.runs.missing_in(range);
+  std::uint64_t count = 0;
+  for (const RunRange& one : missing) count += one.count();
+  const std::uint64_t all = range.count();
+  const Doing doing("figures", all, all - count);
+  for (const RunRange& one : missing)
+    for (std::uint64_t first = one.first; first < one.last;) {
+      const auto begin = Clock::now();
+      const std::uint64_t asked = std::min(size, one.last - first);
+      SurveyOfRuns more;
+      more.survey = survey_figures(setup, figures, seed, {asked, {}, first}, threads);
+      more.runs.add({first, first + more.survey.runs});
+      sum.add(more);
+      doing.step(more.survey.runs);
+      if (grown) grown();
+      if (more.survey.runs < asked) return;
+      first += asked;
+      if (Clock::now() - begin < kStep) size *= 2;
+    }
+}
+
+}  // namespace gainsmith::statistics

@@ -1,0 +1,93 @@
+// Where it is uncertain which events happen, or in which order.
+#include "claims/event_doubts.h"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <string>
+
+#include "support/event_problem.h"
+
+namespace gainsmith::claims {
+namespace {
+
+using EventKind = model::Dynamics::EventKind;
+using tests::EventProblem;
+
+/// A run beside a coarser one.
+struct Runs {
+  explicit Runs(const EventProblem& problem)
+      : system(problem.system()),
+        fine(run_to({1e-10, 1e-10})),
+        coarse(run_to({1e-8, 1e-8})),
+        doubts(system),
+        twins(pair_twins(fine, coarse, system, doubts.maps())) {}
+
+  hybrid::Trajectory run_to(const simulate::Accuracy& accuracy) const {
+    const hybrid::Scenario scenario = hybrid::make_scenario(2, system);
+    return simulate::Simulator(system, scenario).run(1, 0, accuracy);
+  }
+
+  /// The first doubt about the order of events.
+  std::optional<std::string> doubt() {
+    for (std::size_t k = 0; k < twins.parts.size(); ++k)
+      if (std::holds_alternative<TwinJump>(twins.parts[k]))
+        if (auto found = doubts.of_jump(twins, k)) return found;
+    return std::nullopt;
+  }
+
+  hybrid::System system;
+  hybrid::Trajectory fine, coarse;
+  EventDoubts doubts;
+  TwinParts twins;
+};
+
+/// x and y rise at the rate 1 and come to 1 at times that differ by `apart`; both jumps change p.
+EventProblem two_events(const std::string& apart, const std::string& first,
+                        const std::string& second) {
+  EventProblem problem;
+  problem.state("x", {}, "0").flow("x", "1").state("y", {}, apart).flow("y", "1");
+  problem.state("p", {}, "3");
+  problem.crossing(EventKind::rises, "first", "x - 1").jump("first", {{"p", first}});
+  problem.crossing(EventKind::rises, "second", "y - 1").jump("second", {{"p", second}});
+  return problem;
+}
+
+TEST(EventDoubts, AnOrderWithinTheErrorThatMattersIsUncertain) {
+  Runs runs(two_events("1e-15", "p + 1", "2*p"));
+  const auto doubt = runs.doubt();
+  ASSERT_TRUE(doubt);
+  EXPECT_NE(doubt->find("first"), std::string::npos) << *doubt;
+  EXPECT_NE(doubt->find("second"), std::string::npos) << *doubt;
+}
+
+TEST(EventDoubts, EventsThatCommuteAreCertain) {
+  EXPECT_FALSE(Runs(two_events("1e-15", "p + 1", "p + 0.1")).doubt());
+}
+
+TEST(EventDoubts, EventsThatLieApartAreCertain) {
+  EXPECT_FALSE(Runs(two_events("1e-6", "p + 1", "2*p")).doubt());
+}
+
+/// x(1) = sin(t) turns at 1, which the guard x(1) - 1 only just reaches.
+TEST(EventDoubts, ATurningPointWithinTheErrorIsUncertain) {
+  EventProblem problem;
+  problem.state("x", {2, 1}, "[0; 1]").flow("x", "[x(2); -x(1)]");
+  problem.crossing(EventKind::rises, "top", "x(1) - 1 - 1e-3").jump("top", {{"x", "0*x"}});
+  Runs runs(problem);
+  ASSERT_EQ(runs.twins.parts.size(), 1U);
+  const auto& flow = std::get<TwinFlow>(runs.twins.parts[0]);
+  hybrid::NearTurn turn;
+  turn.of = hybrid::NearTurn::Of::crossing;
+  turn.t = 1.5707963;
+  turn.text = "x(1) - 1";
+  turn.value = -1e-3;
+  EXPECT_FALSE(runs.doubts.of_turn(turn, flow));
+  turn.value = -1e-17;
+  const auto doubt = runs.doubts.of_turn(turn, flow);
+  ASSERT_TRUE(doubt);
+  EXPECT_NE(doubt->find("x(1) - 1"), std::string::npos) << *doubt;
+}
+
+}  // namespace
+}  // namespace gainsmith::claims
