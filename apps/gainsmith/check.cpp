@@ -236,7 +236,7 @@ Command check_command() {
               "standard input")
            .required(),
        set_option(options->set), Option("--json", options->json, "print the result as JSON")},
-      "A problem is read, not solved. A gain file is taken as it stands, edited or not.\n"
+      "A problem is read, not solved. A gain file is taken as it is, edited or not.\n"
       "Of several files it prints a line each, of wrong ones too, and their number at the end.\n"
       "Exit code: 0 all valid and proved, 1 the inequalities do not hold at the gains of a file, 2 "
       "wrong\n"

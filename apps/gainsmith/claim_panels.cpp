@@ -12,7 +12,7 @@ namespace {
 using verify::ClaimScope;
 using verify::Replay;
 
-/// Values that are further apart do not stand on one axis.
+/// Values that are further apart do not share one axis.
 constexpr double kFar = 30;
 
 /// A claim of one run where it is made, and what it must not pass.
@@ -64,8 +64,8 @@ ClaimOfRuns claim_of(std::size_t column, const std::vector<DrawnRun>& runs, cons
   return claim;
 }
 
-/// What stands in one panel: of one unit and sign, none much smaller than the next larger one. In the
-/// order of their first members. Of several runs each claim stands alone.
+/// What shares one panel: of one unit and sign, none much smaller than the next larger one. In the
+/// order of their first members. Of several runs each claim is alone.
 std::vector<std::vector<ClaimOfRuns>> grouped(std::vector<ClaimOfRuns> claims, bool alone) {
   std::vector<std::vector<ClaimOfRuns>> groups;
   while (!claims.empty()) {

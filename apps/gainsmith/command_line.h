@@ -20,7 +20,7 @@ namespace gainsmith::app {
 struct Option {
   /// The type says how the value is read: bool is a flag; an optional stays empty when nothing is
   /// given, all else keeps its default, which help shows; a vector takes one value each time its
-  /// option stands, or, as a positional argument, all that are left.
+  /// option is given, or, as a positional argument, all that are left.
   using Target = std::variant<bool*, int*, unsigned*, std::uint64_t*, double*, std::string*,
                               std::vector<std::string>*, std::optional<int>*,
                               std::optional<std::uint64_t>*, std::optional<double>*>;
@@ -50,7 +50,7 @@ struct Option {
   }
   /// What help calls the value.
   Option& named(std::string word) { return value_name = std::move(word), *this; }
-  /// Not together with these options, which stand above this one.
+  /// Not together with these options, which are above this one.
   Option& excludes(std::vector<std::string> names) { return excluded = std::move(names), *this; }
 
   std::string name;

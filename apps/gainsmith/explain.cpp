@@ -26,7 +26,7 @@ struct ExplainOptions {
   bool json = false;
 };
 
-/// The hidden mode, unless it stands above: without a conflict the message of the solver does.
+/// The hidden mode, unless it is shown above: without a conflict the message of the solver is.
 std::string plant_line(const model::Instance& instance, const design::Explanation& explanation) {
   const std::string hidden = design::hidden_mode_text(instance);
   const bool stands =

@@ -118,7 +118,7 @@ statistics::RunSet ranges_from(const JsonReader& reader) {
     const std::vector<JsonReader> ends = range.items();
     if (ends.size() != 2) range.fail("expected the first run and the one behind the last");
     if (runs.add({ends[0].count(), ends[1].count()}).count() > 0)
-      range.fail("these runs stand twice");
+      range.fail("these runs occur twice");
   }
   return runs;
 }

@@ -1,4 +1,4 @@
-// The inequalities of a gain file at its gains as they stand, for people and as JSON.
+// The inequalities of a gain file at its gains as given, for people and as JSON.
 #pragma once
 
 #include <string>

@@ -14,7 +14,7 @@ namespace gainsmith::app {
 
 namespace {
 
-/// A text of roff: its control characters stand for themselves.
+/// A text of roff: its control characters represent themselves.
 std::string roff(std::string_view text) {
   std::string result;
   bool at_start = true;
@@ -38,7 +38,7 @@ std::string upper(std::string text) {
   return text;
 }
 
-/// What stands for the value of an option.
+/// What represents the value of an option.
 std::string value_name(const Option& option) {
   if (!option.value_name.empty()) return option.value_name;
   if (!option.choices.empty()) return fmt::format("{}", fmt::join(option.choices, "|"));

@@ -28,7 +28,7 @@ bool is_problem(const fs::path& path) {
   return (ending == ".yaml" || ending == ".yml") && !is_hidden(path) && !is_folder(path);
 }
 
-/// One path for all ways to a file; of one that does not exist its own.
+/// One path for all paths to a file; of one that does not exist its own.
 fs::path identity(const fs::path& path) {
   std::error_code error;
   const fs::path real = fs::canonical(path, error);

@@ -15,9 +15,9 @@ struct ProblemFile {
 };
 
 /// The files, and those ending in .yaml or .yml below the folders, sorted: each once, by the first
-/// of the ways that lead to it. "-" is standard input. Links to folders are not followed; a link to
-/// nothing is left out, unless it ends like a problem file. InputError for a folder that cannot be
-/// read or holds no problem.
+/// of the paths that lead to it. "-" is standard input. Links to folders are not followed; a link
+/// to nothing is left out, unless it ends like a problem file. InputError for a folder that cannot
+/// be read or holds no problem.
 std::vector<ProblemFile> problem_files(const std::vector<std::string>& paths);
 
 }  // namespace gainsmith::app

@@ -104,7 +104,7 @@ class Planner {
     return {{k}, std::nullopt, column(k).name, dashed, colour_of(column(k))};
   }
 
-  /// InputError for a name of which there is nothing; `known` is what may stand there, of which each
+  /// InputError for a name of which there is nothing; `known` is what may be there, of which each
   /// is listed once, the nearest first.
   static void require(bool found, const char* option, const std::string& name,
                       std::vector<std::string> known) {

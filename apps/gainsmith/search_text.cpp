@@ -40,7 +40,7 @@ std::string breaks_text(const model::SearchRecord& search) {
   for (const double value : search.breaks)
     values += (values.empty() ? "" : ", ") + brief(value, kDigits);
   return fmt::format(
-      "            NOT MONOTONE: excluded{} at {} as well; other borders may lie between "
+      "            NOT MONOTONE: excluded{} at {} as well; other boundaries may lie between "
       "the values tried\n",
       search.certificate ? model::limits_of(*search.certificate) : "", values);
 }

@@ -12,7 +12,7 @@ namespace gainsmith::app {
 /// not take its place: reading or writing it fails, but for standard error, which takes all.
 void open_standard_files();
 
-/// Writes to standard error. Where that fails nobody can be told, and the result stands all the
+/// Writes to standard error. Where that fails nobody can be told, and the result stays the
 /// same.
 void say(const std::string& text);
 

@@ -118,7 +118,7 @@ struct Gains {
 };
 
 /// The gains of a problem (docs/language.md); a method that it names is built in. `name` is its
-/// file in messages, and data files are looked for beside it. `values` replace scalar data and
+/// file in messages, and data files are searched for beside it. `values` replace scalar data and
 /// parameters. A problem that searches for the best figure of simulated runs is an Error: the
 /// program does that.
 Gains synthesize(const std::string& problem, const std::string& name,

@@ -1,5 +1,5 @@
 // What Eigen has to know of the scalars beyond double. In base, because two rooms' answers that
-// differ would break what both instantiate; without a look at Eigen, which the room that includes
+// differ would break what both instantiate; without including Eigen, which the room that includes
 // this brings along: <Eigen/Core> comes first.
 #pragma once
 

@@ -155,7 +155,7 @@ class Team {
     running = before;
   }
 
-  /// Makes one thread look for work that may enter this loop; whether there is one.
+  /// Makes one thread search for work that may enter this loop; whether there is one.
   bool call_to(const Loop& loop) {
     for (Loop* outer = loop.outer; outer; outer = outer->outer)
       if (outer->waiting && loop.has_room(outer)) return wake(*outer);

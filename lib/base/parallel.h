@@ -24,7 +24,7 @@ void parallel_for(std::size_t count, unsigned threads,
 /// groups have (cpu.max).
 unsigned usable_cores();
 
-/// The number of threads that `threads` stands for: itself, or for 0 the usable cores at the start.
+/// The number of threads for `threads`: itself, or for 0 the usable cores at the start.
 unsigned thread_count(unsigned threads);
 
 }  // namespace gainsmith

@@ -17,7 +17,7 @@ using Integer =
 /// 10^exponent, also for exponents below 0.
 Rational power_of_ten(int exponent);
 
-/// The number that a decimal text stands for. Texts and refusals are those of parse_decimal
+/// The value of a decimal text. Texts and refusals are those of parse_decimal
 /// (number.h); also refused is an exponent beyond 1000, which no double has.
 std::optional<Rational> parse_rational(std::string_view text);
 

@@ -12,7 +12,7 @@
 
 namespace gainsmith {
 
-/// 100 decimal digits that may be relied on, and 50 to lose on the way to them (MPFR, kept on the
+/// 100 decimal digits that may be relied on, and 50 to lose in computing them (MPFR, kept on the
 /// stack), for what 31 do not settle. A program that is nearly singular ends with some two thirds
 /// of the digits it is solved in.
 using Decimal100 = boost::multiprecision::number<
@@ -64,7 +64,7 @@ inline Decimal100 with_finer(const DoubleDouble& leading, const Finer& finer) {
   return x + leading.lo() + leading.hi();
 }
 
-/// The number that a decimal text stands for, with all the digits that T has. Texts and refusals
+/// The value of a decimal text, with all the digits that T has. Texts and refusals
 /// are those of parse_decimal (number.h), so that a text is a number in every arithmetic or in
 /// none.
 template <typename T>

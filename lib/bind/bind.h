@@ -12,7 +12,7 @@ namespace gainsmith::bind {
 /// InputError, with the place, for the first that does not fit: a datum that is missing, has the
 /// wrong shape or is not symmetric where it must be, an assumption that fails, unknown names,
 /// shapes that do not fit, values of the campaign outside of their ranges. A scalar that is
-/// searched and has neither value nor default stands at the end of its range from which the search
+/// searched and has neither value nor default is set to the end of its range from which the search
 /// goes: the high one of `smallest`, otherwise the low one.
 model::Instance bind(std::shared_ptr<const model::Problem> problem,
                      const model::Overrides& overrides = {});

@@ -154,7 +154,7 @@ bool is_run(const Binding& binding) {
   return wanted && !gains_alone && binding.design->no_campaign.empty();
 }
 
-/// A name stands for the state of each observer that has it. A state that starts nowhere is an
+/// A name refers to the state of each observer that has it. A state that starts nowhere is an
 /// error of runs alone (hybrid/scenario.h).
 void bind_starts(Binding& binding) {
   auto& starts = binding.design->campaign.starts;

@@ -12,7 +12,7 @@ using expr::NodeKind;
 using expr::NodePtr;
 using expr::Relation;
 
-/// Builds trees that stand where the call stands.
+/// Builds trees that are placed where the call is.
 class Trees {
  public:
   explicit Trees(const Node& at) : at_(at) {}

@@ -1,4 +1,4 @@
-// Internal to bind: convex functions of unknowns as the inequalities that they stand for.
+// Internal to bind: convex functions of unknowns as the inequalities that represent them.
 //
 //   norm(M) <= g           [g*I, M; M', g*I] >= 0
 //   abs(v) <= g            -g <= v <= g, element by element
@@ -6,7 +6,7 @@
 //   lambda_max(M) <= g     M <= g*I
 //
 // and min and lambda_min likewise from above. Where such a function is a term among others, as in
-// norm(M) + 2*norm(X) <= g or minimize: sum(abs(v)), an unknown of its own stands for it and bounds
+// norm(M) + 2*norm(X) <= g or minimize: sum(abs(v)), an unknown of its own replaces it and bounds
 // it: the sum can be small exactly when the bounds can.
 #pragma once
 

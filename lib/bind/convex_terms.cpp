@@ -209,7 +209,7 @@ NodePtr with_terms(const Binding& binding, const expr::Expression& text, const N
   return sum_of(terms, *node);
 }
 
-/// An unknown that bounds the function at `call`, as a node that stands for it.
+/// An unknown that bounds the function at `call`, as a node that represents it.
 NodePtr bounding_unknown(Binding& binding, const expr::Expression& text, const Node& call,
                          Curvature curvature) {
   expr::Scope& scope = binding.names->design;
@@ -240,7 +240,7 @@ NodePtr bounding_unknown(Binding& binding, const expr::Expression& text, const N
   name->children.clear();
   model::Design::Inequality bound;
   const std::string quoted = text.quote(call);
-  // A term of a sum over an index stands where the sum stands.
+  // A term of a sum over an index has the place of the sum.
   const bool own = quoted.starts_with(call.text);
   bound.name = unknown.name + (curvature == Curvature::convex ? " >= " : " <= ") +
                (own ? quoted : call.text + " in " + quoted);

@@ -10,7 +10,7 @@
 namespace gainsmith::bind {
 
 /// A comparison chain without convex functions of unknowns: the chain itself where there are none.
-/// `quantified`: it stands under a `forall` with an interval or a set.
+/// `quantified`: it is under a `forall` with an interval or a set.
 std::vector<expr::Expression> affine_comparisons(Binding& binding, const expr::Expression& stated,
                                                  expr::Scope& scope, bool quantified);
 

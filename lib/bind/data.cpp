@@ -51,7 +51,7 @@ bool has_free_size(const model::Value& value) {
   return names.contains("I") || value.value.root->kind == expr::NodeKind::number;
 }
 
-/// Where each element stands, row by row, when the matrix is written element by element.
+/// Where each element is, row by row, when the matrix is written element by element.
 std::vector<Place> element_places(const model::Value& value, expr::Shape shape) {
   const expr::Node& root = *value.value.root;
   std::vector<Place> places;
@@ -114,7 +114,7 @@ std::vector<Given> given(Binding& binding, const model::Declaration& datum) {
   return result;
 }
 
-/// The range in which the problem looks for a scalar.
+/// The range in which the problem searches for a scalar.
 const model::ScalarRange* find_searched(const Binding& binding, const std::string& name) {
   if (!binding.problem().search) return nullptr;
   const model::Search& search = *binding.problem().search;
@@ -122,7 +122,7 @@ const model::ScalarRange* find_searched(const Binding& binding, const std::strin
   return find_named(search.over, name);
 }
 
-/// A scalar without a value stands where the search for it begins.
+/// A scalar without a value gets the value at which the search for it begins.
 void start_at_end(const Binding& binding, const model::ScalarRange& searched,
                   model::Design::Datum& datum) {
   datum.range = range(searched, binding.names->known);
@@ -244,9 +244,9 @@ std::string meaning_of(const Binding& binding, const std::string& name) {
   const model::Method& method = binding.method();
   const std::string of_method = " of the method " + method.name;
   if (find_named(method.data, name) != nullptr)
-    return "it is a datum of the method, which stands under 'data'";
+    return "it is a datum of the method, whose place is under 'data'";
   if (find_named(method.parameters, name) != nullptr)
-    return "it is a parameter of the method, which stands under 'parameters'";
+    return "it is a parameter of the method, whose place is under 'parameters'";
   if (find_named(method.unknowns, name) != nullptr) return "it is an unknown" + of_method;
   if (find_named(method.gains, name) != nullptr) return "it is a gain" + of_method;
   // Those of a method in the problem itself may be set again: `--set k=2`.

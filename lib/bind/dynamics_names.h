@@ -1,8 +1,8 @@
-// Internal to bind: what the names in the texts of plant and observers stand for.
+// Internal to bind: what the names in the texts of plant and observers refer to.
 //
 // Programs know the states of the plant by their own names and those of an observer with its name,
 // "nominal.xh". Within an observer its own names need none. Outside, a bare name that only
-// observers have stands for each that has it, in turn; one that plant and method share is the
+// observers have refers to each that has it, in turn; one that plant and method share is the
 // method's.
 #pragma once
 
@@ -55,7 +55,7 @@ class DynamicsNames {
                       const Place& place) const;
   /// A text that no observer by itself is meant in. InputError when there are several readings.
   expr::Expression outside(const expr::Expression& text) const;
-  /// The states that a name of `initial` stands for.
+  /// The states that a name of `initial` refers to.
   std::vector<std::string> states(const std::string& name) const;
   /// The full name of the event that a component, or a text outside (nullptr), means; none when
   /// there is none.

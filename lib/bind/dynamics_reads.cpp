@@ -11,7 +11,7 @@ void DynamicsBinding::check_reads(const Reader& reader, const expr::Expression& 
   });
 }
 
-/// `states`: whether the states of the plant are looked for; within one of its outputs they are
+/// `states`: whether the states of the plant are checked for; within one of its outputs they are
 /// not.
 void DynamicsBinding::check_name(const Reader& reader, const expr::Expression& top,
                                  const expr::Node& node, const std::string& name, bool states,

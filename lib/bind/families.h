@@ -1,4 +1,4 @@
-// Internal to bind: what stands in a text once for all members of a family.
+// Internal to bind: what is written in a text once for all members of a family.
 //
 //   unknowns: {P: {shape: symmetric n, for: i in 1..N}}
 //   require:  {flow: {forall: [i in 1..N, j in 1..N, i != j], that: P(i) < P(j)}}

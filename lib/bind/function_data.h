@@ -15,7 +15,7 @@ namespace gainsmith::bind {
 bool is_function(const model::Problem& problem, const model::Declaration& datum);
 
 /// Makes the datum a definition, and learns dimensions from the shape of its values. The data
-/// before it and the definitions of the problem may stand in it. InputError where the problem gives
+/// before it and the definitions of the problem may occur in it. InputError where the problem gives
 /// none, another number of arguments, or another shape.
 void add_function(Binding& binding, const model::Declaration& datum);
 

@@ -11,7 +11,7 @@ namespace gainsmith::bind {
 
 namespace {
 
-/// Each scalar is searched in one way.
+/// Each scalar is searched once only.
 void refuse_repetition(const model::Search& search) {
   std::set<std::string> names;
   if (search.extreme) names.insert(search.extreme->name);

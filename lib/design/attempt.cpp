@@ -274,7 +274,7 @@ std::optional<Attempt> blended_from(const Posed& posed, const Attempt& minimum,
   constexpr int kHalvings = 3;
   for (double e : kFractions) {
     if (!holds_at(e)) continue;
-    // What the fraction costs is seen in the objective.
+    // The objective shows what the fraction costs.
     double fails = 0.1 * e;
     for (int k = 0; k < kHalvings; ++k) {
       const double middle = std::sqrt(fails * e);

@@ -29,7 +29,7 @@ using Solve = std::function<sdp::Solution(const sdp::Problem& problem, const Eff
 /// Optimal, or with objectives that nearly agree.
 bool is_near_optimal(const sdp::Solution& solution);
 
-/// Inequalities with the blocks that stand for them.
+/// Inequalities with the blocks that represent them.
 struct Posed {
   const lmi::Inequalities& inequalities;
   const forall::Plan& plan;

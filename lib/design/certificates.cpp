@@ -26,7 +26,7 @@ class Certificates {
     const auto Y = multipliers(solution);
     auto found =
         verdict::refute<DoubleDouble>(posed_.inequalities, posed_.lmi, formulation_, Y, exactness);
-    // 31 digits have the range of double: what underflows there stands in the file all the same.
+    // 31 digits have the range of double: what underflows there is in the file all the same.
     if (found.exact && posed_.wide)
       found =
           verdict::refute<Decimal100>(posed_.inequalities, posed_.lmi, formulation_, Y, exactness);
@@ -37,7 +37,7 @@ class Certificates {
     return verdict::refute_on_boundary(posed_.inequalities, posed_.lmi, formulation_, solution);
   }
 
-  /// One program in double, of the inequalities as they stand.
+  /// One program in double, of the unchanged inequalities.
   verdict::Refutation by_violation(const Solve& solve) const {
     if (!in_double() || !formulation_.homogenised || !posed_.lmi.represents_points()) return {};
     const lmi::Formulation violation = lmi::formulate_violation(posed_.lmi);

@@ -1,5 +1,5 @@
 // How far a problem is from having a solution: its inequalities with slacks. And the problem with
-// less in it, as a problem of its own that takes the same way to the solver.
+// less in it, as a problem of its own that takes the same path to the solver.
 #pragma once
 
 #include <map>

@@ -182,7 +182,7 @@ std::vector<Reach> reaches_along(const model::Instance& instance, const model::R
 
 /// What excludes more of the scalar than the reach says, a little further out.
 void find_what_stops(const model::Instance& instance, const sdp::Options& solver, Reach& reach) {
-  constexpr double kFurther = 0.01;  // of the way to the end of the range
+  constexpr double kFurther = 0.01;  // of the distance to the end of the range
   const double limit = reach.beyond.value_or(*reach.feasible);
   if (limit == reach.end) return;
   reach.conflict_at = limit + kFurther * (reach.end - limit);
@@ -255,7 +255,7 @@ std::optional<Conflict> find_conflict(const model::Instance& instance, const mod
 std::optional<Conflict> guess_conflict(const model::Instance& instance, const model::Gains& gains,
                                        const sdp::Options& solver, double seconds) {
   if (gains.verdict != model::Verdict::no) return std::nullopt;
-  // What only a bound or a hull excludes takes its own way.
+  // What only a bound or a hull excludes is handled separately.
   if (!gains.certificate || !gains.certificate->is_about_problem())
     return find_conflict(instance, gains, solver);
   const model::Design& design = *instance.design;

@@ -68,7 +68,7 @@ struct Explanation {
 };
 
 /// The conflict of a problem whose result is `gains`; none unless that is a no. After a stop what
-/// was not looked at is undecided.
+/// was not checked is undecided.
 std::optional<Conflict> find_conflict(const model::Instance& instance, const model::Gains& gains,
                                       const sdp::Options& solver);
 

@@ -102,7 +102,7 @@ class FacialReduction {
                                  [](const RationalBlock& block) { return block.exact; });
     if (!any) return std::nullopt;
     if (!posed_.wide) {
-      // A quick answer looks at what needs no multipliers only.
+      // A quick answer checks only what needs no multipliers.
       faces_.find_plain();
       if (faces_.steps() == 0) return std::nullopt;
     }
@@ -238,7 +238,7 @@ class FacialReduction {
                                      posed_.choices().margin, *x)};
   }
 
-  /// A point is one where everything holds, or where it is to be seen what does not.
+  /// A point is one where everything holds, or one that shows what does not.
   void try_point(const std::vector<double>& y) {
     for (const int digits : {3, 6, 9, 12, 15, 16}) {
       auto found = decimals(y, digits);

@@ -25,7 +25,7 @@ std::optional<std::vector<numbers::Matrix>> polynomial(const expr::Program& prog
   try {
     form = lmi::evaluate_affine(program, lmi::Unknowns{}, monomials, values);
   } catch (const InputError&) {
-    return std::nullopt;  // more than sums and products of the functions that monomials stand for
+    return std::nullopt;  // more than sums and products of the functions that monomials represent
   }
   std::vector<numbers::Matrix> coefficients;
   for (const auto& [key, matrix] : form.terms) {

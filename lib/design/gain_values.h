@@ -6,8 +6,8 @@
 
 namespace gainsmith::design {
 
-/// The value of a gain's formula in 100 digits, rounded once: inverses in it amplify what double would
-/// round on the way. In double where 100 digits have no value of it.
+/// The value of a gain's formula in 100 digits, rounded once: inverses in it amplify what double
+/// would round in between. In double where 100 digits have no value of it.
 numbers::Matrix gain_value(const expr::Program& formula, const numbers::Values& values);
 
 /// Evaluates every gain of the method whose formula needs nothing but `values` and puts it into

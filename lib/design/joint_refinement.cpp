@@ -90,7 +90,7 @@ class SmoothDesign {
   }
 
  private:
-  /// One block: where its factor stands in v, the first row of its residuals, its size.
+  /// One block: where its factor is in v, the first row of its residuals, its size.
   struct Factor {
     std::size_t variable = 0;
     std::size_t row = 0;

@@ -286,8 +286,8 @@ class OuterSearch {
     return gains;
   }
 
-  /// Brackets inside the search are closer than the final one, so that their width does not look
-  /// like a slope.
+  /// Brackets inside the search are closer than the final one, so that their width is not
+  /// mistaken for a slope.
   static constexpr double kSharper = 0.1;
 
   const model::Instance& own_;

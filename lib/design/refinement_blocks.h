@@ -25,7 +25,7 @@ struct SmoothBlocks {
   std::vector<double> cost;  ///< of the unknowns; empty when the figure is a scalar
   double constant = 0;
   lmi::GainBounds bounds;
-  lmi::Unknowns layout;  ///< where each unknown stands among them
+  lmi::Unknowns layout;  ///< where each unknown is among them
 };
 
 /// InputError as for lmi::compile().

@@ -96,7 +96,7 @@ void note_stop(const std::string& doing, int iterations, model::Gains& gains) {
   gains.solver.cause = to_string(sdp::Cause::interrupted);
   gains.solver.iterations = iterations;
   gains.solver.add_message(doing.empty() ? "stopped before anything was solved"
-                                         : "stopped while looking for " + doing);
+                                         : "stopped while searching for " + doing);
 }
 
 verdict::CheckOptions check_options(Depth depth) {
@@ -273,7 +273,7 @@ class Synthesis {
     return std::nullopt;
   }
 
-  /// What keeps any gains from being found, where it can be seen.
+  /// What keeps any gains from being found, where it can be detected.
   void note_causes(model::Gains& gains) const {
     std::string hidden = hidden_mode_text(inequalities_.instance);
     std::optional<forall::Fault> fault;

@@ -29,7 +29,7 @@ std::vector<std::string> c_elements(const std::string& name, expr::Shape shape) 
   });
 }
 
-/// "int, int": of a parameter whose elements stand row by row.
+/// "int, int": of a parameter whose elements are stored row by row.
 std::vector<std::string> flat_elements(const std::string& name, expr::Shape shape) {
   return elements_of(shape, [&](int row, int column) {
     return shape.is_scalar() ? name : fmt::format("{}[{}]", name, row * shape.cols + column);

@@ -8,8 +8,8 @@
 
 namespace gainsmith::exports {
 
-/// One header in C99: constants, states as structures, functions without memory of their own. `name`
-/// stands before all names. Elements of vectors and matrices are indexed as in C, rows first.
+/// One header in C99: constants, states as structures, functions without memory of their own.
+/// `name` precedes all names. Elements of vectors and matrices are indexed as in C, rows first.
 ///
 ///   NAME_rate(state, inputs, rate)     the right-hand side of the flow
 ///   NAME_flow(state, inputs, dt)       of a linear flow: its exact solution while the inputs are held,

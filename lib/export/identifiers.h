@@ -20,8 +20,9 @@ class Identifiers {
   explicit Identifiers(Language language, const std::set<std::string>& taken = {})
       : language_(language), taken_(taken) {}
 
-  /// What is no letter, digit or underscore becomes an underscore. Before a name that begins otherwise
-  /// than with a letter stands an x, behind one that is reserved or taken an underscore.
+  /// What is no letter, digit or underscore becomes an underscore. A name that begins
+  /// otherwise than with a letter gets an x before it, one that is reserved or taken an underscore
+  /// behind it.
   std::string operator()(const std::string& name);
 
  private:

@@ -17,7 +17,7 @@ namespace gainsmith::exports {
 struct Dialect {
   Language language = Language::c;
   bool single = false;  ///< C: float instead of double
-  std::string prefix;   ///< C: of the functions that stand for operations, "motor_"
+  std::string prefix;   ///< C: of the functions that represent operations, "motor_"
 };
 
 /// What the elements of an input are called, column by column.

@@ -37,7 +37,7 @@ enum class NodeKind {
   negation      ///< "not"
 };
 
-/// not_equal stands in conditions and between whole numbers only.
+/// not_equal occurs in conditions and between whole numbers only.
 enum class Relation { less, less_equal, greater, greater_equal, equal, not_equal };
 
 /// "<", "<=", ">", ">=", "==", "!=".
@@ -69,7 +69,7 @@ struct Expression {
 /// The conditions that 'and' joins, in order; of another expression itself.
 std::vector<Expression> conjuncts(const Expression& expression);
 
-/// The names of values, functions and definitions that stand in an expression.
+/// The names of values, functions and definitions that occur in an expression.
 std::set<std::string> names_in(const Expression& expression);
 
 }  // namespace gainsmith::expr

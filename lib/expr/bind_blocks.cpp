@@ -80,7 +80,7 @@ class BlockBinding {
   }
 
   /// An identity carries a known size across the diagonal of its entry; a mirrored block is cut
-  /// alike both ways. Repeated until nothing more is learnt.
+  /// alike in both directions. Repeated until nothing more is learnt.
   void carry_across() {
     const auto equate = [](int& a, int& b) {
       if (a == b || (a != kUnknown && b != kUnknown)) return false;

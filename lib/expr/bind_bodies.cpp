@@ -33,7 +33,7 @@ Binder::Varied Binder::varied(const Expression& expression, const Node& node, st
   };
   if (!is_parameter && is_symbol) return {value(), point, point};
 
-  // A parameter may stand for the value of any expression, also of one that e holds elsewhere: an
+  // A parameter may represent the value of any expression, also of one that e holds elsewhere: an
   // input of its own takes its place. So it is with a definition, in all others that use it.
   Instruction like;
   like.origin = expression.text;

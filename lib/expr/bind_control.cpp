@@ -1,4 +1,4 @@
-// Functions of control that are made of operations, or stand for one: ranks and subspaces,
+// Functions of control that are made of operations, or represent one: ranks and subspaces,
 // eigenvalues of symmetric matrices, observability, sampling, and the equations of Lyapunov and
 // Riccati.
 #include <algorithm>
@@ -21,7 +21,7 @@ int stacked(const Emitter& make, int m) {
   return make.blocks(std::move(columns), 1);
 }
 
-/// The n x n matrix whose columns stand above each other.
+/// The n x n matrix whose columns are stacked in `v`.
 int unstacked(const Emitter& make, int v, int n) {
   std::vector<int> columns;
   for (int j = 0; j < n; ++j) columns.push_back(make.part(v, j * n, (j + 1) * n, 0, 1));
@@ -126,8 +126,8 @@ Bound Binder::condition_number(const Expression& expression, const Node& node) {
                "cond: a singular value is 0, so there is no finite quotient")};
 }
 
-/// With the Frobenius norm c >= |M|: the singular values of M + c I and c I - M are eigenvalues, the
-/// largest of them the one looked for but for c.
+/// With the Frobenius norm c >= |M|: the singular values of M + c I and c I - M are eigenvalues,
+/// the largest of them the one wanted but for c.
 Bound Binder::extreme_eigenvalue(const Expression& expression, const Node& node, bool largest) {
   const Emitter make(*this, expression, node);
   const int m = square_argument(expression, node, node.text);

@@ -1,5 +1,5 @@
 // flow_map(e, x, d): the rate e as a program of its own in x, in the time where e depends on it,
-// and in what stands still along the way.
+// and in what is constant meanwhile.
 #include <memory>
 #include <string>
 #include <utility>

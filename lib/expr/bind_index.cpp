@@ -58,7 +58,7 @@ std::optional<int> Binder::whole_number(const Expression& expression, const Node
                   whole_number(expression, *node.children[1]));
 }
 
-/// Of an instruction: what stands for a parameter of a definition, or an index.
+/// Of an instruction: what replaces a parameter of a definition, or an index.
 std::optional<int> Binder::whole_value(int at) const {
   const Instruction& instruction = assembly_[at];
   const auto operand = [&](std::size_t i) { return whole_value(instruction.operands[i]); };

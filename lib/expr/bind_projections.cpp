@@ -1,6 +1,6 @@
 // project_polytope, project_ellipsoid and project_affine: x says the size of the others, so that a
-// multiple of I may stand for P and Q, and 0 for x0 and b. project_convex: the set as a program of
-// its own in x.
+// multiple of I may be given for P and Q, and 0 for x0 and b. project_convex: the set as a program
+// of its own in x.
 #include <memory>
 #include <string>
 #include <utility>

@@ -19,7 +19,7 @@ int as_column(const Emitter& make, int v) {
 
 }  // namespace
 
-/// The points x must rise, which is looked at beforehand.
+/// The points x must rise, which is checked beforehand.
 void Binder::require_rising(const Expression& expression, const Node& node, int steps) {
   const Emitter make(*this, expression, node);
   int least = make.element(steps, 0);

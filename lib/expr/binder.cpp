@@ -53,8 +53,8 @@ bool Binder::is_zero(Bound value) const {
 }
 
 Bound Binder::bind(const Expression& expression, const Node& node) {
-  // Definitions and sums may stand on each other in towers that no formula needs. Outside of them
-  // an operation stands in the text.
+  // Definitions and sums may build on each other in towers that no formula needs. Outside of them
+  // an operation is written in the text.
   constexpr int kDeepest = 1000;
   constexpr int kMostSteps = 250'000;
   if (depth_ >= kDeepest) fail(expression, node, "the definitions are nested too deeply");

@@ -83,7 +83,7 @@ class Binder {
 
   // bind_bodies.cpp: expressions as functions of a name.
   /// e of a call f(e, x, ...) or f(x, ..., e): `value` depends on the instruction `variable`, which
-  /// stands for the value of the instruction `point`.
+  /// represents the value of the instruction `point`.
   struct Varied {
     int value = -1;
     int variable = -1;

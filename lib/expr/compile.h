@@ -1,7 +1,7 @@
 // From expressions to programs: names, shapes and definitions are resolved.
 //
 // Shapes are matrices' rows x columns; numbers are 1 x 1 and multiply anything. Two things take
-// their size from where they stand:
+// their size from where they are:
 //   I   the identity; any expression s*I + t*I is still "a multiple of I"
 //   0   in a block, a sum or a comparison
 // In a block [a, b; c, d] a "*" is the transpose of the entry mirrored at the diagonal, and then

@@ -1,7 +1,7 @@
 // Conditions: comparisons joined by `and`, `or`, `not`.
 //
-// Each comparison is a border: the difference of its sides, whose sign says on which side of it a
-// point lies. A simulator looks for the roots of the differences and evaluates the whole there.
+// Each comparison is a boundary: the difference of its sides, whose sign says on which side of it a
+// point lies. A simulator searches for the roots of the differences and evaluates the whole there.
 #pragma once
 
 #include <string>

@@ -288,7 +288,7 @@ std::optional<int> add_columns(Assembly& assembly, const Instruction& jacobian,
                        jacobian.offset});
 }
 
-/// The instructions of a program, jacobians replaced. `inputs`: what stands for its inputs; none:
+/// The instructions of a program, jacobians replaced. `inputs`: what replaces its inputs; none:
 /// they stay inputs.
 std::vector<int> add_instructions(Assembly& assembly, const Program& program,
                                   const std::vector<int>& inputs) {

@@ -30,7 +30,7 @@ class Evaluator {
         fixed_(program.inputs.size(), false),
         registers_(program.code.size()) {}
 
-  Evaluator(Evaluator&&) noexcept = default;  // a copy's operands would stand in the original
+  Evaluator(Evaluator&&) noexcept = default;  // a copy's operands would point into the original
   Evaluator& operator=(Evaluator&&) noexcept = default;
 
   void fix(const std::string& name, const Value& value) {
@@ -78,7 +78,7 @@ class Evaluator {
     }
   }
 
-  /// Finds where the operands of all instructions stand.
+  /// Finds where the operands of all instructions are.
   void link() {
     operands_.clear();
     first_operand_.clear();

@@ -52,7 +52,7 @@ class Instantiation {
   }
 
  private:
-  /// Bytes of the old text, and what stands for them.
+  /// Bytes of the old text, and what replaces them.
   struct Piece {
     std::size_t begin;
     std::size_t end;
@@ -134,7 +134,7 @@ class Instantiation {
     return {text, old.file(), std::move(positions)};
   }
 
-  /// Where a byte of the old text, no inner one of a piece, stands in the new one.
+  /// Where a byte of the old text, no inner one of a piece, is in the new one.
   std::size_t moved(std::size_t at) const {
     std::size_t result = at;
     for (const Piece& piece : replaced_)

@@ -27,8 +27,8 @@
 //  2. Shapes are as the instruction says. Values depend on operands alone: the same operands, the
 //     same bits.
 //  3. An operation without a result throws EvaluationError with the texts of `fault`. The evaluator
-//     adds the place. No other exception stands for a fault of the values.
-//  4. A value moves when it stands for many at once: the points of a pack, the unknowns of an
+//     adds the place. No other exception signals a fault of the values.
+//  4. A value moves when it represents many at once: the points of a pack, the unknowns of an
 //     affine form, the degree above 0. An operation that a type does not have for moving operands
 //     throws EvaluationError too, and the type lists it. In a pack a point without a result is not
 //     a number and the other points go on.

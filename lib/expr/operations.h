@@ -21,8 +21,8 @@ enum class Op {
 #include "expr/operations.def"
 };
 
-/// What the operands must be, and the shape of the result. A, B stand for operands of any shape, s
-/// for 1 x 1, M for square ones; r x c is the shape of A.
+/// What the operands must be, and the shape of the result. A, B are operands of any shape, s
+/// a 1 x 1 one, M a square one; r x c is the shape of A.
 enum class ShapeRule {
   given,             ///< no operand -> any shape
   given_of_number,   ///< s -> any shape

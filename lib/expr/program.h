@@ -53,7 +53,7 @@ struct Program {
 std::string variable_name(std::size_t k);
 std::string other_name(std::size_t k);
 
-/// Whether two programs compute the same in the same way; places do not count.
+/// Whether two programs compute the same by the same instructions; places do not count.
 bool is_same(const Program& a, const Program& b);
 
 }  // namespace gainsmith::expr

@@ -9,7 +9,7 @@
 
 namespace gainsmith::expr {
 
-/// The name that stands for another one; none: it stays.
+/// The name that replaces another one; none: it stays.
 using Renaming = std::function<std::optional<std::string>(const std::string&)>;
 
 /// The expression with other names for values, functions and events. An index of a sum keeps its

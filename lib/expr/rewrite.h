@@ -11,7 +11,7 @@
 
 namespace gainsmith::expr {
 
-/// What a function of a number stands for: a program in its variable and in other inputs.
+/// What replaces a function of a number: a program in its variable and in other inputs.
 struct Body {
   std::string variable;
   Program program;

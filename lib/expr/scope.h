@@ -1,4 +1,4 @@
-// The names that an expression may use, and what they stand for.
+// The names that an expression may use, and what they refer to.
 #pragma once
 
 #include <map>

@@ -76,7 +76,7 @@ class Algebra {
   }
 };
 
-/// Gives what stands for an input or a call, whose argument it has; none: it stays.
+/// Gives what replaces an input or a call, whose argument it has; none: it stays.
 using Special =
     std::function<std::optional<int>(const std::string& name, std::optional<int> argument)>;
 
@@ -108,7 +108,7 @@ int add(Algebra& algebra, const Program& program, const Special& special = {}) {
   return add_all(algebra, program, special)[index(program.result)];
 }
 
-/// How often an instruction stands in the formula of each: 0, 1, or more as 2.
+/// How often an instruction occurs in the formula of each: 0, 1, or more as 2.
 std::vector<int> occurrences(const Program& program, int of) {
   std::vector<int> count(program.code.size(), 0);
   for (std::size_t at = 0; at < program.code.size(); ++at) {

@@ -1,4 +1,4 @@
-// Programs with other programs in the place of parts of them. Products are kept short: what stands
+// Programs with other programs in the place of parts of them. Products are kept short: what is
 // beside its inverse in a product, inv(P)*P*L, is left out.
 #pragma once
 
@@ -28,9 +28,9 @@ Program with_inputs(const Program& program,
                     const std::vector<std::pair<std::string, Program>>& parts);
 
 /// The program for the input `part` at which `program` has the value of the input `value`: part =
-/// inv(P)*... turned around. std::nullopt where `part` stands in it more than once or not at all, and
-/// where an operation around it cannot be undone: sums, multiples and products with square factors can.
-/// `part` may be a function that is called with `variable` itself.
+/// inv(P)*... turned around. std::nullopt where `part` occurs in it more than once or not at all,
+/// and where an operation around it cannot be undone: sums, multiples and products with square
+/// factors can. `part` may be a function that is called with `variable` itself.
 std::optional<Program> isolated(const Program& program, const std::string& part,
                                 const std::string& variable, const std::string& value);
 

@@ -15,14 +15,14 @@ struct Position {
   int column = 1;
 };
 
-/// Text plus, for every byte of it, where it stands in the file (a YAML scalar may be quoted or
+/// Text plus, for every byte of it, where it is in the file (a YAML scalar may be quoted or
 /// folded over lines, so the places need not be consecutive).
 class Text {
  public:
   Text() = default;
   /// `positions` has one element a byte and one more for the end.
   Text(std::string text, std::string file, std::vector<Position> positions);
-  /// Text that stands in one piece at `start`.
+  /// Text that is in one piece at `start`.
   Text(std::string text, std::string file, Position start = {});
 
   /// Text that was made, not read: each of its bytes has the place of what it was made from.

@@ -17,7 +17,7 @@ class TokenCursor {
 
   const std::shared_ptr<const Text>& text() const { return text_; }
   TokenKind peek() const { return tokens_[at_].kind; }
-  /// The token here, and those `ahead` of it; the end stands for all beyond it.
+  /// The token here, and those `ahead` of it; the end represents all beyond it.
   const Token& here(std::size_t ahead = 0) const;
   const Token& next() { return tokens_[at_++]; }
   /// Where the token before ends; `otherwise` at the first.
@@ -34,7 +34,7 @@ class TokenCursor {
   /// Takes it; InputError "expected ..., found ..." for another.
   const Token& expect(TokenKind kind, const std::string& what);
 
-  /// What stands here, and what is likely to be missing before it, for messages.
+  /// What is here, and what is likely to be missing before it, for messages.
   std::string found() const;
   std::string missing() const;
   /// InputError for a comma between the digits of one number.

@@ -1,7 +1,7 @@
 // Where the points of an exchange draw together.
 //
-// At the solution of an inequality for all tau the multipliers stand at the contact points t*,
-// where the inequality holds with nothing to spare. The points t_k of an exchange stand around
+// At the solution of an inequality for all tau the multipliers are at the contact points t*,
+// where the inequality holds with nothing to spare. The points t_k of an exchange lie around
 // them and share their multipliers: to first order in t_k - t* the multipliers Y_k balance,
 //   sum_k tr(Y_k) (t_k - t*) = 0,
 // so the mean of neighbouring points, weighted by tr(Y_k), is t* up to the square of their

@@ -29,7 +29,7 @@ using Domain = std::vector<Variable>;
 /// are not finite or have different shapes.
 Domain domain_of(const model::Design::Inequality& inequality, const numbers::Values& values);
 
-/// A variable whose functions are looked at without a range; none for an empty name.
+/// A variable whose functions are examined without a range; none for an empty name.
 Domain free_variable(const std::string& name);
 
 /// Values for some of the variables, and how a message names them.

@@ -21,7 +21,7 @@ struct Corners {
   bool exact = true;
 };
 
-/// The factors of one variable that stand in the form, without repetition.
+/// The factors of one variable that occur in the form, without repetition.
 std::vector<Factor> factors_in(const std::set<int>& standing, const MonomialTable& monomials,
                                int variable) {
   std::vector<Factor> factors;
@@ -118,7 +118,7 @@ std::vector<Vertex> all_vertices(const std::vector<Corners>& corners,
         const auto v = static_cast<std::size_t>(factor.variable);
         const auto& factors = corners[v].factors;
         const auto found = std::find(factors.begin(), factors.end(), factor);
-        // A factor of monomials that do not stand in the form has no corner: its value is unused.
+        // A factor of monomials that do not occur in the form has no corner: its value is unused.
         if (found != factors.end())
           value *= corners[v].values[choice[v]][static_cast<std::size_t>(found - factors.begin())];
       }

@@ -1,4 +1,4 @@
-// "For all tau" by vertices: the box of the ranges of the functions that stand in an inequality.
+// "For all tau" by vertices: the box of the ranges of the functions that occur in an inequality.
 #pragma once
 
 #include <map>
@@ -37,7 +37,7 @@ double largest_value(const Monomial& monomial, const MonomialTable& monomials);
 /// domain. `coefficients`: the largest |coefficient| of each.
 std::set<int> noise(const Sizes& coefficients, const MonomialTable& monomials);
 
-/// The vertices for the monomials that stand in a form without noise. Each interval that enters
+/// The vertices for the monomials that occur in a form without noise. Each interval that enters
 /// through several functions is cut into `slices` equal parts with a box each. InputError at
 /// `place` for more than 2^12 vertices and for functions that are too large for double.
 Hull hull_of(const std::set<int>& standing, const MonomialTable& monomials, int slices,

@@ -1,5 +1,5 @@
-// Minima of a scalar function on an interval or a box: all of them that can be seen, not the best
-// of a grid.
+// Minima of a scalar function on an interval or a box: all of them that can be detected, not the
+// best of a grid.
 #pragma once
 
 #include <functional>

@@ -42,7 +42,7 @@ struct DomainProof {
   numbers::Vector direction;
   std::string where;   ///< open: "k = 2, tau in [0.2, 0.25]"
   std::string reason;  ///< open: "the sign at a point is within its error bound"
-  double margin = 1;   ///< the smallest numbers::margin at the points looked at
+  double margin = 1;   ///< the smallest numbers::margin at the points examined
   std::size_t pieces = 0;
 };
 
@@ -51,9 +51,9 @@ struct DomainProof {
 template <class S>
 using EnclosedElements = std::map<std::string, std::vector<numbers::Enclosed<S>>, std::less<>>;
 
-/// Points are looked at in S, pieces in double. `known`: data, parameters, unknowns as printed.
+/// Points are examined in S, pieces in double. `known`: data, parameters, unknowns as printed.
 /// Intervals are as wide as the domain says: ends that are not doubles have to be rounded outward
-/// there. The vertices of polytopes stand for them, as B is affine in such a variable. With
+/// there. The vertices of polytopes represent them, as B is affine in such a variable. With
 /// `strict` false it is B >= 0 that is shown: by B > 0, but for rows that are exactly 0.
 ///
 /// More digits may settle what is open at a point; `reason` says where that is so.

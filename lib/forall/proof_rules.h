@@ -24,7 +24,7 @@ class Search {
     stack_.push_back(std::move(whole));
   }
 
-  /// After a first open piece only so many more are looked at, for a point that fails.
+  /// After a first open piece only so many more are examined, for a point that fails.
   static constexpr std::size_t kMoreAfterOpen = 200;
 
   void run() {
@@ -159,7 +159,7 @@ class Search {
     return count;
   }
 
-  /// E falls at least to a quarter where a piece is halved. Where one corner alone is in the way
+  /// E falls at least to a quarter where a piece is halved. Where one corner alone is the obstacle
   /// the piece is cut so near to it that the part there passes: B grows from a corner where it is
   /// nearly singular, so the rest mostly passes at once or is cut much farther away. Where it is
   /// not, E is no matter of that corner: the rest is halved.

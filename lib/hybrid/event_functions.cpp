@@ -63,9 +63,9 @@ const std::vector<int>& EventFunction::sides(const numbers::Box& values, double 
   for (std::size_t e = 0; e < sides_.size(); ++e) {
     const numbers::Range& value = value_.range(e);
     const double terms = terms_.range(e).largest();
-    const double border =
+    const double noise =
         kTermRounding * terms + std::max(near * terms, ode::kTurnsNear * value.largest());
-    if (value.least() > border) sides_[e] = value.low > 0 ? 1 : -1;
+    if (value.least() > noise) sides_[e] = value.low > 0 ? 1 : -1;
   }
   return sides_;
 }

@@ -13,8 +13,8 @@
 
 namespace gainsmith::io {
 
-/// The comparison. Rows stand in the order in which their names appear; what is not given is 0, and
-/// below the diagonal stands the transpose. InputError when a block is given on both sides of the
+/// The comparison. Rows are in the order in which their names appear; what is not given is 0, and
+/// below the diagonal is the transpose. InputError when a block is given on both sides of the
 /// diagonal, or when `is` is no comparison with 0.
 expr::Expression named_blocks(const YamlFile& file, const YamlItem& blocks, const YamlItem& is);
 

@@ -15,12 +15,12 @@ namespace {
 
 using model::Component;
 
-/// The names of a mapping that stand for nothing.
+/// The names of a mapping whose value is `none`.
 using Removed = std::set<std::string>;
 
 std::vector<YamlItem> items_without(const YamlFile& file, const std::optional<YamlItem>& item,
                                     const std::string& what, bool like, Removed& removed) {
-  // A YAML::Node that is assigned to changes what it stood for: items are copied, never moved.
+  // A YAML::Node that is assigned to changes what it referred to: items are copied, never moved.
   std::vector<YamlItem> items;
   for (const YamlItem& one : items_of(file, item, what))
     if (like && is_none(one.value))
@@ -37,7 +37,7 @@ std::string name_of(const Entry& entry) {
   return entry.name;
 }
 
-/// What stands in `own` takes the place of what has its name; the rest comes after.
+/// What is in `own` replaces what has its name; the rest comes after.
 template <class Entry>
 void overlay(std::vector<Entry>& copied, std::vector<Entry> own, const Removed& removed) {
   std::erase_if(copied, [&](const Entry& entry) { return removed.contains(name_of(entry)); });

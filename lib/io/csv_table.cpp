@@ -67,7 +67,7 @@ std::vector<CsvTable::Cell> CsvTable::line(std::size_t& at, int& number) const {
   }
 }
 
-/// Up to the comma or the end of the line, at which `at` stands then.
+/// Up to the comma or the end of the line, at which `at` is then.
 CsvTable::Cell CsvTable::cell(std::size_t& at, int& number, std::size_t line_begin) const {
   const auto is_end = [&](char c) { return c == ',' || c == '\n' || c == '\r'; };
   while (at < text_.size() && is_blank_cell(text_[at])) ++at;

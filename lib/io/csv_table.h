@@ -15,10 +15,10 @@ namespace gainsmith::io {
 class CsvTable {
  public:
   /// `row`: the first line is a row, the columns are called 1, 2, ...; but it is left out when
-  /// each cell of it begins with a letter and stands for no value, as NA and true do.
+  /// each cell of it begins with a letter and represents no value, as NA and true do.
   enum class FirstLine { names, row };
 
-  /// `path` stands in messages. InputError when the text is empty, has no rows, two columns of one
+  /// `path` is used in messages. InputError when the text is empty, has no rows, two columns of one
   /// name, a row of another length than the first, or a quotation mark that is not closed.
   CsvTable(std::string text, std::string path, FirstLine first = FirstLine::names);
 

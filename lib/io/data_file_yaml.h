@@ -1,4 +1,4 @@
-// Internal to io: matrices that stand in files of their own.
+// Internal to io: matrices in files of their own.
 //
 //   {csv: A.csv}   {npy: A.npy}   {mat: plant.mat, name: A}   {json: plant.json, name: plant.A}
 //

@@ -14,7 +14,7 @@ constexpr Key kLet = {"let", "{text}?", "definitions"};
 constexpr Key kFlow = {"flow", "{matrix}?", "derivatives of the states"};
 constexpr Key kJump = {"jump", "{matrix}?", "states after the timer has run down"};
 constexpr Key kEvents = {"events", "{event}?", "events of its own"};
-constexpr Key kFrozen = {"frozen", "text", "the condition under which it stands still"};
+constexpr Key kFrozen = {"frozen", "text", "the condition under which its states are constant"};
 constexpr Key kWhile = {"while", "flow set", "the condition under which it flows"};
 
 constexpr std::array kComponent = {

@@ -11,7 +11,7 @@ namespace gainsmith::io {
 /// The list under `compare`.
 std::vector<model::FigureText> figures(const YamlFile& file, const YamlItem& item);
 
-/// A figure that stands alone, such as `search.minimize`.
+/// A single figure, such as `search.minimize`.
 model::FigureText figure_of(const YamlFile& file, const YamlItem& item);
 
 /// The list under `expect.run`.

@@ -9,7 +9,7 @@
 
 namespace gainsmith::io {
 
-/// The document. Timings stand in a block of their own, last. A decimal with 17 digits reads back
+/// The document. Timings are in a block of their own, last. A decimal with 17 digits reads back
 /// to the same double, so writing, reading and writing again gives the same bytes. Matrices and
 /// searched scalars that were read with other decimals are written with these again.
 Json to_json(const model::Gains& gains);

@@ -58,7 +58,7 @@ Json written_list(const std::vector<Item>& items, const Write& write) {
   return list;
 }
 
-/// Puts the values under a key where their names stand.
+/// Puts the values under a key where their names are.
 template <class List, class Read>
 void take_given(const JsonReader& reader, const std::string& key, const Names& names, List& list,
                 const Read& read) {

@@ -1,4 +1,4 @@
-// Where things stand in a JSON text: nlohmann's reader says it of syntax errors only.
+// Where things are in a JSON text: nlohmann's reader says it of syntax errors only.
 #pragma once
 
 #include <cstddef>

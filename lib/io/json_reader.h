@@ -40,7 +40,7 @@ class JsonReader {
   double number() const;
   /// The decimal of a number.
   std::string decimal() const;
-  /// null stands for infinity.
+  /// null represents infinity.
   double number_or_infinity() const;
   int whole() const;
   std::uint64_t count() const;

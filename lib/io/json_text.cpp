@@ -54,7 +54,7 @@ void write(const Json& value, std::size_t indent, std::string& out) {
   }
 }
 
-/// Builds a document, keeps decimals and refuses keys that stand twice.
+/// Builds a document, keeps decimals and refuses keys that occur twice.
 class Builder : public nlohmann::json_sax<Json> {
  public:
   Builder(const std::string& text, const std::string& file) : text_(text), file_(file) {}
@@ -129,7 +129,7 @@ class Builder : public nlohmann::json_sax<Json> {
     return true;
   }
 
-  /// An element stands where it is as long as those inside it are read: its list grows later.
+  /// An element stays where it is as long as those inside it are read: its list grows later.
   Json& place(Json value) {
     if (open_.empty()) return root_ = std::move(value);
     Json& parent = *open_.back();

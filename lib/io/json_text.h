@@ -12,7 +12,7 @@ namespace gainsmith::io {
 using Json = nlohmann::ordered_json;
 
 /// The text of a document, ending in a newline. Floating-point numbers have 17 significant digits,
-/// or the digits that they were read with; lists of scalars stand on one line.
+/// or the digits that they were read with; lists of scalars are on one line.
 /// std::invalid_argument when a number is not finite (JSON has no spelling for it).
 std::string to_text(const Json& document);
 
@@ -31,7 +31,7 @@ double number_of(const Json& number);
 std::string decimal_of(const Json& number);
 
 /// Parses. Numbers with a point or an exponent that to_text would write otherwise keep their
-/// decimal. InputError with file:line:column when the text is no JSON or a key stands twice.
+/// decimal. InputError with file:line:column when the text is no JSON or a key occurs twice.
 Json parse_json(const std::string& text, const std::string& file);
 
 }  // namespace gainsmith::io

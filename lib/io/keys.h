@@ -1,5 +1,5 @@
-// The keys of the files that people write and of gain files, level by level: the readers look keys up here, and the
-// schemas (schema.h) are made from the same tables.
+// The keys of the files that people write and of gain files, level by level: the readers find the
+// keys here, and the schemas (schema.h) are made from the same tables.
 #pragma once
 
 #include <span>
@@ -10,7 +10,7 @@ namespace gainsmith::io {
 /// A key of a mapping. `form` says what its value may be:
 ///
 ///     text  number  whole  truth  nothing     a scalar; a text of YAML is any scalar
-///     never                                   this key stands for something else
+///     never                                   this key means something else
 ///     'word'                                  this text
 ///     [F]  [F]+  [F, F]                       a list, one that is not empty, a pair
 ///     {F}  {F}?  {F}+  {F}1                   a mapping with the user's names: any, or left empty; not
@@ -18,7 +18,7 @@ namespace gainsmith::io {
 ///     NAME                                    a level or a named form
 ///     F | F                                   either
 struct Key {
-  std::string_view name;  ///< one with a bracket, "f(x)", stands for every such name
+  std::string_view name;  ///< one with a bracket, "f(x)", represents every such name
   std::string_view form;
   std::string_view text = "";  ///< for a person
   bool required = false;
@@ -37,11 +37,11 @@ struct Rule {
   static constexpr Rule at_most_one(std::string_view keys) { return {Kind::at_most_one, "", keys}; }
   /// One at least.
   static constexpr Rule some(std::string_view keys) { return {Kind::some, "", keys}; }
-  /// Where `key` stands, one of the others does.
+  /// Where `key` is present, one of the others is.
   static constexpr Rule needs(std::string_view key, std::string_view others) {
     return {Kind::needs, key, others};
   }
-  /// Where `key` stands, none of the others does.
+  /// Where `key` is present, none of the others is.
   static constexpr Rule excludes(std::string_view key, std::string_view others) {
     return {Kind::excludes, key, others};
   }

@@ -9,7 +9,7 @@
 
 namespace gainsmith::io {
 
-/// `problem`: the name of the problem that the method stands in, which is its own name where it
+/// `problem`: the name of the problem that contains the method, which is its own name where it
 /// gives none; empty for a method file, which needs one.
 model::Method method_from(const YamlFile& file, const YAML::Node& node, const std::string& problem);
 

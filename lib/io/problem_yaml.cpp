@@ -285,7 +285,7 @@ model::UnitText unit(const YamlFile& file, const YamlItem& item) {
   return result;
 }
 
-/// What to do with keys that stand at the wrong level.
+/// What to do with keys that are at the wrong level.
 std::map<std::string, std::string> advice_on_keys(const model::Method& method) {
   std::map<std::string, std::string> advice;
   for (const char* key :

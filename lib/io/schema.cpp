@@ -107,7 +107,7 @@ class SchemaWriter {
     return form;
   }
 
-  /// A list of matrices, those of a family: a list of rows stands in it.
+  /// A list of matrices, those of a family: it contains a list of rows.
   static Json matrices() {
     const Json row = {{"type", "array"}};
     const Json rows = {{"type", "array"}, {"minItems", 1}, {"items", Json::array({row})}};

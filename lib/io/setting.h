@@ -9,7 +9,7 @@
 namespace gainsmith::io {
 
 /// Each setting is a datum, a parameter, a definition of `let` (of the problem, or of a method that
-/// stands in it), or `gain_bound` or `margin` of `synthesis`, with a value as a problem file spells
+/// is in it), or `gain_bound` or `margin` of `synthesis`, with a value as a problem file spells
 /// it; a text with ';' is a formula, which the file would have to quote. Notes them in the problem.
 /// InputError for an unknown name, with the nearest one, for an element of a matrix ("A(1,2)"), for
 /// a name that is set twice, and with the place in a value ("--set T2:1:3").

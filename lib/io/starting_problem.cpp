@@ -133,7 +133,7 @@ class Writer {
     text_ += "  # " + key + ": " + text_of(fallback) + "\n";
   }
 
-  /// The lines of the other keys as they stand there, without comments between them.
+  /// The lines of the other keys, unchanged, without comments between them.
   void copy_others() {
     const std::set<std::string> written = {"problem",    "method", "data",   "parameters",
                                            "negotiable", "expect", "compare"};

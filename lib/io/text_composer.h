@@ -29,7 +29,7 @@ class TextComposer {
     }
   }
 
-  /// In brackets of its own a part cannot be torn apart by what stands around it; a number or a name
+  /// In brackets of its own a part cannot be torn apart by what is around it; a number or a name
   /// needs none.
   void bracketed(const expr::Text& part) {
     const auto is_one = [](char c) {

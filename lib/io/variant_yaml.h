@@ -6,7 +6,7 @@
 //   campaign: {initial: {z: {box: [-1, 1]}}}
 //   method: {observer: {let: {L: "[1; 2]"}}}
 //
-// What stands here takes the place of what has its name there; `none` removes that; all else stays.
+// What is written here replaces what has its name there; `none` removes that; all else stays.
 // Mappings of names are joined entry by entry: the sections, those of `method`, what `initial`,
 // `values` and `over` list, each observer and its parts. Anything below is replaced as a whole: a
 // datum, a claim, a start, the map of an event. The other one may be `like` a third. Its name and

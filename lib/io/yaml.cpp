@@ -149,7 +149,7 @@ YamlFile::YamlFile(std::string text, std::string file, Sources* sources)
 YAML::Node YamlFile::add(std::string text, const std::string& file, const std::string& name) {
   text = without_byte_order_mark(std::move(text));
   refuse_non_text(text, file);
-  // A value that is left out at the end of a file stands before the next one.
+  // A value that is left out at the end of a file is placed before the next one.
   if (!parts_.empty()) text_ += '\n';
   const std::size_t first_line = parts_.empty() ? 0 : starts_of_lines(text_).size() - 1;
   parts_.push_back({file, name, first_line, text_.size()});
@@ -164,7 +164,7 @@ YAML::Node YamlFile::add(std::string text, const std::string& file, const std::s
   }
   // So its marks are those in the text of all.
   text.insert(0, first_line, '\n');
-  // YAML::LoadAll never ends on some broken files, so at most two documents are looked at.
+  // YAML::LoadAll never ends on some broken files, so at most two documents are inspected.
   DocumentStarts starts;
   YAML::Node root;
   try {
@@ -258,7 +258,7 @@ Place YamlFile::place(const YAML::Node& node) const {
     for (const auto& [mapping, place] : mappings_)
       if (mapping.is(node)) return place;
   if (!node.IsNull() || mark.line < 0) return place(mark);
-  // The mark of a value that is left out stands at what comes next; show where it is missing.
+  // The mark of a value that is left out is at what comes next; show where it is missing.
   std::size_t at = offset(mark);
   if (is_written(node)) return place(at);
   while (at > 0 && is_space(text_[at - 1])) --at;

@@ -32,10 +32,10 @@ class YamlFile {
 
   /// The root of another file, whose nodes have places in that file. `name`: of it in the sources.
   YAML::Node add(std::string text, const std::string& file, const std::string& name);
-  /// A mapping of entries that stand in several files; `place` is its own.
+  /// A mapping of entries that are in several files; `place` is its own.
   YAML::Node mapping(const std::vector<std::pair<YAML::Node, YAML::Node>>& entries,
                      const Place& place);
-  /// The file that the node stands in.
+  /// The file that the node is in.
   const std::string& file(const YAML::Node& node) const { return part(node).file; }
   /// The name in the sources of the file `path` that the node names.
   std::string named_by(const YAML::Node& node, const std::string& path) const;
@@ -72,7 +72,7 @@ class YamlFile {
   Place place(std::size_t offset) const;
   /// Characters before a byte. The table of them keeps places on long lines cheap.
   int characters_to(std::size_t offset) const;
-  /// Whether a node that is null stands there as a word, and is not just left out.
+  /// Whether a node that is null is written there as a word, and is not just left out.
   bool is_written(const YAML::Node& null) const;
 
   static constexpr std::size_t kStep = 256;
@@ -97,9 +97,9 @@ struct YamlItem {
 /// A mapping that knows which keys were asked for. finish() turns the others into errors.
 class YamlMap {
  public:
-  /// InputError when the node is no mapping or a key stands twice. `what` names it in messages.
+  /// InputError when the node is no mapping or a key occurs twice. `what` names it in messages.
   YamlMap(const YamlFile& file, const YAML::Node& node, std::string what);
-  /// One whose keys stand in a table: asking for another key is std::logic_error.
+  /// One whose keys are in a table: asking for another key is std::logic_error.
   YamlMap(const YamlFile& file, const YAML::Node& node, std::string what, const Level& level);
 
   const std::vector<YamlItem>& items() const { return items_; }

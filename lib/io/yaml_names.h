@@ -7,10 +7,10 @@
 
 namespace gainsmith::io {
 
-/// "none" stands for what is taken away.
+/// "none" marks what is taken away.
 bool is_none(const YAML::Node& node);
 
-/// Whether the name stands in a text below the node: in a value, not in a key.
+/// Whether the name occurs in a text below the node: in a value, not in a key.
 bool is_read(const YAML::Node& node, const std::string& name);
 
 }  // namespace gainsmith::io

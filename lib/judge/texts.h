@@ -120,7 +120,7 @@ class Texts {
   /// Whether the states of each variable flow with the modes of x.
   std::vector<bool> flowing(const Eigen::VectorXd& x);
   /// Gives what rests in a flow from `start` the bits that it has there: a sum of polynomials has
-  /// rounded them, and `==` would see it. Not so noise that may change within a flow.
+  /// rounded them, and `==` would detect it. Not so noise that may change within a flow.
   void settle(const Eigen::VectorXd& start, Eigen::VectorXd& x);
   /// Whether noise may be drawn anew within a flow: after a time, or where `if` spends its event.
   bool changes_inside(std::size_t variable) const;

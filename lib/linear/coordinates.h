@@ -5,7 +5,7 @@
 //
 //   d = a - b       for states a, b whose difference is part of a claim; d takes the place of b
 //   w = expm(K) x   for x' = M x and K = s N, s a scalar with s' = r, when r N + M = 0:
-//                   then w' = 0, and a claim of w does not see the rounding of expm
+//                   then w' = 0, and the rounding of expm does not affect a claim of w
 //
 // and the maps of the others are rewritten with b = a - d. Coefficients are formed as polynomials
 // (polynomial.h), so that equal terms cancel exactly. They are evaluated in 100 digits from the

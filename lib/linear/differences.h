@@ -23,7 +23,7 @@ struct StateDifference {
   expr::Shape shape;
 };
 
-/// The differences of states of one shape that stand in the functions, none of which uses what
+/// The differences of states of one shape that occur in the functions, none of which uses what
 /// another one replaces.
 std::vector<StateDifference> find_differences(const std::vector<expr::Program>& functions,
                                               const hybrid::StateLayout& layout);

@@ -2,7 +2,7 @@
 // coefficients that combine monomials phi_a in the variables of `forall` (forall/monomials.h):
 //   M(x, tau) = sum over (a, i) of phi_a(tau) x_i M_ai + sum over products of phi_a(tau) E V(x) F,
 //   phi_0 = 1, x_0 = 1.
-// Large matrices V among the unknowns stand in products, not by the coefficients of their scalars:
+// Large matrices V among the unknowns occur in products, not by the coefficients of their scalars:
 // those are many, and operations on them cost more than all else.
 #pragma once
 
@@ -27,7 +27,7 @@ struct AffineForm {
   std::vector<Product> products = {};  ///< none has a side that is zero
 
   bool is_constant() const;
-  /// Whether an unknown stands in it; then `which` is the index of one.
+  /// Whether an unknown occurs in it; then `which` is the index of one.
   bool has_unknown(int* which = nullptr) const;
 };
 
@@ -64,7 +64,7 @@ AffineForm evaluate_at(const expr::Program& program, const Unknowns& unknowns,
                        forall::MonomialTable& monomials, const numbers::Values& values,
                        const forall::Point& point);
 
-/// The monomials that stand in a form, but for the constant.
+/// The monomials that occur in a form, but for the constant.
 std::set<int> monomials_in(const AffineForm& form);
 
 /// Removes the monomials whose terms are rounding noise (forall::noise), each element beside the

@@ -347,7 +347,7 @@ bool keeps_products(const expr::Instruction& instruction,
     case Op::blocks:
     case Op::index:
       return true;
-    case Op::scale:  // a scalar that is a product stands at many places
+    case Op::scale:  // a scalar that is a product is at many places
       return operands[0]->products.empty();
     default:
       return false;

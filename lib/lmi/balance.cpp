@@ -32,7 +32,7 @@ using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::Ro
 struct Mean {
   double weight = 0;
   double logs = 0;
-  std::vector<std::pair<int, double>> rows;  ///< those that they stand in, with their weights
+  std::vector<std::pair<int, double>> rows;  ///< those that they are in, with their weights
 };
 
 /// Subtracts  m m' / weight  from the normal equations for one unknown after the other, m being
@@ -45,7 +45,7 @@ class Elimination {
   Elimination& operator=(const Elimination&) = delete;
 
   void add(const Mean& mean) {
-    constexpr Eigen::Index kFew = 8;  // so many times more rows than an unknown stands in
+    constexpr Eigen::Index kFew = 8;  // so many times more rows than an unknown occurs in
     if (kFew * std::ssize(mean.rows) < normal_.rows()) {
       for (const auto& [a, wa] : mean.rows)
         for (const auto& [b, wb] : mean.rows) normal_(a, b) -= wa * wb / mean.weight;

@@ -10,7 +10,7 @@
 //
 // The objective c'x is a row of its own. Blocks of one inequality and size share their rows' units;
 // w is 1/(number of those blocks). Elements below 1e-8 in the units of a first pass do not count in
-// the second, nor those below 1e-3 of that one in the third, unless nothing else stands in their row
+// the second, nor those below 1e-3 of that one in the third, unless nothing else is in their row
 // or for their unknown: a plant that is sampled fast has couplings of 1e-10 that tell nothing of
 // its units.
 //

@@ -12,7 +12,7 @@ namespace gainsmith::lmi {
 
 namespace {
 
-/// A coefficient that stands in a block.
+/// A coefficient in a block.
 struct Coefficient {
   int unknown;
   int first_row;

@@ -1,4 +1,4 @@
-// Internal to lmi: the elements of all coefficients as balancing sees them.
+// Internal to lmi: the elements of all coefficients as balancing uses them.
 #pragma once
 
 #include <cstddef>

@@ -100,7 +100,7 @@ std::vector<std::pair<int, Sparse>> merged(std::vector<std::pair<int, Sparse>>& 
   return result;
 }
 
-/// Whether a scalar of the matrices in products also stands in a term.
+/// Whether a scalar of the matrices in products also occurs in a term.
 bool stands_elsewhere(const AffineForm& form) {
   return std::any_of(form.products.begin(), form.products.end(), [&](const Product& product) {
     const int first = product.unknown.first;

@@ -15,7 +15,7 @@ namespace gainsmith::lmi {
 /// One symmetric block. `terms` are (i, B_i) in the order of i, with i = 0 the constant. With
 /// `products` those of the scalars of their matrices V are
 ///   sum over t of He(E_t V_t F_t)
-/// and nothing else; other matrices may stand in terms by their scalars.
+/// and nothing else; other matrices may occur in terms by their scalars.
 struct Block {
   std::string name;    ///< of the requirement, "name.2" for the second comparison of a chain
   std::string point;   ///< "tau = 0.7", "cos(2*tau) = 1"; empty without forall
@@ -23,7 +23,7 @@ struct Block {
   bool strict = true;
   std::size_t inequality = 0;  ///< its index in the method
   std::size_t comparison = 0;  ///< of its chain
-  /// The values of all variables there. None: it stands for no point of the domain, as a corner of
+  /// The values of all variables there. None: it represents no point of the domain, as a corner of
   /// a box that the functions of a variable do not reach.
   std::optional<forall::Point> where;
   int size = 0;

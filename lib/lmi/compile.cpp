@@ -23,7 +23,7 @@ std::string joined(const std::string& a, const std::string& b) {
   return a.empty() || b.empty() ? a + b : a + ", " + b;
 }
 
-/// One inequality on its way to blocks.
+/// Compiles one inequality to blocks.
 class Compiler {
  public:
   Compiler(const Inequalities& of, const Statement& statement, int slices)
@@ -40,7 +40,7 @@ class Compiler {
   }
 
  private:
-  /// The hull when it loses nothing, otherwise exchange. What is wrong in both ways is found, and
+  /// The hull when it loses nothing, otherwise exchange. What is wrong in both is found, and
   /// said, by exchange.
   std::vector<Block> choose(Imposed& imposed) const {
     imposed.way = model::Way::hull;

@@ -25,7 +25,7 @@ struct Lmi {
   std::vector<double> objective;  ///< c, m scalars, when has_objective
   double objective_constant = 0;
 
-  /// Whether every block stands for a point of its domain (Block::where), so that what excludes the
+  /// Whether every block represents a point of its domain (Block::where), so that what excludes the
   /// blocks excludes the inequalities.
   bool represents_points() const;
   /// Of all blocks together.

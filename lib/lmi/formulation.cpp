@@ -309,7 +309,7 @@ Formulation in_units_of_solution(const Lmi& lmi, const GainBounds& bounds,
 double objective_lower_bound(const Lmi& lmi, const GainBounds& bounds,
                              const Formulation& formulation, const sdp::Solution& solution) {
   constexpr double kLike = 2, kLikeTrace = 30;
-  constexpr double kRounding = 3e-16;  // of the coefficients, which stand for decimals
+  constexpr double kRounding = 3e-16;  // of the coefficients, which represent decimals
   // c'x >= r_0 + r'x - w sum_k tr(B_k(x))  with the weight w, c_0 = 0 and
   // r_i = c_i + w sum_k tr(B_ki) - sum_k <B_ki, Y_k>, i = 0 the constant part.
   double trace = 0;

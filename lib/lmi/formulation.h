@@ -6,7 +6,7 @@
 //   objective   minimise c'x + weight sum_k tr(B_k(x)),  B_k(x) >= shift I, strict or not; gain
 //               bounds >= 0; in units of the data without weight, and again in units of the
 //               solution where these are far from the first (in_units_of_solution). The weight
-//               bounds what the objective does not see.
+//               bounds what the objective does not depend on.
 //   interior    the largest unit-free margin, min over k of the smallest eigenvalue of
 //               D^-1/2 B_k(x) D^-1/2 with D = diag(B_k(x)), of the homogenised blocks
 //                 x_0 B_k0 + sum_i x_i B_ki > 0,   x_0 > 0  (where a block has a constant part):
@@ -47,7 +47,7 @@ struct Formulation {
   double shift = 0;              ///< objective
   double weight = 0;             ///< objective
   double cost_unit = 1;          ///< objective: costs of the problem by those of the Lmi, 2^k
-  bool homogenised = false;      ///< interior: x_0 stands before s, which is the last variable
+  bool homogenised = false;      ///< interior: x_0 comes before s, which is the last variable
   int rows = 0;                  ///< interior: N
   int variables = 0;             ///< of the program
   FreeVariables free_variables;  ///< scalars left out, and the rows of each block that stay
@@ -84,7 +84,7 @@ Formulation formulate_interior(const Lmi& lmi, const GainBounds& bounds, const R
                                const Exactly& exactly = {},
                                const std::vector<std::vector<int>>& rows = {});
 
-/// The least violation of the inequalities as they stand, which have constant parts:
+/// The least violation of the inequalities as given, which have constant parts:
 ///   maximise s,  B_k(x) >= s I
 /// without gain bounds; s is the last variable. Where s < 0 its multipliers are a certificate of
 /// small rank, and x a solution of B_k(x) >= s I beside them: both are of an ordinary size where

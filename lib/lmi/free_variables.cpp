@@ -68,7 +68,7 @@ double margin_of_rows(const numbers::Matrix& whole, const std::vector<int>& rows
   return correlation_margin(part);
 }
 
-/// The rows of each block that the search for one scalar looks at.
+/// The rows of each block that the search for one scalar examines.
 using Rows = std::vector<std::vector<int>>;
 
 void add_rows(const Rows& more, Rows& rows) {

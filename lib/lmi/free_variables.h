@@ -28,7 +28,7 @@ struct FreeVariables {
 };
 
 /// The scalars that are free; what would, with those before it, leave a block without rows is not.
-/// Scalars that stand in one of the `others` (bounds on gains) are not, nor those that have a price
+/// Scalars that occur in one of the `others` (bounds on gains) are not, nor those that have a price
 /// when the `objective` counts.
 FreeVariables find_free_variables(const Lmi& lmi, const std::vector<Block>& others, bool objective);
 

@@ -149,8 +149,8 @@ std::string text_of(const Factor& factor, const Choice& choice) {
   return text;
 }
 
-/// The program with the coefficients chosen. A call that stands in a definition is no part of the
-/// gain's text: it stays the whole function.
+/// The program with the coefficients chosen. A call in a definition is no part of the gain's
+/// text: it stays the whole function.
 expr::Program chosen(const Inequalities& of, const expr::Program& program, const Choice& choice) {
   std::map<std::string, expr::Body> bodies;
   return expr::link(

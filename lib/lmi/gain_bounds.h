@@ -47,7 +47,7 @@ struct GainBounds {
 /// without `beta`.
 ///
 /// With `units` (log2 d_i, balance.h) beta is meant in balanced units: with powers of two T and U,
-/// T S T and T E U stand for S and E, so that their elements are near 1 in these units. Nothing
+/// T S T and T E U replace S and E, so that their elements are near 1 in these units. Nothing
 /// depends on the units of the problem then.
 GainBounds gain_bounds(const Inequalities& inequalities, std::optional<double> beta,
                        std::vector<int> units = {});

@@ -49,7 +49,7 @@ class Gatherer {
   int elements_ = 0;
   std::vector<double> values_;
   std::vector<char> stands_;
-  std::vector<int> touched_;  ///< the rows that stand in each column
+  std::vector<int> touched_;  ///< the rows that were added to, in each column
   std::vector<int> counts_;   ///< of these, for each column
 };
 

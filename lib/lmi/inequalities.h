@@ -1,5 +1,5 @@
-// The inequalities of an instance, ready to be evaluated: what each states stands here once, for
-// the blocks that are solved (compile.h) and for the margins that are recomputed
+// The inequalities of an instance, ready to be evaluated: what each states is given here once,
+// for the blocks that are solved (compile.h) and for the margins that are recomputed
 // (verdict/margins.h).
 #pragma once
 

@@ -87,7 +87,7 @@ class Maker {
     }
   }
 
-  /// Whether a matrix stands in a block by its scalars, as in trace(P) < 1.
+  /// Whether a matrix occurs in a block by its scalars, as in trace(P) < 1.
   bool stands_by_scalars() const {
     return std::any_of(blocks_.begin(), blocks_.end(), [&](const Block* block) {
       std::vector<bool> in_products(of_matrix_.size(), false);

@@ -14,7 +14,7 @@ namespace gainsmith::lmi {
 /// the scalars outside of the matrices; a matrix is in the units of the problem, for the balanced
 /// ones of its scalars are no product of units of rows and columns. `round`: of Goal::interior.
 ///
-/// None when no unknown is a matrix that stands in products in all blocks (Block::products), when
+/// None when no unknown is a matrix that occurs in products in all blocks (Block::products), when
 /// scalars are free or rows left out, and for a round with a margin, t diag(B_k(x)) being no
 /// such product.
 std::optional<sdp::MatrixProgram> matrix_program(const Lmi& lmi, const GainBounds& bounds,

@@ -38,7 +38,7 @@ double first_ratio(const Sparse& a, const Sparse& b) {
 
 Sparse turned(const Sparse& matrix) { return matrix.transpose(); }
 
-/// One term of S +- S', where (E, F) may stand as (F', E') with the sign.
+/// One term of S +- S', where (E, F) may be given as (F', E') with the sign.
 struct Sides {
   MatrixUnknown unknown;
   Sparse left;
@@ -168,7 +168,7 @@ std::vector<HermitianProduct> symmetric_part(const std::vector<Product>& sum) {
 }
 
 double asymmetry(const std::vector<Product>& sum) {
-  // (S - S')/2 is the sum of these, and V_ij stands at two places of V, both in E V F and (E V F)'.
+  // (S - S')/2 is the sum of these, and V_ij is at two places of V, both in E V F and (E V F)'.
   constexpr double kPlaces = 8;
   double bound = 0;
   for (const Sides& term : with_mirrors(sum, -1)) {

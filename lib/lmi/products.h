@@ -1,4 +1,4 @@
-// Products with a matrix unknown between constant matrices: what stands in a matrix inequality as
+// Products with a matrix unknown between constant matrices: what a matrix inequality contains as
 // long as nobody needs the coefficients of the unknown's scalars, of which there are thousands.
 #pragma once
 

@@ -7,8 +7,7 @@ namespace gainsmith::lmi {
 
 namespace {
 
-/// The diagonal element (row, row) of a block as c x_q; none where another or no unknown stands in
-/// it.
+/// The diagonal element (row, row) of a block as c x_q; none where another or no unknown is in it.
 std::optional<std::pair<int, double>> alone_on_diagonal(const Block& block, int row) {
   std::optional<std::pair<int, double>> found;
   for (const auto& [i, matrix] : block.terms) {

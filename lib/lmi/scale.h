@@ -20,7 +20,7 @@ struct Scale {
   int row = 0;  ///< of the diagonal element, from 0
 };
 
-/// Of the unknowns that are numbers, the one that stands in the most elements; none where no such
+/// Of the unknowns that are numbers, the one that occurs in the most elements; none where no such
 /// diagonal element has one, or a block has a constant part.
 std::optional<Scale> find_scale(const Lmi& lmi, const Unknowns& unknowns);
 

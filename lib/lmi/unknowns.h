@@ -21,7 +21,7 @@ struct Unknown {
   expr::Shape shape;
   int first = 1;  ///< index of its first scalar, counted from 1; x_0 = 1 is the constant
   int count = 0;
-  bool whole = false;  ///< stands as a matrix in products (products.h), not by its scalars
+  bool whole = false;  ///< occurs as a matrix in products (products.h), not by its scalars
 
   /// The places (row, column) of scalar `first + k`: one, or two mirrored ones.
   std::vector<std::pair<int, int>> places(int k) const;
@@ -32,7 +32,7 @@ class Unknowns {
   static constexpr int kLarge = 100;
 
   Unknowns() = default;
-  /// With an unknown of at least `large` scalars the matrices stand as such in products; below
+  /// With an unknown of at least `large` scalars the matrices occur as such in products; below
   /// their scalars cost less.
   explicit Unknowns(const std::vector<model::UnknownMatrix>& matrices, int large = kLarge);
 

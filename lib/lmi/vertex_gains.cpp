@@ -48,7 +48,7 @@ forall::Domain symbolic_part(const forall::Domain& domain) {
   return symbolic;
 }
 
-/// Looks for the functions of tau in the inequalities.
+/// Searches the inequalities for the functions of tau.
 class AtomSearch {
  public:
   explicit AtomSearch(const model::Instance& instance)
@@ -56,7 +56,7 @@ class AtomSearch {
         functions_(model::polynomials(*instance.design)),
         unknowns_(model::unknown_matrices(*instance.design, functions_)) {}
 
-  /// Adds the atoms of the interval that stand in an inequality. Polytopes stay symbolic, so that
+  /// Adds the atoms of the interval that occur in an inequality. Polytopes stay symbolic, so that
   /// what is not affine in them is refused.
   void collect(const model::Design::Inequality& stated, const forall::Domain& domain,
                const std::string& variable, std::vector<Atom>& atoms) const {
@@ -109,7 +109,7 @@ std::vector<double> values_at(const MonomialTable& monomials, const Box& box, st
   std::vector<double> values(1, 1.0);
   for (int index = 1; index < monomials.size(); ++index) {
     const int atom = box.find(monomials[index].front().atom);
-    // An atom outside of the box does not stand in the form without noise: its value is unused.
+    // An atom outside of the box does not occur in the form without noise: its value is unused.
     values.push_back(atom < 0 ? 0.0 : box.vertices[vertex][static_cast<std::size_t>(atom)]);
   }
   return values;

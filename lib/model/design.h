@@ -1,7 +1,7 @@
 // Everything that a problem and its method say, bound once: programs with shapes and places.
 //
 // A problem and a method are read as texts (problem.h, method.h). bind() turns the two into one
-// Design, and nothing behind it sees a syntax tree or a scope again. A Design holds no values but
+// Design, and nothing behind it uses a syntax tree or a scope again. A Design holds no values but
 // those that fixed its shapes; evaluate() gives values to its data and parameters (instance.h), and
 // an override changes values, never a program.
 //
@@ -40,7 +40,7 @@ namespace gainsmith::model {
 
 struct Problem;  // problem.h: the texts, kept to bind again when a dimension changes
 
-/// What was solved, so that a gain file stands alone.
+/// What was solved, so that a gain file is self-contained.
 struct Statement {
   std::string method_name;
   std::string method_text;
@@ -51,7 +51,7 @@ struct Statement {
   std::vector<StatedFile> files{};  ///< what the problem reads besides its text
 };
 
-/// A scalar and the range in which it is looked for.
+/// A scalar and the range in which it is searched for.
 struct Range {
   std::string name;
   Formula low;
@@ -79,7 +79,7 @@ struct Design {
     std::string name;
     std::vector<std::pair<expr::Program, bool>> differences;  ///< to be > 0 (true) or >= 0
     std::string text;
-    std::vector<std::string> scalars;  ///< that stand in it
+    std::vector<std::string> scalars;  ///< that occur in it
     Place place;                       ///< of one of them in the problem
   };
 
@@ -137,7 +137,7 @@ struct Design {
     };
     std::string inverse;  ///< S as written: a symmetric unknown or a call of one, "P", "P(t)"
     Factor inverted;      ///< S
-    bool left = true;     ///< inv(S) stands left of E
+    bool left = true;     ///< inv(S) is left of E
     Factor all;           ///< the product of all factors beside the inverse
     Factor nearest;       ///< the one next to it
   };
@@ -277,7 +277,7 @@ struct Design {
 
   SynthesisOptions synthesis;
   std::optional<Search> search;
-  std::vector<Range> open;            ///< parameters without a value that synthesis looks for
+  std::vector<Range> open;            ///< parameters without a value that synthesis searches for
   std::vector<Range> negotiable;      ///< scalars along which `explain` says how far one must go
   std::vector<Range> asked;           ///< ranges of the command line
   std::vector<NamedFormula> figures;  ///< scalars of the command line, shown of each result

@@ -8,8 +8,8 @@
 //
 //   flow   variable' = program, for the states that have one; a clock (time, since) runs at rate 1,
 //          `left` at rate -1; everything else rests
-//   jump   at an instant the events are looked at in order; the first that is due jumps, alone, and
-//          all are looked at again. A jump runs the reactions to its event, each on the values
+//   jump   at an instant the events are checked in order; the first that is due jumps, alone, and
+//          all are checked again. A jump runs the reactions to its event, each on the values
 //          before the jump; a component without one keeps its states, bit by bit.
 #pragma once
 
@@ -104,12 +104,12 @@ struct Dynamics {
     Place place;
   };
 
-  /// One map of a jump. It sees the states of its own component as the map before it left them and
+  /// One map of a jump. It reads the states of its own component as the map before it left them and
   /// everything else as before the jump.
   struct Pass {
     std::vector<Assignment> map;
     bool repeats = false;
-    std::optional<expr::Condition> until;  ///< looked at before each pass; none: all of them
+    std::optional<expr::Condition> until;  ///< checked before each pass; none: all of them
     std::optional<Formula> at_most;        ///< passes, a whole number of constants
     bool go_on = false;  ///< whether the run goes on when `until` does not become true
     Place place;
@@ -148,7 +148,7 @@ struct Dynamics {
     Between between = Between::hold;
     std::shared_ptr<const Series> series;
     bool output = false;               ///< shown by an output of the plant
-    std::optional<std::size_t> event;  ///< at which alone it is looked at
+    std::optional<std::size_t> event;  ///< at which alone it is sampled
     Place place;
   };
 
@@ -165,7 +165,7 @@ struct Dynamics {
   std::vector<Component> components;  ///< the plant first
   std::vector<Variable> variables;
   std::vector<Assignment> flow;
-  std::vector<Event> events;  ///< in the order in which they are looked at
+  std::vector<Event> events;  ///< in the order in which they are checked
   std::vector<Reaction> reactions;
   std::vector<Noise> noise;
   std::vector<Measured> measured;

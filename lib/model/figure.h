@@ -1,4 +1,4 @@
-// Numbers that one looks up of a run: a value at a moment, a peak, when something has settled.
+// Numbers that one reads from a run: a value at a moment, a peak, when something has settled.
 //
 //   {at: {event: leave, count: 2, side: after}, value: v}   v just before or after a jump
 //   {at: {t: 10}, value: v}                                 v at a time, after its jumps

@@ -1,4 +1,4 @@
-// A bound expression and where it stands.
+// A bound expression and where it is written.
 #pragma once
 
 #include <string>

@@ -65,7 +65,7 @@ Basis basis_of(const Design::Unknown& unknown, std::size_t size);
 /// "YL_0 + YL_1*tau + YL_2*tau^2", for `degree` 2.
 std::string polynomial_text(const std::string& name, const std::string& variable, int degree);
 
-/// What the functions of a program stand for, by name.
+/// The bodies of the functions of a program, by name.
 class Bodies {
  public:
   Bodies() = default;
@@ -76,7 +76,7 @@ class Bodies {
   /// A body of another make, whose derivative is not known.
   void set(const std::string& name, expr::Body body);
   bool contains(const std::string& name) const { return bodies_.contains(name); }
-  /// What a call stands for. InputError at its place for a derivative that is not known,
+  /// What replaces a call. InputError at its place for a derivative that is not known,
   /// std::logic_error for a function without a body.
   const expr::Body& body(const std::string& name, const expr::Instruction& call) const;
   /// The program without calls, by body().

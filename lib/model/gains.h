@@ -199,7 +199,7 @@ struct Gains {
 /// The key of a coefficient of a gain that is a polynomial.
 std::string coefficient_key(const std::string& gain, std::size_t k);
 
-/// The decimals of the matrix that stands under a key: those that were read, as long as the matrix
+/// The decimals of the matrix that is under a key: those that were read, as long as the matrix
 /// holds their doubles, otherwise printed().
 Decimals decimals_at(const Gains& gains, const std::string& key, const numbers::Matrix& matrix);
 

@@ -15,7 +15,7 @@
 
 namespace gainsmith::model {
 
-/// A scalar and the range in which it is looked for: "T2: [0.5, 1.1]".
+/// A scalar and the range in which it is searched for: "T2: [0.5, 1.1]".
 struct ScalarRange {
   std::string name;
   expr::Expression low;
@@ -36,7 +36,7 @@ struct Parameter {
   std::optional<expr::Expression> fallback;
   std::string help;
   Place place;
-  /// Where synthesis looks for it when the problem gives no value.
+  /// Where synthesis searches for it when the problem gives no value.
   std::optional<ScalarRange> search{};
 };
 

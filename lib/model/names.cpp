@@ -29,7 +29,7 @@ std::string with_article(const std::string& noun) {
 
 class NameCheck {
  public:
-  /// A dimension may stand in several shapes.
+  /// A dimension may occur in several shapes.
   void add_dimensions(const ShapeText& shape) {
     for (const auto& size : {shape.rows, shape.cols})
       if (size)

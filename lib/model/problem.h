@@ -112,7 +112,7 @@ struct Questions {
   std::vector<expr::Expression> figures;  ///< scalars that are shown of each result
 };
 
-/// Data of which the plant sees another value than the observers, chosen once a run.
+/// Data of which the plant has another value than the observers, chosen once a run.
 struct UncertainText {
   std::string name;
   std::vector<Value> box;       ///< low, high

@@ -6,7 +6,7 @@ namespace gainsmith::model {
 
 namespace {
 
-/// Replaces calls by what the functions stand for.
+/// Replaces calls by the bodies of the functions.
 class Linking {
  public:
   explicit Linking(const Bodies& bodies) : bodies_(&bodies) {}

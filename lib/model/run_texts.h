@@ -1,6 +1,6 @@
 // What the runs of a design read, for the values of one gain file.
 //
-// Here functions are replaced by what they stand for, in all texts and once: the programs call
+// Here functions are replaced by their bodies, in all texts and once: the programs call
 // nothing. What they use is a variable of the dynamics or a constant, or has no value.
 #pragma once
 
@@ -16,7 +16,7 @@ namespace gainsmith::model {
 
 struct RunTexts {
   Place method;       ///< the file of the method
-  Stated stated;      ///< the constants, and what functions stand for
+  Stated stated;      ///< the constants, and the bodies of functions
   Dynamics dynamics;  ///< with a variable for the integral of each flow cost of a claim
   Design::Campaign campaign;
   std::vector<Design::Claim> claims;

@@ -1,4 +1,4 @@
-// What a gain file says, for programs: values, and what the functions stand for.
+// What a gain file says, for programs: values, and the bodies of the functions.
 //
 //   basis (orth, null)    the file's matrix, and what follows from it in the data
 //   unknown function Y    the file's text over the file's coefficients Y_0, Y_1, ...

@@ -8,7 +8,7 @@ namespace gainsmith::model {
 
 /// A matrix of a file, by its decimals.
 struct StatedMatrix {
-  std::string key;  ///< where it stands in the file: "A", "plant.A"; empty where a file holds one
+  std::string key;  ///< where it is in the file: "A", "plant.A"; empty where a file holds one
   int rows = 0;
   int cols = 0;
   std::vector<std::string> elements;  ///< row by row, spelt as in JSON

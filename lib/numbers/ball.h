@@ -33,7 +33,7 @@ constexpr double function_roundoff() {
 constexpr double kLeastNormal = 1e-290;
 constexpr double kTiny = 16 * std::numeric_limits<double>::denorm_min();
 
-/// Not below what `radius`, a sum or product of at most `operations` roundings, stands for.
+/// Not below the exact value of `radius`, a sum or product of at most `operations` roundings.
 inline double up(double radius, double operations = 6) {
   return radius * (1 + (operations + 2) * 0x1p-52);
 }

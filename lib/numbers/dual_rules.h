@@ -304,7 +304,7 @@ struct DualRules {
                                          return Tangent<Scalar>{x.value(i, j), slope(i, j)};
                                        });
   }
-  /// The slope of a block whose first element stands at (row, column).
+  /// The slope of a block whose first element is at (row, column).
   static void place(const Value& x, Value& out, Eigen::Index row, Eigen::Index column) {
     if (!x.moves()) return;
     const Eigen::Index rows = x.value.rows();
@@ -331,7 +331,7 @@ struct DualRules {
     return out;
   }
   /// Adds factor times the slope of x, element by element. A factor that is not finite, which `op`
-  /// says, is that of a value without a derivative, unless x stands still.
+  /// says, is that of a value without a derivative, unless x does not move.
   static void along(const Value& x, Value& out, const M& factor, Op op = Op::multiply) {
     using std::isfinite;
     if (!x.moves()) return;

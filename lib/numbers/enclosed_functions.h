@@ -67,7 +67,7 @@ struct Decomposition {
 };
 
 /// A must not be empty. Only min(rows, cols) columns of U and V are of use to the residual.
-/// The s stand in the order of double, which may not be theirs where double takes them as equal.
+/// The s are in the order of double, which may not be theirs where double takes them as equal.
 template <class S>
 Decomposition<S> decomposed(const Enclosed<S>& A) {
   const auto svd = Foundation<S>::full_svd(A.mid);

@@ -12,7 +12,7 @@
 //
 //   dz'/dq = d (de/dz z' + de/dp p' + de/dt (t' + q d')) + d' e,      p what else e depends on
 //
-// Across a border of e where e jumps, and which is reached sooner or later as something changes,
+// Across a boundary of e where e jumps, and which is reached sooner or later as something changes,
 // there is none.
 #pragma once
 

@@ -21,8 +21,8 @@ inline std::vector<expr::Branch> branches_along(const expr::Instruction& instruc
   });
 }
 
-/// The rate of an instruction and what it branches on at points of a number type: what stands still
-/// is fixed. The branches must outlive it.
+/// The rate of an instruction and what it branches on at points of a number type: what does not
+/// move is fixed. The branches must outlive it.
 template <class Type>
 class BodyPoint {
  public:

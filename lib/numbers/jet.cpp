@@ -209,7 +209,7 @@ class Bend {
 
   expr::Evaluator<JetAlgebra> evaluator_;
   expr::Operands<Jet> operands_;
-  std::vector<Jet> inputs_;  ///< the evaluator reads them where they stand
+  std::vector<Jet> inputs_;  ///< the evaluator reads them where they are
 };
 
 /// The power of two nearest to sqrt(s/a), within 2^-20 and 2^20.

@@ -59,7 +59,7 @@ inline Taylor whole_power(const Number& x, int k) {
   return {value, first, factor(k) * factor(k - 1) * ball::whole_power(x, k - 2)};
 }
 
-/// a^b: by the chain rule where the exponent stands still, as e^(b log a) where it moves.
+/// a^b: by the chain rule where the exponent does not move, as e^(b log a) where it moves.
 inline Taylor real_power(const Taylor& a, const Taylor& b, bool exponent_moves) {
   const auto known = ball::power(a.value, b.value);
   if (!known) expr::fault::not_finite(expr::Op::real_power);

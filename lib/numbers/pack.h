@@ -9,7 +9,7 @@
 
 namespace gainsmith::numbers {
 
-/// A matrix at kLanes points. Each lane is computed alone and all lanes the same way, so a value
+/// A matrix at kLanes points. Each lane is computed alone and all lanes alike, so a value
 /// does not depend on the points beside it.
 struct Pack {
   static constexpr int kLanes = 64;

@@ -55,7 +55,7 @@ class KnownDoubles : public expr::KnownValues {
   Values values_;
 };
 
-/// The number of singular values above tolerance * the largest one; tolerance < 0 stands for
+/// The number of singular values above tolerance * the largest one; tolerance < 0 means
 /// max(rows, cols) * 2^-52.
 int numerical_rank(const Matrix& matrix, double tolerance = -1);
 

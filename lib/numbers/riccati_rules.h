@@ -63,9 +63,9 @@ class RiccatiSolver {
   };
 
   static W roundings(double count) { return W(count) * std::numeric_limits<W>::epsilon(); }
-  /// The part of |A - B K|, or of 1, within which an eigenvalue counts as one of the border: two of
-  /// them meet there, so that half of the digits are left.
-  static W border() {
+  /// The part of |A - B K|, or of 1, within which an eigenvalue counts as one on the stability
+  /// boundary: two of them meet there, so that half of the digits are left.
+  static W boundary_width() {
     using std::sqrt;
     constexpr double kRoundings = 4096;
     return sqrt(roundings(kRoundings));
@@ -169,12 +169,12 @@ class RiccatiSolver {
     if (!found || !found->closed.allFinite()) return false;
     const W size = W(static_cast<double>(X.rows()));
     if (norm_1<W>(found->residual) > size * rounding * found->terms) return false;
-    const W slack = border() * (discrete_ ? W(1) : norm_1<W>(found->closed));
+    const W slack = boundary_width() * (discrete_ ? W(1) : norm_1<W>(found->closed));
     return std::ranges::all_of(balanced_eigenvalues<W>(found->closed),
                                [&](const auto& one) { return excess(one) < -slack; });
   }
 
-  /// How far an eigenvalue lies beyond the border.
+  /// How far an eigenvalue lies beyond the stability boundary.
   W excess(const Eigenvalue<W>& one) const {
     using std::sqrt;
     if (!discrete_) return one.real;
@@ -208,7 +208,7 @@ class RiccatiSolver {
   [[noreturn]] void explain() const {
     const std::string none = "there is no stabilising solution: ";
     const auto& [A, G, H] = start_;
-    const W slack = border() * (discrete_ ? W(1) : norm_1<W>(A));
+    const W slack = boundary_width() * (discrete_ ? W(1) : norm_1<W>(A));
     const auto modes = balanced_eigenvalues<W>(A);
     for (const Eigenvalue<W>& mode : modes)
       if (excess(mode) >= -slack && !reaches(A, B_, mode))

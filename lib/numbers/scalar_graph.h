@@ -1,12 +1,12 @@
 // Operations on single numbers as a graph without equal nodes. What is known is folded: sums with 0,
 // products with 0 and 1, operations on constants.
 //
-// Other libraries may rely on this: a node stands after the nodes that it reads, and its number does not
-// change until return_to(). The graph holds no operation "of tapes alone". A block has its operands and
-// its result column by column.
+// Other libraries may rely on this: a node comes after the nodes that it reads, and its number does
+// not change until return_to(). The graph holds no operation "of tapes alone". A block has its
+// operands and its result column by column.
 //
 // A product with the constant 0 is 0, whatever the other factor is; but what may have no value
-// (is_partial) stays, so that its fault is seen.
+// (is_partial) stays, so that its fault is detected.
 #pragma once
 
 #include <array>

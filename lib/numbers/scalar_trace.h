@@ -27,7 +27,7 @@ struct TracedMatrix {
   bool moves() const { return !slopes.empty(); }
 };
 
-/// What stands for an input.
+/// What replaces an input.
 using TracedInput = std::function<TracedMatrix(const expr::Input&)>;
 
 /// The result of a program without calls.

@@ -34,7 +34,7 @@ class StackedFunctions {
   /// Evaluates all at x, and `beside` it. False: one of them may have no value; then at() tells of
   /// each.
   bool run(const Eigen::VectorXd& x, double beside = 0);
-  /// The value of the k-th in the run before, which was true; it stands until the next call.
+  /// The value of the k-th in the run before, which was true; it is valid until the next call.
   const Matrix& value(std::size_t k);
   /// Its elements, column by column.
   double element(std::size_t k, std::size_t e) const { return (*tape_)(k, e); }

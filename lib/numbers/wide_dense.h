@@ -125,7 +125,7 @@ WideSvd<S> wide_svd(const MatrixOf<S>& M) {
   const Svd start = full_svd(A.unaryExpr([](const S& x) { return static_cast<double>(x); }));
   MatrixOf<S> V = orthogonal<S>(start.V.template cast<S>());
   MatrixOf<S> B = times<S>(A, V);
-  // What is 0 to double first goes on its own way to 0, without being mixed.
+  // What is 0 to double first goes to 0 by itself, without being mixed.
   constexpr double kNoise = 1e-12;
   const S rounding =
       S(static_cast<double>(M.size())) * std::numeric_limits<S>::epsilon() * S(start.s(0));

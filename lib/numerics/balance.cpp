@@ -74,7 +74,7 @@ class Balance {
         sizes_(sizes),
         reach_(reachable(sizes)),
         exponents_(static_cast<std::size_t>(n_), 0) {
-    // Halves are common in integer data: they all have to round the same way.
+    // Halves are common in integer data: they all have to round in the same direction.
     constexpr double kPastHalf = 0.5 + 0.0137;
     const Vector units = least_squares(sizes);
     for (Index i = 0; i < n_; ++i) multiply(i, exponent_below(units(i) + kPastHalf));

@@ -161,7 +161,7 @@ class BoxSearch {
     return best;
   }
 
-  /// Nelder and Mead, with what leaves the box put back to its border.
+  /// Nelder and Mead, with what leaves the box put back to its boundary.
   Sample by_simplex(const Sample& start, double step, double finest) const {
     const Index n = dimension();
     const int most = 200 * static_cast<int>(n + 1);

@@ -61,7 +61,7 @@ Projection<S> project_convex(const MatrixOf<S>& x, const MatrixOf<S>& P,
 ///   [ H  c_A' ] [ dz ]   [ P dx - dP (z - x) - sum_i y_i dc_i'  ]
 ///   [ c_A   0 ] [ dy ] = [ -dc_A                                ]
 ///
-/// A function with y = 0 does not count, also where z is on its border by chance.
+/// A function with y = 0 does not count, also where z is on its boundary by chance.
 template <class S>
 MatrixOf<Working<S>> slope_of_projection(const Projection<S>& z, const MatrixOf<S>& x,
                                          const MatrixOf<S>& P, const MatrixOf<Working<S>>& dx,

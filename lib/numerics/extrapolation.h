@@ -10,8 +10,9 @@
 //
 // What f branches on (Watch) must keep its sign at the points of the last D_k, and stay away from 0
 // by more than twice what it changes from point to point; otherwise the step is shortened, down to
-// where f is taken as it comes. So steps go up to a border and do not pass over a pair of them. The
-// lines through two points say where a border lies, and so how long the next step may be.
+// where f is taken as it comes. So steps go up to a zero crossing and do not pass over a pair of
+// them. The lines through two points say where a crossing lies, and so how long the next step may
+// be.
 #pragma once
 
 #include <algorithm>
@@ -46,7 +47,7 @@ class Extrapolation {
     /// A column of numbers, of the first column of y; empty: f is smooth.
     std::function<void(const Scalar& q, const M& first, M& differences)> at;
     std::vector<bool> jumps{};  ///< by number: otherwise f has a kink
-    /// Of a step that crosses a border of one of them: where it begins.
+    /// Of a step that crosses a zero of one of them: where it begins.
     std::function<void(const Scalar& q, const M& y, Eigen::Index difference)> crossed{};
   };
 
@@ -88,10 +89,10 @@ class Extrapolation {
   static constexpr int kMost = 400000;  ///< evaluations
   const Scalar kShortest{0x1p-44};
   const Scalar kShortestAtBorder{0x1p-51};  ///< where f is known to branch
-  // The lengths below which borders are crossed: what f does at a kink changes y by their square.
+  // The lengths below which zeros are crossed: what f does at a kink changes y by their square.
   const Scalar kAcrossJumps{0x1p-40};
   const Scalar kAcrossKinks{0x1p-24};
-  // Of the way to a border, and times that from it: steps of 6 points stay away.
+  // Of the distance to a zero crossing, and times that from it: steps of 6 points stay away.
   const Scalar kUpTo{0.7};
   const Scalar kAwayFrom{2.8};
   const Scalar kEscaped{1e6};
@@ -175,7 +176,7 @@ class Extrapolation {
     if (watch_.at) points_.col(i - 1) = point_.col(0);
   }
 
-  /// Whether the step that ends with the last column passes over no border; short ones may cross.
+  /// Whether the step that ends with the last column crosses no zero; short ones may.
   bool may_be_taken(const Scalar& q, const Scalar& step, const M& y) {
     if (!is_watched()) return true;
     watch(q, step);
@@ -207,7 +208,7 @@ class Extrapolation {
 
   bool is_watched() const { return watch_.at && before_.size() > 0; }
 
-  /// A step of that length may pass over a border.
+  /// A step of that length may cross a zero.
   const Scalar& across(Eigen::Index e) const {
     return watch_.jumps[static_cast<std::size_t>(e)] ? kAcrossJumps : kAcrossKinks;
   }
@@ -226,8 +227,8 @@ class Extrapolation {
     return point == 0 ? before_(e) : watched_(e, point - 1);
   }
 
-  /// The length after one with which there is no step: where it passes over a border, up to short of
-  /// it, or where that is nearer than across(), over it.
+  /// The length after one with which there is no step: where it crosses a zero, up to short of
+  /// that, or where that is nearer than across(), over it.
   Scalar shorter(const Scalar& q, const Scalar& step, int columns) {
     const Scalar usual = step / Scalar(columns == kGaveUp ? 2 : 4);
     if (!is_watched() || columns == kNoRate) return usual;

@@ -186,7 +186,7 @@ class Basis {
 };
 
 /// A sum whose terms have the sizes `most`: elements of which only the rounding of W is left become
-/// 0. An excess of 1e-32 has no digit that counts, but looks large to the row z_1 <= 0.
+/// 0. An excess of 1e-32 has no digit that counts, but is large for the row z_1 <= 0.
 template <class W>
 Column<W> without_noise(Column<W> sum, const Column<W>& most) {
   const W least = W(0x1p20) * std::numeric_limits<W>::epsilon();

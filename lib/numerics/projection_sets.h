@@ -30,7 +30,7 @@ std::optional<Eigen::Index> most_violated(const Rows<W>& rows, const Basis<W>& b
 }
 
 /// Brings row p, which d violates by `gap` > 0, into the basis: u_p grows, and with it d moves
-/// along the rest of n_p; a row whose u falls to 0 on the way leaves. A dependent p cannot be
+/// along the rest of n_p; a row whose u falls to 0 meanwhile leaves. A dependent p cannot be
 /// moved to: one row must leave, and where no u falls sum_i |r_i| a_i = a_p contradict it (Farkas).
 template <class W>
 void activate(Eigen::Index p, W gap, const Rows<W>& rows, Basis<W>& basis, Column<W> u) {

@@ -59,7 +59,7 @@ Matrix coefficients(const Matrix& values) {
 
 namespace {
 
-/// sum_k c_k w_k of `rows` functions whose coefficients of one k stand together, those of the next
+/// sum_k c_k w_k of `rows` functions whose coefficients of one k are adjacent, those of the next
 /// `stride` apart: no operation waits for the one before.
 template <int rows>
 void combine(const double* c, Index stride, const double* weights, std::size_t terms, double* out) {

@@ -86,7 +86,7 @@ ExplicitSteps::Result ExplicitSteps::step() {
     else if (2 * h > rest)
       h = rest / 2;
     if (h < rest && h <= 4 * kEpsilon * std::max(std::abs(t_), rest)) {
-      // An element that has died down, or begins, is no reason to stand still.
+      // An element that has died down, or begins, is no reason to stop.
       if (forgives_) return Result::failed;
       forgives_ = true;
       h_ = first_length();

@@ -1,4 +1,4 @@
-// The right side of x' = f(t, x), with what it met on its way.
+// The right side of x' = f(t, x), with what it met meanwhile.
 #pragma once
 
 #include <Eigen/Core>

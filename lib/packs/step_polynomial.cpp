@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 #include <vector>
 
 namespace gainsmith::packs {
@@ -11,8 +10,10 @@ namespace {
 
 using Coefficients = std::array<double, 6>;
 
-/// A search for a root ends so near to it, or where the value is such a part of the coefficients.
+/// A search for a root ends so near to it.
 constexpr double kRootWithin = 2e-15;
+/// After a step of Newton's method that is such a part of the root, the digits double.
+constexpr double kLastStep = 1e-8;
 
 /// The first `level` coefficients of one degree less, at a share (de Casteljau).
 void step_down(Coefficients& b, std::size_t level, double share) {
@@ -133,23 +134,24 @@ double StepPolynomial::rise() const { return rise_of(b_, 6); }
 bool StepPolynomial::falls(double margin) const { return falls_within(b_, margin, 6); }
 
 double StepPolynomial::root(int side) const {
+  const Coefficients& b = b_;
   // The coefficients are near the polynomial: it comes to 0 about where they do.
   std::size_t beyond = 2;
-  while (beyond + 1 < b_.size() && side * b_[beyond] > 0) ++beyond;
-  const double before_it = side * b_[beyond - 1];
-  const double part = before_it > 0 ? before_it / (before_it - side * b_[beyond]) : 0.5;
-  double low = 0, high = 1, at = (static_cast<double>(beyond - 1) + part) / 5, size = 0;
-  for (const double one : b_) size = std::fmax(size, std::abs(one));
-  for (int k = 0; k < 100; ++k) {
-    Coefficients b = b_;
-    for (std::size_t level = b.size() - 1; level > 1; --level) step_down(b, level, at);
-    const double slope = 5 * (b[1] - b[0]);
-    step_down(b, 1, at);
-    if (std::abs(b[0]) <= kRootWithin * size) break;
-    (side * b[0] > 0 ? low : high) = at;
-    const double next = at - b[0] / slope;
-    const double before = std::exchange(at, next > low && next < high ? next : (low + high) / 2);
-    if (std::abs(at - before) <= kRootWithin * at) break;
+  while (beyond + 1 < b.size() && side * b[beyond] > 0) ++beyond;
+  const double before_it = side * b[beyond - 1];
+  const double part = before_it > 0 ? before_it / (before_it - side * b[beyond]) : 0.5;
+  const std::array<double, 5> d = {b[1] - b[0], b[2] - b[1], b[3] - b[2], b[4] - b[3], b[5] - b[4]};
+  const double c1 = 5 * d[0], c2 = 10 * (d[1] - d[0]), c3 = 10 * (d[2] - 2 * d[1] + d[0]);
+  const double c4 = 5 * (d[3] - 3 * (d[2] - d[1]) - d[0]);
+  const double c5 = d[4] - 4 * (d[3] + d[1]) + 6 * d[2] + d[0];
+  double low = 0, high = 1, at = (static_cast<double>(beyond - 1) + part) / 5;
+  while (high - low > kRootWithin) {
+    const double value = b[0] + at * (c1 + at * (c2 + at * (c3 + at * (c4 + at * c5))));
+    const double slope = c1 + at * (2 * c2 + at * (3 * c3 + at * (4 * c4 + at * 5 * c5)));
+    (side * value > 0 ? low : high) = at;
+    const double step = -value / slope;
+    if (std::abs(step) <= kLastStep * at) return at + step;
+    at = at + step > low && at + step < high ? at + step : (low + high) / 2;
   }
   return at;
 }

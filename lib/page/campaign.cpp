@@ -63,7 +63,7 @@ std::string confidence_text(const model::CampaignRecord& campaign) {
          " of such runs violate. This is evidence, no proof.";
 }
 
-/// The runs that are worth a look, each once, the worst first.
+/// The runs that are worth examining, each once, the worst first.
 std::vector<std::uint64_t> worst_runs(const model::CampaignRecord& campaign) {
   std::vector<std::uint64_t> runs = {campaign.worst_run};
   const auto add = [&](std::uint64_t run) {

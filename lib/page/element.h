@@ -20,7 +20,7 @@ std::string preformatted(std::string_view text, std::string_view attributes = {}
 
 std::string formula(std::string_view mathml);
 
-/// A heading and what stands below it; nothing without content.
+/// A heading and what is below it; nothing without content.
 std::string section(std::string_view title, const std::string& content);
 
 /// "1 run", "2 runs".

@@ -35,7 +35,7 @@ enum class Level {
   atom
 };
 
-/// What stands at an end of a piece: in a product words need room, and figures a dot.
+/// What is at an end of a piece: in a product words need room, and figures a dot.
 enum class Edge { letter, word, figure };
 
 struct Piece {

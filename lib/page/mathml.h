@@ -5,7 +5,7 @@
 //   [P1, Y; *, g*I]                    a matrix in brackets; * is the star of symmetric blocks
 //   P(i), z(2), f(x), Y(tau)           a member, an element, values of functions
 //
-// Parentheses stand where the tree needs them, not where they were written. MathML Core alone is
+// Parentheses are where the tree needs them, not where they were written. MathML Core alone is
 // used, what browsers show without help.
 #pragma once
 

@@ -1,4 +1,4 @@
-// What the names of a problem stand for, as far as its formulas look different for it.
+// What the names of a problem represent, as far as its formulas are shown differently for it.
 #pragma once
 
 #include <map>
@@ -12,8 +12,8 @@ namespace gainsmith::page {
 struct Notation {
   using Names = std::set<std::string, std::less<>>;
 
-  Names functions;  ///< f(x) stands for a value: not for an element of a matrix
-  Names families;   ///< P(i) is a member: the index stands below the line
+  Names functions;  ///< f(x) is a value: not an element of a matrix
+  Names families;   ///< P(i) is a member: the index is a subscript
   Names scalars;    ///< numbers, functions and members that are numbers too
   /// Estimates by what they estimate, "xh" or "x_hat" of an observer by "x": shown with a hat.
   std::map<std::string, std::string, std::less<>> estimates;

@@ -76,7 +76,7 @@ class Given {
     } else if (datum.fallback) {
       right = mathml(*datum.fallback, notation_);
     }
-    if (right.empty()) return "";  // a function: it stands below the data
+    if (right.empty()) return "";  // a function: it is shown below the data
     const bool listed_members = !datum.indices.empty() &&
                                 find(problem_.data, datum.name) != nullptr &&
                                 !find(problem_.data, datum.name)->value.root;

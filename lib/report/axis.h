@@ -1,4 +1,4 @@
-// Axes: which values they show, where, and what stands beside them.
+// Axes: which values they show, where, and what is beside them.
 #pragma once
 
 #include <limits>
@@ -37,7 +37,7 @@ struct Axis {
 };
 
 /// The values and a margin at both ends, as a share of their half; with at most `most` >= 5 ticks.
-/// A single value stands in the middle, and what differs in its last digits alone looks constant:
+/// A single value is in the middle, and what differs in its last digits alone appears constant:
 /// the ends differ by 1e-10 of their size and by 2e-300 at least. Whole numbers, such as modes, are
 /// labelled with whole numbers. Without values: from 0 to 1.
 Axis linear_axis(const Extent& values, double margin, int most);

@@ -1,4 +1,4 @@
-// Figures of signals over hybrid time, over a scalar, and in planes, as SVG pictures that stand alone or
+// Figures of signals over hybrid time, over a scalar, and in planes, as SVG pictures, alone or
 // inside of a page.
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace gainsmith::report {
 
-/// What stands at each sample.
+/// What is drawn at each sample.
 enum class Mark { none, dot, ring, cross, triangle };
 
 /// A signal: value[k] at the time t[k]. The times do not decrease. From sample k to k + 1 leads a
@@ -43,16 +43,16 @@ struct Panel {
   /// Behind the curves. The axis grows for them by the extent of the curves at most; what is beyond
   /// is cut off.
   std::vector<Band> bands{};
-  /// Words instead of numbers at the axis, from the top: value k stands in row k.
+  /// Words instead of numbers at the axis, from the top: value k is in row k.
   std::vector<std::string> rows{};
   /// A plane: t of its curves is another quantity of this name, in any order, with an axis of its
-  /// own. A dot stands at the start of each curve, a ring at its end.
+  /// own. A dot is at the start of each curve, a ring at its end.
   std::optional<std::string> across{};
   bool bars =
       false;  ///< a plane whose curves are outlines of bars: as high as other panels, no ends
 };
 
-/// Panels one above the other. Those that are no planes stand first and share one axis.
+/// Panels one above the other. Those that are no planes come first and share one axis.
 struct Figure {
   std::string title;
   std::string axis;  ///< below: the time and its unit

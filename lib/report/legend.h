@@ -23,7 +23,7 @@ struct Legend {
   double height = 0;  ///< of the whole head
 };
 
-/// The legend stands beside the title, at the right, where it fits into one row, and else in as
+/// The legend is beside the title, at the right, where it fits into one row, and else in as
 /// many rows below as it needs. The entries point into the panel.
 Legend legend(const Panel& panel, double width);
 

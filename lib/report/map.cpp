@@ -35,7 +35,7 @@ std::string colour_at(double share) {
   return text;
 }
 
-/// The values that are shown, and the borders between them as shares of the axis.
+/// The values that are shown, and the boundaries between them as shares of the axis.
 struct Columns {
   std::vector<std::size_t> shown;
   std::vector<double> borders;  ///< one more

@@ -42,8 +42,8 @@ struct MapFigure {
 };
 
 /// The maps, each with a scale of colours beside it where it has values: logarithmic where they are
-/// positive and span a factor of 30. The kinds that occur are explained above it. The borders of a
-/// cell lie half way to its neighbours on the axis. Of more than 400 values of a scalar every
+/// positive and span a factor of 30. The kinds that occur are explained above it. The boundaries of
+/// a cell lie midway to its neighbours on the axis. Of more than 400 values of a scalar every
 /// second, third ... is shown. Otherwise as svg() of a Figure. std::logic_error for a map that has
 /// not one cell a point of the grid.
 std::string svg(const MapFigure& figure);

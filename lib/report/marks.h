@@ -10,7 +10,7 @@
 namespace gainsmith::report {
 
 /// A short tick at the lower edge of the box for each time that the axis shows; of ticks that would
-/// stand closer than 3 pixels together the first. The times do not decrease. Empty without any.
+/// be closer than 3 pixels together the first. The times do not decrease. Empty without any.
 std::string marks(const std::vector<double>& times, const Axis& time, const Box& box);
 
 }  // namespace gainsmith::report

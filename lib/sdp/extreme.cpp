@@ -9,7 +9,7 @@ namespace {
 
 /// How sharp the bound must be, relative to the eigenvalue.
 constexpr double kSharpness = 0.01, kTridiagonalSharpness = 0.001;
-/// Ritz values are looked at from this step on, every few steps.
+/// Ritz values are checked from this step on, every few steps.
 constexpr Eigen::Index kFirstCheck = 8, kBetweenChecks = 4;
 
 /// Are all eigenvalues of T above `shift`?

@@ -46,7 +46,7 @@ class ConeFactor {
   Blocks<T> inverse_transpose_;  ///< L^-T
   std::vector<bool> inverted_;   ///< are they of the present L?
   Blocks<T> work_, scaled_;
-  /// L^-1 D L^-T of a block in double, on its way to its smallest eigenvalue.
+  /// L^-1 D L^-T of a block in double, and the workspace for its smallest eigenvalue.
   struct Spectrum {
     explicit Spectrum(int n)
         : w(n, n), shifted(n, n), reduction(n), diagonal(n), subdiagonal(n - 1) {}

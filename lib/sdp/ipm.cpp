@@ -10,7 +10,7 @@
 namespace gainsmith::sdp {
 namespace {
 
-/// Of the way to the boundary: closer when the predictor got far.
+/// Of the distance to the boundary: closer when the predictor got far.
 constexpr double kShortest = 0.9, kLongest = 0.98;
 /// Iterations without a better point before the arithmetic counts as exhausted once a solution is
 /// in sight; before, errors may still rise before they fall.
@@ -128,8 +128,8 @@ Cause Ipm<T>::iterate() {
   }
 }
 
-/// Moves along the direction and factors; takes back a part of the way as long as that fails, since
-/// the longest step is an estimate.
+/// Moves along the direction and factors; takes back a part of the step as long as that fails,
+/// since the longest step is an estimate.
 template <typename T>
 bool Ipm<T>::advance(Steps<T>& step) {
   point_.advance(direction_, step.primal, step.dual);

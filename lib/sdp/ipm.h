@@ -89,7 +89,7 @@ class Ipm {
   double best_error_ = 0;
   double progress_error_ = 0;  ///< of the last point that was progress
   /// Smallest certificate residual so far: its progress counts, but a problem with an optimum may
-  /// pass near one on its way.
+  /// pass near one before it reaches that.
   double best_certificate_ = 0;
   int since_best_ = 0;
   bool left_ = false;

@@ -342,7 +342,7 @@ void multiply_transposed(const View<const T>& a, const View<const T>& a_transpos
     const Index w = std::min(kPanel, n - k);
     multiply(a_transposed.part(k, k, w, n - k), a.part(k, 0, n - k, k + w), c.part(k, 0, w, k + w));
   }
-  // Rounding must not make a difference between the two: a wider arithmetic would see it.
+  // Rounding must not make a difference between the two: a wider arithmetic would detect it.
   for (Index j = 0; j < n; ++j)
     for (Index i = 0; i < j; ++i) c(i, j) = c(j, i);
 }

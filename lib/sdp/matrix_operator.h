@@ -10,7 +10,7 @@
 
 namespace gainsmith::sdp {
 
-/// A matrix of `size` rows that stands beside an unknown: E, or F'. One with at most one element a
+/// A matrix of `size` rows beside an unknown: E, or F'. One with at most one element a
 /// column costs no product.
 class Side {
  public:
@@ -41,8 +41,8 @@ class MatrixOperator {
  public:
   explicit MatrixOperator(const MatrixProgram& program);
 
-  /// Sides with few elements stand in E where V is symmetric, the largest element of one is 1, and
-  /// no two terms of one V in one block have the same E: so equal sides are seen to be equal.
+  /// Sides with few elements are in E where V is symmetric, the largest element of one is 1, and
+  /// no two terms of one V in one block have the same E: so equal sides compare as equal.
   struct Term {
     std::size_t unknown;
     Side E, F;  ///< F transposed
@@ -64,7 +64,7 @@ class MatrixOperator {
   const std::vector<Block>& blocks() const { return blocks_; }
   const std::vector<Row>& rows() const { return rows_; }
   Eigen::Index variables() const { return static_cast<Eigen::Index>(program_.c.size()); }
-  /// The scalars that stand in no matrix.
+  /// The scalars that are in no matrix.
   const std::vector<int>& scalars() const { return scalars_; }
 
   /// The constant parts C_k, a_r0.

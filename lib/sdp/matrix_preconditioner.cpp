@@ -39,7 +39,7 @@ void add_symmetric(const Dense& G, const Dense& K, Dense& D) {
   D += G.cwiseProduct(K).transpose();
 }
 
-/// 1 / D, of directions that M does not see 0.
+/// 1 / D; 0 in directions that M maps to 0.
 Dense reciprocal(const Dense& D) {
   const double least = D.maxCoeff() * 1e-30;
   return D.unaryExpr([least](double d) { return d > least ? 1 / d : 0; });

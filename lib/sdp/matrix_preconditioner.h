@@ -34,7 +34,7 @@ class Preconditioner {
     Matrix<double> left, right;  ///< V = left Z right'; right empty: left
     Matrix<double> weights;      ///< 1 / D
   };
-  /// Y or Y' beside P: both stand beside a common side somewhere.
+  /// Y or Y' beside P: both are beside a common side somewhere.
   struct Link {
     std::size_t P, Y;
     bool transposed;  ///< Y' P has the common side

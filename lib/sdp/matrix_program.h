@@ -46,7 +46,7 @@ struct MatrixProgram {
     std::vector<Product> products;
     std::vector<Element> elements;
   };
-  /// a_r0 and the elements of a_r that are not zero; any variable may stand here.
+  /// a_r0 and the elements of a_r that are not zero; any variable may be here.
   struct Row {
     double constant = 0;
     std::vector<std::pair<int, double>> coefficients;

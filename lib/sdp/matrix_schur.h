@@ -10,7 +10,7 @@ namespace gainsmith::sdp {
 /// M_ij = <F_i, W F_j W>, L(x) = sum x_i F_i, formed without the F_i: between e_a e_b' in V of
 /// He(E V F) and e_c e_d' in U of He(G U H) it is
 ///   2 (E'W G)_ac (F W H')_bd + 2 (E'W H')_ad (F W G)_bc
-/// of each block that both stand in. An unknown that shares blocks with few others comes first:
+/// of each block that both are in. An unknown that shares blocks with few others comes first:
 /// where it has no row in the factor, the factor takes no products (kernels.h).
 class MatrixSchur {
  public:

@@ -51,7 +51,7 @@ class MatrixIpm {
   /// Steps with the factor: what these leave is rounding.
   static constexpr int kFactoredSteps = 20;
   static constexpr double kUseless = 0.03, kUselessToMinimum = 10;
-  /// Of the way to the boundary.
+  /// Of the distance to the boundary.
   static constexpr double kShortest = 0.9, kLongest = 0.99;
   /// Corrections of a direction beyond the first, with the factor.
   static constexpr int kCorrections = 2;

@@ -51,7 +51,7 @@ Newton<T>::Newton(const Data& data, unsigned threads)
 }
 
 // As the symmetric part of (right left) X^-1, which is the same: `left` is the factor with the
-// data's pattern. Wide arithmetic has the digits for the shorter way.
+// data's pattern. Wide arithmetic has the digits for the shorter computation.
 template <typename T>
 void Newton<T>::scaled_product(const Blocks<T>& left, const Blocks<T>& right, Blocks<T>& out) {
   for (int b = 0; b < data_.layout.blocks(); ++b) {

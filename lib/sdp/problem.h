@@ -20,7 +20,7 @@ struct Block {
 };
 
 /// One entry of a symmetric F_i: rows and columns count from 0 and row <= column; an off-diagonal
-/// entry stands for both of its mirror places (the value is that of one place, as in SDPA files).
+/// entry represents both of its mirror places (the value is that of one place, as in SDPA files).
 /// `rest` is what rounding to double took from the number as written (0 where nothing is known):
 /// ill posed problems have another answer without it. Arithmetics wider than double use value +
 /// rest, 100 digits also Problem::finer.
@@ -38,7 +38,7 @@ struct Entry {
 struct Problem {
   std::vector<Block> blocks;
   std::vector<double> c;              ///< m costs
-  std::vector<double> c_rest;         ///< as Entry::rest; empty stands for zeros
+  std::vector<double> c_rest;         ///< as Entry::rest; empty means zeros
   std::vector<std::vector<Entry>> f;  ///< f[0] = F_0, f[i] = F_i for i = 1..m
 
   std::vector<Finer> finer;  ///< what value + rest leave of entries

@@ -6,7 +6,7 @@
 
 namespace gainsmith::sdp {
 
-/// The defect of an iterate and the errors that stopping looks at.
+/// The defect of an iterate and the errors that stopping checks.
 template <typename T>
 class Residuals {
  public:
@@ -27,8 +27,8 @@ class Residuals {
   /// |x_i| ||F_i|| (to a factor of 2) and ||Y||.
   double primal_rounding = 0;
   double dual_rounding = 0;
-  /// By how much infeasibility may move the objectives, relative as the gap: with (x, Y) standing
-  /// for the solution, sum_i |x_i| |F_i.Y - c_i| + sum_b ||(sum x_i F_i - F_0 - X)_b|| ||Y_b|| over
+  /// By how much infeasibility may move the objectives, relative as the gap: with (x, Y) in place
+  /// of the solution, sum_i |x_i| |F_i.Y - c_i| + sum_b ||(sum x_i F_i - F_0 - X)_b|| ||Y_b|| over
   /// the blocks b of the working problem.
   double objective_error = 0;
 

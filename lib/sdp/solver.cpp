@@ -175,7 +175,7 @@ class Ladder {
 
   /// From a far point: `narrow` comes as near as kInSight, well before its digits run out, or to
   /// where it leaves, and `wide` goes on from there. False when `narrow` comes to nothing: what it
-  /// cannot find its way through, more digits rarely can.
+  /// cannot get through, more digits rarely can.
   template <typename Narrow, typename Wide>
   bool relay(Ipm<Narrow>& narrow, Leave leave, Ipm<Wide>& wide, double factor) {
     narrow.start_far(factor);

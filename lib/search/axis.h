@@ -10,8 +10,8 @@ struct Axis {
   double high = 1;
   bool logarithmic = false;  ///< needs low > 0
 
-  /// The value at a fraction of the way from low (0) to high (1), on the axis's scale. The ends are
-  /// exact.
+  /// The value at a fraction of the range, from low (0) to high (1), on the axis's scale. The ends
+  /// are exact.
   double at(double fraction) const;
   /// The inverse of at(): the fraction of a value, within [0, 1].
   double fraction(double value) const;

@@ -40,8 +40,8 @@ struct BisectOptions {
   /// Asked after the spread: a value that may be a yes where the spread has none. Left out when it
   /// is outside of the axis.
   std::optional<double> known;
-  /// Instead of the spread: the border is expected here. It is bracketed by growing steps from
-  /// there; a border further inward, or an answer that is not monotone, may stay unseen.
+  /// Instead of the spread: the boundary is expected here. It is bracketed by growing steps from
+  /// there; a boundary further inward, or an answer that is not monotone, may stay undetected.
   std::optional<double> guess;
   int evaluations = 200;  ///< at most, those of the spread included
 };
@@ -64,7 +64,7 @@ struct Bisection {
   };
   std::optional<Open> open;
   /// Values with no that lie on the inner side of `yes`: the answer is not monotone, and other
-  /// borders may lie between the values that were asked.
+  /// boundaries may lie between the values that were asked.
   std::vector<double> breaks;
   std::vector<Sample> samples;  ///< all that were asked, by value
   bool finished = false;        ///< not stopped, and within the number of evaluations

@@ -5,9 +5,10 @@
 
 namespace gainsmith::search {
 
-/// Nelder and Mead's simplex, which only compares values and so passes along the border of what is
-/// feasible; then, in two dimensions and more, Powell's BOBYQA from the best point, which follows a
-/// smooth valley to its end. Deterministic. Loads the library (InputError where it is not there).
+/// Nelder and Mead's simplex, which only compares values and so passes along the boundary of what
+/// is feasible; then, in two dimensions and more, Powell's BOBYQA from the best point, which
+/// follows a smooth valley to its end. Deterministic. Loads the library (InputError where it is
+/// not there).
 LocalSearch nlopt_search();
 
 /// Price's controlled random search (CRS2 with local mutation): points all over the box, then ever

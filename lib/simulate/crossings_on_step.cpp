@@ -51,9 +51,9 @@ bool seems_apart(hybrid::EventFunction& function, const StepValues& inside, doub
             .cwiseAbs());
   for (Index e = 0; e < function.size(); ++e) {
     const double swing = series.row(e).tail(few).cwiseAbs().sum();
-    const double border = std::max(2 * (near + hybrid::kTermRounding) * terms(e),
-                                   ode::kTurnsNear * std::abs(series(e, 0)));
-    if (!(std::abs(series(e, 0)) > swing + ode::kFar * error(e) + border)) return false;
+    const double noise = std::max(2 * (near + hybrid::kTermRounding) * terms(e),
+                                  ode::kTurnsNear * std::abs(series(e, 0)));
+    if (!(std::abs(series(e, 0)) > swing + ode::kFar * error(e) + noise)) return false;
   }
   return true;
 }

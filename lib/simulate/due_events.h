@@ -34,7 +34,7 @@ class DueEvents {
   void jumped(std::size_t event, const Eigen::VectorXd& before, const Eigen::VectorXd& values);
 
   hybrid::EventClocks& clocks() { return clocks_; }
-  /// To look ahead and to come back.
+  /// To search ahead and to come back.
   std::vector<Mark> marks() const { return marks_; }
   void set_marks(const std::vector<Mark>& marks) { marks_ = marks; }
 

@@ -20,7 +20,7 @@
 
 namespace gainsmith::statistics {
 
-/// Ranks l and u. 0 and count + 1 stand for minus and plus infinity: there are too few runs.
+/// Ranks l and u. 0 and count + 1 represent minus and plus infinity: there are too few runs.
 struct RankInterval {
   std::uint64_t lower = 0;
   std::uint64_t upper = 0;

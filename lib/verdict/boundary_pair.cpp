@@ -150,7 +150,7 @@ std::optional<Ranges> ranges_of(const Matrix& B, const Matrix& Y) {
   return result;
 }
 
-/// B_i as it stands in double, times a matrix.
+/// B_i as it is in double, times a matrix.
 void product_with(const ExactElements<Decimal100>& elements, const Matrix& by, Matrix& out) {
   out.setZero();
   for (const auto& e : elements) out.row(e.row) += as<double>(e.mid) * by.row(e.column);

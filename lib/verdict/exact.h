@@ -15,7 +15,7 @@
 namespace gainsmith::verdict {
 
 /// B_ki with bounds of their errors, in the units of a balance: i = 0 is the constant part, and
-/// unknowns that do not stand in it have no entry. Both triangles are there, element for element
+/// unknowns that do not occur in it have no entry. Both triangles are there, element for element
 /// the same.
 template <class S>
 struct ExactBlock {

@@ -73,7 +73,7 @@ bool is_exact_in_double(const std::vector<FactoredBlock<S>>& blocks,
     images.error[0] += error[0];
     r[0] = error[0] = 0;
   }
-  // The unknowns that stand in a block.
+  // The unknowns that occur in a block.
   Index used = 0;
   double norm = 0, moved = 0;
   for (Index i = constant ? 0 : 1; i < unknowns; ++i) {

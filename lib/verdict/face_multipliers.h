@@ -6,7 +6,7 @@
 // exact when r_i = sum_k <G_ki, S_k> = 0, and
 //   S + dS,  dS = -sum_j (H^-1 r)_j S G_j S,   H_ij = sum_k <G_ki, S_k G_kj S_k>
 // is so in fractions. It is one when it is still positive definite, which is tested exactly: what
-// was guessed on the way does not matter. v is like a strict block of its own where it is not 0.
+// was guessed meanwhile does not matter. v is like a strict block of its own where it is not 0.
 #pragma once
 
 #include <Eigen/Core>

@@ -38,8 +38,9 @@ class Faces {
   /// `names` of the blocks, for why().
   Faces(std::vector<RationalBlock> blocks, std::vector<std::string> names, int unknowns);
 
-  /// Steps whose multipliers stand in the blocks: of a pair of blocks B and -c B, c > 0, Y = (c I,
-  /// I); of a diagonal element that is 0 or a constant below it, Y = e e'. Until there are no more.
+  /// Steps whose multipliers are read off the blocks: of a pair of blocks B and -c B, c > 0, Y =
+  /// (c I, I); of a diagonal element that is 0 or a constant below it, Y = e e'. Until there are no
+  /// more.
   void find_plain();
 
   /// What the next step is, for why().

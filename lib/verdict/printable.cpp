@@ -34,7 +34,7 @@ Rational rounded(const Rational& x, int decimals) {
 
 /// The equations of the space between unknowns that move, one a row.
 struct Equations {
-  std::vector<Eigen::Index> unknowns;  ///< that stand in them, from 0
+  std::vector<Eigen::Index> unknowns;  ///< that occur in them, from 0
   RationalMatrix A;
   RationalMatrix b;
 };

@@ -19,7 +19,7 @@ namespace gainsmith::verdict {
 template <class S>
 numbers::EnclosedValues<S> enclosed_values(const model::Instance& instance);
 
-/// The number that printed(value) stands for.
+/// The value of the text printed(value).
 template <class S>
 numbers::Enclosed<S> enclosed_decimal(double value);
 

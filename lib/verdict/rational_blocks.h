@@ -23,7 +23,7 @@ struct RationalBlock {
   numbers::RationalMatrix value(const std::vector<Rational>& x) const;
 };
 
-/// One for each block, in order. Not exact is a block that stands for no point of its domain, and
+/// One for each block, in order. Not exact is a block that represents no point of its domain, and
 /// one whose text has a value that is no fraction (numbers/rational.h).
 std::vector<RationalBlock> rational_blocks(const lmi::Inequalities& of,
                                            const std::vector<lmi::Block>& blocks);
@@ -31,7 +31,7 @@ std::vector<RationalBlock> rational_blocks(const lmi::Inequalities& of,
 /// Data and parameters; those that have no fraction are left out.
 numbers::RationalValues rational_values(const model::Instance& instance);
 
-/// The number that printed(value) stands for.
+/// The value of the text printed(value).
 Rational printed_fraction(double value);
 
 }  // namespace gainsmith::verdict

@@ -293,7 +293,7 @@ bool follow(std::vector<FactoredMultiplier>& multipliers, int unknowns, const Wa
     auto lambda = distance.worst > kNarrow
                       ? step<DoubleDouble>(multipliers, residuals, distance.with_constant, damping)
                       : step<Decimal100>(multipliers, residuals, distance.with_constant, damping);
-    // To a double root the steps lead half of the way: then one goes the whole way.
+    // To a double root the steps cover half of the distance: then one covers all of it.
     doubled = !doubled && k > 0 && way.is_towards_double_root(distance.worst / last);
     if (doubled)
       for (Decimal100& value : lambda) value *= 2;

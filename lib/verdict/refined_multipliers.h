@@ -15,9 +15,9 @@
 // with mu = |r|^1.5 leads to them whether or not they determine the factors (Levenberg & Marquardt;
 // Fan & Yuan 2005).
 //
-// To a double root every step leads half of the way; every second one is twice as long (Decker,
-// Keller & Kelley 1983). Multipliers of full rank have one where every certificate is 0 in some
-// direction w of a block: the equation w' Y w = 0 is |L' w|^2 = 0.
+// To a double root every step covers half of the distance; every second one is twice as long
+// (Decker, Keller & Kelley 1983). Multipliers of full rank have one where every certificate is 0 in
+// some direction w of a block: the equation w' Y w = 0 is |L' w|^2 = 0.
 #pragma once
 
 #include <vector>

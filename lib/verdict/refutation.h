@@ -30,12 +30,12 @@ struct Refutation {
   int digits = 0;      ///< of the arithmetic that found it
 };
 
-/// In which arithmetic an exact certificate is looked for beside the multipliers.
+/// In which arithmetic an exact certificate is searched for beside the multipliers.
 enum class Exactness { in_double, in_wide };
 
 /// What Y says over S, or those of its Y_k that are not small: those of blocks that a certificate
 /// does not need are only nearly 0, and any Y >= 0 may be tried. Nothing (an error of 1) when a
-/// block stands for no point of its domain, when the Y_k are not positive semidefinite, or when
+/// block represents no point of its domain, when the Y_k are not positive semidefinite, or when
 /// only blocks with >= have multipliers and v is 0.
 template <class S>
 Refutation refute(const lmi::Inequalities& of, const lmi::Lmi& lmi,

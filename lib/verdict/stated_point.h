@@ -11,8 +11,8 @@ namespace gainsmith::verdict {
 
 enum class End { low, high };
 
-/// The text that the block's value of its v-th variable stands for; none at a point between. An end
-/// of an interval stands for that of the file, and so does what rounding put outside of it:
+/// The text that the block's value of its v-th variable represents; none at a point between. An end
+/// of an interval represents that of the file, and so does what rounding put outside of it:
 /// `reaches(end's text, end)` says whether the value, as it is, may be there or beyond.
 const expr::Program* stated_at(const lmi::Statement& statement, std::size_t v,
                                const lmi::Block& block,

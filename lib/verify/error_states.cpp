@@ -38,7 +38,7 @@ bool is_simple(const Dynamics& dynamics, std::size_t variable, bool may_be_lost)
                      });
 }
 
-/// Whether a state flows and jumps in such a way that a difference with it can.
+/// Whether a state flows and jumps such that a difference with it can.
 bool is_plain(const Dynamics& dynamics, std::size_t variable, bool may_be_lost) {
   const Dynamics::Variable& one = dynamics.variables[variable];
   return one.kind == Dynamics::VariableKind::state &&

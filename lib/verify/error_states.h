@@ -2,7 +2,7 @@
 //
 //   d = a - b in place of b,   d' = f_a - f_b,   d+ = a+ - b+,   b = a - d elsewhere
 //
-// for states a, b whose difference stands in a claim. It is done where d moves by itself: where a
+// for states a, b whose difference occurs in a claim. It is done where d moves by itself: where a
 // drops out of d' and of all d+ (linear/differences.h). Then rounding of a, which may grow, is no
 // error of d.
 #pragma once

@@ -125,7 +125,7 @@ class EventTable {
   }
 
  private:
-  static constexpr Index kFirstSource = 2;  ///< columns: t and j stand before it
+  static constexpr Index kFirstSource = 2;  ///< columns: t and j come before it
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
   ClaimScope scope(const claims::Claim& claim) const {

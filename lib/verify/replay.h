@@ -42,7 +42,7 @@ struct Replay {
   std::vector<Column> columns;
   numbers::Matrix table;  ///< not a number where there is none
   /// Of each cell how far it moves when all variables move by up to kShownPlaces (tolerances.h),
-  /// one way or the other, whichever is less: a value that is not larger is made of rounding. 0 of
+  /// in either direction, whichever is less: a value that is not larger is made of rounding. 0 of
   /// variables. Empty unless it was asked for.
   numbers::Matrix rounding;
   std::vector<std::string> events;    ///< of each row: the jump that it comes after, or empty

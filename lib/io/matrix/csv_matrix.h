@@ -10,7 +10,7 @@ namespace gainsmith::io {
 
 /// The matrix with the decimals of the text. InputError with the line and column in the file for a
 /// cell that is no finite number, for rows of different lengths, an empty file, and too many
-/// elements. `path` stands in messages.
+/// elements. `path` is used in messages.
 FileMatrix csv_matrix(const std::string& text, const std::string& path);
 
 }  // namespace gainsmith::io

@@ -80,7 +80,7 @@ class NpyReader {
     return layout;
   }
 
-  /// What stands behind a key of the header, which is a mapping as Python writes it.
+  /// What follows a key of the header, which is a mapping as Python writes it.
   std::string value_of(const std::string& text, const std::string& key) const {
     const std::size_t at = text.find("'" + key + "':");
     if (at == std::string::npos) refuse("the header has no '" + key + "'");
