@@ -42,7 +42,10 @@ double length(const hybrid::FlowPiece& flow) { return flow.to() - flow.from(); }
 }  // namespace
 
 EventDoubts::EventDoubts(const hybrid::System& system)
-    : system_(&system), watch_(system), maps_(system), are_independent_(system.dynamics) {}
+    : system_(&system), watch_(system), maps_(system), are_independent_(system.dynamics) {
+  for (std::size_t e = 0; e < system.dynamics.events.size(); ++e)
+    has_clocks_ = has_clocks_ || system.has_clock(e);
+}
 
 VectorXd EventDoubts::whole(const VectorXd& variables) const {
   VectorXd result = VectorXd::Zero(system_->whole);
@@ -75,29 +78,55 @@ std::optional<std::string> EventDoubts::of_turn(const NearTurn& turn, const Twin
                      brief(turn.t, 12), turn.text, brief(turn.value, 3), brief(error, 2));
 }
 
-/// None at the start, which no flow leads to.
-std::optional<EventDoubts::Instant> EventDoubts::instant(const TwinParts& twins, std::size_t jump,
-                                                         std::vector<bool>& happened) const {
-  const auto& own = std::get<TwinJump>(twins.parts[jump]);
-  for (std::size_t k = jump; k-- > 0;) {
-    const auto* flow = std::get_if<TwinFlow>(&twins.parts[k]);
-    if (flow == nullptr) {
-      happened[std::get<TwinJump>(twins.parts[k]).jump->event] = true;
-      continue;
-    }
-    if (length(*flow->flow) <= kInstantOfRun * own.jump->t) continue;
-    const hybrid::DenseStep& step = flow->flow->steps.back();
-    Instant at;
-    at.now = whole(own.jump->before);
-    at.twin = whole(own.twin_before);
-    at.since = (step.to - step.from) * kBeforeEnd;
-    at.before = whole(step(step.to - at.since));
-    at.t = own.jump->t;
-    at.event = own.jump->event;
-    at.lost = own.jump->lost;
-    return at;
+bool EventDoubts::is_long(std::size_t part) const {
+  const auto* flow = std::get_if<TwinFlow>(&twins_->parts[part]);
+  return flow != nullptr && length(*flow->flow) > kInstantOfRun * flow->flow->to();
+}
+
+void EventDoubts::begin(const TwinParts& twins) {
+  twins_ = &twins;
+  walk_to(0);
+  if (!has_clocks_) return;
+  const std::size_t count = twins.parts.size();
+  next_clock_.assign(count + 1, count);
+  for (std::size_t k = count; k-- > 0;) {
+    const auto* jump = std::get_if<TwinJump>(&twins.parts[k]);
+    const bool is_clock = jump != nullptr && system_->has_clock(jump->jump->event);
+    next_clock_[k] = is_clock ? k : is_long(k) ? count : next_clock_[k + 1];
   }
-  return std::nullopt;
+}
+
+void EventDoubts::walk_to(std::size_t jump) {
+  if (jump < next_ || jump == 0) {
+    next_ = 0;
+    flow_ = nullptr;
+    happened_.assign(system_->dynamics.events.size(), false);
+  }
+  for (; next_ < jump; ++next_) {
+    if (const auto* own = std::get_if<TwinJump>(&twins_->parts[next_])) {
+      happened_[own->jump->event] = true;
+    } else if (is_long(next_)) {
+      flow_ = std::get<TwinFlow>(twins_->parts[next_]).flow;
+      std::fill(happened_.begin(), happened_.end(), false);
+    }
+  }
+}
+
+/// None at the start, which no flow leads to.
+std::optional<EventDoubts::Instant> EventDoubts::instant(std::size_t jump) {
+  walk_to(jump);
+  if (flow_ == nullptr) return std::nullopt;
+  const auto& own = std::get<TwinJump>(twins_->parts[jump]);
+  const hybrid::DenseStep& step = flow_->steps.back();
+  Instant at;
+  at.now = whole(own.jump->before);
+  at.twin = whole(own.twin_before);
+  at.since = (step.to - step.from) * kBeforeEnd;
+  at.before = whole(step(step.to - at.since));
+  at.t = own.jump->t;
+  at.event = own.jump->event;
+  at.lost = own.jump->lost;
+  return at;
 }
 
 /// Those that a flow changes, of a condition all its elements.
@@ -202,18 +231,12 @@ std::string EventDoubts::message(const Instant& at, std::size_t other, double di
 }
 
 /// Clocks that strike so soon after an event that they may do so before it.
-std::optional<std::string> EventDoubts::clocks_after(const TwinParts& twins, std::size_t jump,
-                                                     const Instant& at) {
-  const auto& own = std::get<TwinJump>(twins.parts[jump]);
-  if (system_->has_clock(at.event)) return std::nullopt;
-  for (std::size_t k = jump + 1; k < twins.parts.size(); ++k) {
-    if (const auto* flow = std::get_if<TwinFlow>(&twins.parts[k])) {
-      if (length(*flow->flow) > kInstantOfRun * at.t) break;
-      continue;
-    }
-    const auto& next = std::get<TwinJump>(twins.parts[k]);
+std::optional<std::string> EventDoubts::clocks_after(std::size_t jump, const Instant& at) {
+  if (!has_clocks_ || system_->has_clock(at.event)) return std::nullopt;
+  const auto& own = std::get<TwinJump>(twins_->parts[jump]);
+  for (std::size_t k = next_clock_[jump + 1]; k < twins_->parts.size(); k = next_clock_[k + 1]) {
+    const auto& next = std::get<TwinJump>(twins_->parts[k]);
     const std::size_t other = next.jump->event;
-    if (!system_->has_clock(other)) continue;
     const double gap = next.jump->t - at.t;
     const double error =
         kErrorOfDifference * std::abs(gap - (next.twin_t - own.twin_t)) + at.time_error;
@@ -222,16 +245,18 @@ std::optional<std::string> EventDoubts::clocks_after(const TwinParts& twins, std
   return std::nullopt;
 }
 
-std::optional<std::string> EventDoubts::of_jump(const TwinParts& twins, std::size_t jump) {
+std::optional<std::string> EventDoubts::of_jump(std::size_t jump) {
   const auto& events = system_->dynamics.events;
-  std::vector<bool> happened(events.size(), false);
-  auto at = instant(twins, jump, happened);
-  if (!at || events.size() < 2) return std::nullopt;
-  happened[at->event] = true;
+  if (events.size() < 2) return std::nullopt;
+  auto at = instant(jump);
+  if (!at) return std::nullopt;
+  const auto has_happened = [&](std::size_t event) {
+    return event == at->event || happened_[event];
+  };
   if (!system_->has_clock(at->event)) at->own = guards(at->event, *at);
   set_time_error(*at);
   for (std::size_t other = 0; other < events.size(); ++other) {
-    if (happened[other] || system_->has_clock(other)) continue;
+    if (has_happened(other) || system_->has_clock(other)) continue;
     const std::vector<Guard> theirs = guards(other, *at);
     if (!may_happen(other, *at, theirs) || commute(other, theirs, *at)) continue;
     const auto nearest = std::min_element(
@@ -239,7 +264,7 @@ std::optional<std::string> EventDoubts::of_jump(const TwinParts& twins, std::siz
         [](const Guard& a, const Guard& b) { return std::abs(a.value) < std::abs(b.value); });
     return message(*at, other, nearest->value, nearest->error);
   }
-  return clocks_after(twins, jump, *at);
+  return clocks_after(jump, *at);
 }
 
 }  // namespace gainsmith::claims

@@ -28,8 +28,10 @@ class EventDoubts {
 
   /// Why a turning point is uncertain, in the flow in which it lies; none: it is certain.
   std::optional<std::string> of_turn(const hybrid::NearTurn& turn, const TwinFlow& flow);
+  /// The parts whose jumps of_jump is asked about, best in their order. They must outlive it.
+  void begin(const TwinParts& twins);
   /// Why the order of a jump and another event is uncertain.
-  std::optional<std::string> of_jump(const TwinParts& twins, std::size_t jump);
+  std::optional<std::string> of_jump(std::size_t jump);
 
   simulate::JumpMaps& maps() { return maps_; }
 
@@ -51,13 +53,14 @@ class EventDoubts {
     std::vector<Guard> own;  ///< of that event
   };
 
-  std::optional<Instant> instant(const TwinParts& twins, std::size_t jump,
-                                 std::vector<bool>& happened) const;
+  /// Whether a part is a flow that is longer than an instant.
+  bool is_long(std::size_t part) const;
+  void walk_to(std::size_t jump);
+  std::optional<Instant> instant(std::size_t jump);
   std::vector<Guard> guards(std::size_t event, const Instant& at);
   void set_time_error(Instant& at);
   bool may_happen(std::size_t event, const Instant& at, const std::vector<Guard>& guards);
-  std::optional<std::string> clocks_after(const TwinParts& twins, std::size_t jump,
-                                          const Instant& at);
+  std::optional<std::string> clocks_after(std::size_t jump, const Instant& at);
   bool fires(std::size_t event, const std::vector<Guard>& guards, const Instant& at,
              const Eigen::VectorXd& values);
   bool commute(std::size_t other, const std::vector<Guard>& guards, const Instant& at);
@@ -68,6 +71,12 @@ class EventDoubts {
   simulate::EventWatch watch_;
   simulate::JumpMaps maps_;
   Independence are_independent_;
+  bool has_clocks_ = false;
+  const TwinParts* twins_ = nullptr;
+  std::vector<std::size_t> next_clock_;      ///< by part: the next jump of a clock in its instant
+  std::size_t next_ = 0;                     ///< up to this part:
+  const hybrid::FlowPiece* flow_ = nullptr;  ///< the last flow that is longer than an instant
+  std::vector<bool> happened_;               ///< by event: whether it has since then
 };
 
 }  // namespace gainsmith::claims

@@ -66,10 +66,30 @@ void RunTracks::come_to(std::size_t event) {
       if (setup_->first_of_claim[k] == claim.value) rests_[k] = *claim.over != event ? 1 : 0;
 }
 
-VectorXd RunTracks::values(const SamplePoint& point, const VectorXd& x) {
+/// Which functions are to be evaluated: not those whose variables are in both runs, bit by bit, what
+/// they were at their last sample, as at the jump of another observer.
+void RunTracks::find_fresh(const SamplePoint& point, const VectorXd& coarse, const VectorXd& fine,
+                           const VectorXd& around) {
+  for (std::size_t k = 0; k < functions_.size(); ++k) {
+    fresh_[k] = false;
+    if (!counts(point, k)) continue;
+    std::vector<double>& at = sampled_[k].at;
+    const std::vector<Index>& used = functions_[k].used();
+    fresh_[k] = !sampled_[k].is_known;
+    at.resize(3 * used.size());
+    auto kept = at.begin();
+    for (const VectorXd* values : {&coarse, &fine, &around})
+      for (const Index e : used) {
+        fresh_[k] = fresh_[k] || *kept != (*values)(e);
+        *kept++ = (*values)(e);
+      }
+  }
+}
+
+VectorXd RunTracks::values(const VectorXd& x) {
   VectorXd result = VectorXd::Zero(static_cast<Index>(functions_.size()));
   for (std::size_t k = 0; k < functions_.size(); ++k)
-    if (counts(point, k)) result(static_cast<Index>(k)) = functions_[k].number(x);
+    if (fresh_[k]) result(static_cast<Index>(k)) = functions_[k].number(x);
   return result;
 }
 
@@ -98,21 +118,31 @@ VectorXd RunTracks::errors(const VectorXd& fine, const VectorXd& around) const {
 void RunTracks::append(const SamplePoint& point, std::int64_t j, const VectorXd& coarse,
                        const VectorXd& fine, const VectorXd& around, int pattern, int stride,
                        bool within_instant) {
-  VectorXd value = values(point, fine);
+  find_fresh(point, coarse, fine, around);
+  VectorXd value = values(fine);
   VectorXd rounded = VectorXd::Zero(value.size());
   for (int bit = pattern; bit == 0 || (fine.size() - 1) >> bit > 0; bit += stride)
-    rounded = rounded.cwiseMax((values(point, with_rounding(fine, bit)) - value).cwiseAbs());
-  VectorXd difference = (values(point, coarse) - value).cwiseAbs().cwiseMax(rounded);
+    rounded = rounded.cwiseMax((values(with_rounding(fine, bit)) - value).cwiseAbs());
+  VectorXd difference = (values(coarse) - value).cwiseAbs().cwiseMax(rounded);
   rounded /= (4 + rounded_) * kUnitRoundoff;
   const VectorXd error = errors(fine, around);
   constexpr double kUnknown = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < functions_.size(); ++k) {
     const auto row = static_cast<Index>(k);
     const bool is_followed = point.t <= functions_[k].followed_until;
+    Sampled& last = sampled_[k];
     if (!counts(point, k) || !is_followed) {
+      last.is_known = last.is_known && is_followed;
       track_.is_fixed.push_back(0);
       rounding_.push_back(is_followed ? 0 : kUnknown);
       difference(row) = 0;
+      continue;
+    }
+    if (!fresh_[k]) {
+      value(row) = last.value;
+      difference(row) = last.difference;
+      track_.is_fixed.push_back(last.is_fixed);
+      rounding_.push_back(last.rounding);
       continue;
     }
     const bool is_open = !functions_[k].is_smooth() && balls_[k].is_open(fine, error);
@@ -121,8 +151,14 @@ void RunTracks::append(const SamplePoint& point, std::int64_t j, const VectorXd&
       rounding_.push_back(balls_[k].rounding(fine));
       const double size = std::fmax(rounded(row), rounding_.back() / kUnitRoundoff);
       if (parts(k, value(row), difference(row), size)) difference(row) = kUnknown;
+      last.is_known = true;
+      last.value = value(row);
+      last.difference = difference(row);
+      last.rounding = rounding_.back();
+      last.is_fixed = track_.is_fixed.back();
       continue;
     }
+    last.is_known = false;
     const Bounded hull = balls_[k].hull(fine, error);
     double bound = hull.bound;
     // The start is as it is drawn: an error of 0 is 0 there.
@@ -195,7 +231,7 @@ void RunTracks::add_flow(const TwinFlow& flow, const hybrid::Trajectory& run) {
 
 void RunTracks::add_jump(const TwinParts& twins, std::size_t at) {
   const auto& [jump, before, after, t] = std::get<TwinJump>(twins.parts[at]);
-  if (auto doubt = doubts_.of_jump(twins, at)) {
+  if (auto doubt = doubts_.of_jump(at)) {
     doubt_ = *doubt;
     return;
   }
@@ -222,6 +258,7 @@ RiseLimits RunTracks::limits_of_rises(const VectorXd& start, double accuracy) {
 bool RunTracks::add_parts(const hybrid::Trajectory& coarse, const hybrid::Trajectory& fine) {
   append({0, 0}, 0, coarse.start, fine.start, (coarse.start - fine.start).cwiseAbs(), 0, 1);
   const TwinParts twins = pair_twins(fine, coarse, setup_->system, doubts_.maps());
+  doubts_.begin(twins);
   widen(0);
   std::size_t first = 1;
   std::size_t last = twins.parts.size();  // flow
@@ -319,6 +356,8 @@ const Track& RunTracks::run(std::uint64_t seed, std::uint64_t run, double factor
   sizes_.assign(functions_.size(), 0);
   parted_.assign(functions_.size(), 0);
   rests_.assign(functions_.size(), 0);
+  sampled_.assign(functions_.size(), {});
+  fresh_.assign(functions_.size(), false);
   for (RunValue& function : functions_)
     function.followed_until = std::numeric_limits<double>::infinity();
   next_turn_ = 0;

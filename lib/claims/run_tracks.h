@@ -59,7 +59,9 @@ class RunTracks {
   void widen(std::size_t first);
   bool counts(const SamplePoint& point, std::size_t function) const;
   void come_to(std::size_t event);
-  Eigen::VectorXd values(const SamplePoint& point, const Eigen::VectorXd& x);
+  void find_fresh(const SamplePoint& point, const Eigen::VectorXd& coarse,
+                  const Eigen::VectorXd& fine, const Eigen::VectorXd& around);
+  Eigen::VectorXd values(const Eigen::VectorXd& x);
   Eigen::VectorXd with_rounding(const Eigen::VectorXd& x, int bit) const;
   Eigen::VectorXd errors(const Eigen::VectorXd& fine, const Eigen::VectorXd& around) const;
 
@@ -81,12 +83,21 @@ class RunTracks {
     bool seen = false;
   };
   std::vector<Range> ranges_;  ///< by function
-  std::vector<double> sizes_;  ///< by claim, at its first function: of values and their terms
-  std::vector<char> parted_;   ///< the same: whether the two runs have
-  bool ended_early_ = false;   ///< the last run, both times alike, before its horizon
-  std::size_t next_turn_ = 0;  ///< of the turning points of the twin
-  std::string doubt_;          ///< why the run is lost
-  double rounded_ = 0;         ///< steps and jumps so far
+  /// A function at its last sample, unless it may have branched there.
+  struct Sampled {
+    std::vector<double> at;  ///< its variables in both runs, and by how much they differ around
+    bool is_known = false;
+    double value = 0, difference = 0, rounding = 0;
+    char is_fixed = 0;
+  };
+  std::vector<Sampled> sampled_;  ///< by function
+  std::vector<bool> fresh_;       ///< by function: whether the next sample differs
+  std::vector<double> sizes_;     ///< by claim, at its first function: of values and their terms
+  std::vector<char> parted_;      ///< the same: whether the two runs have
+  bool ended_early_ = false;      ///< the last run, both times alike, before its horizon
+  std::size_t next_turn_ = 0;     ///< of the turning points of the twin
+  std::string doubt_;             ///< why the run is lost
+  double rounded_ = 0;            ///< steps and jumps so far
 };
 
 }  // namespace gainsmith::claims

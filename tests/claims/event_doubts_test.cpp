@@ -30,9 +30,10 @@ struct Runs {
 
   /// The first doubt about the order of events.
   std::optional<std::string> doubt() {
+    doubts.begin(twins);
     for (std::size_t k = 0; k < twins.parts.size(); ++k)
       if (std::holds_alternative<TwinJump>(twins.parts[k]))
-        if (auto found = doubts.of_jump(twins, k)) return found;
+        if (auto found = doubts.of_jump(k)) return found;
     return std::nullopt;
   }
 
