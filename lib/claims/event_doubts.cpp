@@ -72,7 +72,7 @@ std::optional<std::string> EventDoubts::of_turn(const NearTurn& turn, const Twin
     difference = std::fmax(difference, std::abs(element(guard, own, turn.element) -
                                                 element(guard, at(*flow.twin), turn.element)));
   }
-  const double error = kErrorOfDifference * difference + noise_of(guard, here, turn.element);
+  const double error = error_factor(*system_) * difference + noise_of(guard, here, turn.element);
   if (!(std::abs(turn.value) <= error)) return std::nullopt;
   return fmt::format("t = {}: '{}' turns at {} from being reached, and that is known to {}",
                      brief(turn.t, 12), turn.text, brief(turn.value, 3), brief(error, 2));
@@ -138,7 +138,7 @@ std::vector<EventDoubts::Guard> EventDoubts::guards(std::size_t event, const Ins
       const double value = element(guard, at.now, e);
       const double difference = std::abs(value - element(guard, at.twin, e));
       result.push_back({&guard, comparison, value, element(guard, at.before, e),
-                        kErrorOfDifference * difference + noise_of(guard, at.now, e)});
+                        error_factor(*system_) * difference + noise_of(guard, at.now, e)});
     }
   };
   if (watch_.crossing[event]) add(*watch_.crossing[event], 0);
@@ -239,7 +239,7 @@ std::optional<std::string> EventDoubts::clocks_after(std::size_t jump, const Ins
     const std::size_t other = next.jump->event;
     const double gap = next.jump->t - at.t;
     const double error =
-        kErrorOfDifference * std::abs(gap - (next.twin_t - own.twin_t)) + at.time_error;
+        error_factor(*system_) * std::abs(gap - (next.twin_t - own.twin_t)) + at.time_error;
     if (gap <= error && !commute(other, {}, at)) return message(at, other, gap, error);
   }
   return std::nullopt;

@@ -107,7 +107,7 @@ VectorXd RunTracks::with_rounding(const VectorXd& x, int bit) const {
 
 /// What the variables may be off by, where the two runs differ by so much at samples around.
 VectorXd RunTracks::errors(const VectorXd& fine, const VectorXd& around) const {
-  VectorXd result = kErrorOfDifference * around;
+  VectorXd result = error_factor(setup_->system) * around;
   for (Index e = 0; e < fine.size(); ++e)
     if (rounds_[static_cast<std::size_t>(e)])
       result(e) += (4 + rounded_) * kUnitRoundoff * std::abs(fine(e));
@@ -285,6 +285,7 @@ void RunTracks::widen(std::size_t first) {
   Eigen::Map<numbers::Matrix> bounds(track_.bounds.data() + skipped, size, count);
   const Eigen::Map<const numbers::Matrix> rounding(rounding_.data() + skipped, size, count);
   const numbers::Matrix own = bounds;
+  const double factor = error_factor(setup_->system);
   std::vector<Index> seen;  // the samples that count for a function
   for (Index f = 0; f < size; ++f) {
     seen.clear();
@@ -300,8 +301,7 @@ void RunTracks::widen(std::size_t first) {
         around = std::fmax(around, own(f, seen[static_cast<std::size_t>(other)]));
       const double value =
           track_.at(first + static_cast<std::size_t>(k), static_cast<int>(f)).value;
-      bounds(f, k) =
-          kErrorOfDifference * around + 8 * kUnitRoundoff * std::abs(value) + rounding(f, k);
+      bounds(f, k) = factor * around + 8 * kUnitRoundoff * std::abs(value) + rounding(f, k);
     }
   }
 }

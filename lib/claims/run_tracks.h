@@ -19,11 +19,12 @@ namespace gainsmith::claims {
 ///   samples   the sample points along each flow (claims/sample_points.h), and the values after
 ///             each jump; at a point for the sake of one claim only its values, 0 for the others; so
 ///             too after a jump over which a claim is not made
-///   bound     four times the largest difference between the two runs at five samples around it, or
-///             what a rounding for each step and jump so far makes of the value, up for some
-///             elements and down for the others, + 8 u |value| and what its evaluation rounds
-///             (text_ball.h): an estimate that leaves a margin, and no proof. Where such an error
-///             of the variables makes a branch uncertain, all values that are possible
+///   bound     four times the largest difference between the two runs at five samples around it, 64
+///             times where flows are exact (twin_parts.h), or what a rounding for each step and
+///             jump so far makes of the value, up for some elements and down for the others,
+///             + 8 u |value| and what its evaluation rounds (text_ball.h): an estimate that leaves
+///             a margin, and no proof. Where such an error of the variables makes a branch
+///             uncertain, all values that are possible
 ///
 /// Once the two runs differ by more than a thousandth of the range of a value so far, they are two
 /// runs that have nothing to do with each other: from there on bounds of the claim are infinite. So

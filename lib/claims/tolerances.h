@@ -25,6 +25,8 @@ constexpr int kPartsOfFlow = 32;  ///< parts | claims are compared at the ends o
         ///< parts of an integrated flow | FasterThanTheSteps/NarrowClaims.AreJudgedAsTheyAre
 constexpr double kErrorOfDifference = 4;  ///< factor | the error of the sharper of two runs, of
         ///< their difference | Campaign.IntegratedFlowsAreNoCauseOfWrongVerdicts
+constexpr double kErrorOfRounding = 64;  ///< factor | the same, where flows are exact: what rounding
+        ///< makes of two runs may nearly cancel | ClaimsAlongRuns.WhatRoundingMakesMayNearlyCancel
 constexpr double kFloorOfAccuracy = 1e-4;  ///< of the accuracy | nothing below so much of the value
         ///< at the start is compared where flows are integrated |
         ///< Noise.ACertainRiseCountsDownToAPartOfTheAccuracy

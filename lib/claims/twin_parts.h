@@ -19,6 +19,11 @@
 
 namespace gainsmith::claims {
 
+/// Times the difference of two runs: the error of the sharper one.
+inline double error_factor(const hybrid::System& system) {
+  return system.affine ? kErrorOfRounding : kErrorOfDifference;
+}
+
 struct TwinFlow {
   const hybrid::FlowPiece* flow = nullptr;
   const hybrid::FlowPiece* twin = nullptr;  ///< none within an instant: it stays as it is

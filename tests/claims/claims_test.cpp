@@ -194,6 +194,20 @@ TEST(ClaimsAlongRuns, TwoRunsThatHavePartedSayNothingMore) {
   EXPECT_EQ(verdict("below: rate(x^2) + x^2, bound: 0", "40"), CampaignVerdict::held);
 }
 
+/// On the stable direction of a map: x(1) = 0.6^30 while rounding doubles at each tick. In the twin
+/// its largest terms nearly cancel. The bound is the true value and a thousandth of it.
+TEST(ClaimsAlongRuns, WhatRoundingMakesMayNearlyCancel) {
+  const std::string method = R"(  events: {tick: {every: 1}, end: {at: [30.5]}}
+  plant:
+    state: {x: {shape: 2, start: "[1; 7/10]"}}
+    at: {tick: {x: "[29/32, -7/16; -49/64, 271/160]*x"}}
+)";
+  const Report report =
+      report_of(instance_of(method, "{c: {below: x(1), bound: 2.2129499364045409e-7, over: end}}",
+                            "{runs: 1, horizon: 30.7}"));
+  EXPECT_EQ(report.verdict, CampaignVerdict::undecided);
+}
+
 TEST(ClaimsAlongRuns, AViolationIsFoundWhereItIs) {
   const Report report = report_of(
       instance_of(kMethod, "{c: {below: x, bound: 0.3, after: 1}}", "{runs: 1, horizon: 4.5}"));
