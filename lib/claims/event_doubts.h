@@ -4,7 +4,7 @@
 //   order   an event whose guard lies within its error when another one happens, so that it may
 //           come before or after, and whose maps do not commute on that state
 //
-// The error of a guard has three parts: four times the difference of the two runs, what its terms
+// The error of a guard has three parts: that of the difference of the two runs, what its terms
 // round, and its rate times the error of the time of the other event. Clocks strike when they do:
 // two of them are in the order of the file, as are guards that are 0 together bit by bit.
 #pragma once
