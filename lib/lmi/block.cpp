@@ -101,7 +101,7 @@ std::vector<std::pair<int, Sparse>> merged(std::vector<std::pair<int, Sparse>>& 
 }
 
 /// Whether a scalar of the matrices in products also occurs in a term.
-bool stands_elsewhere(const AffineForm& form) {
+bool is_elsewhere(const AffineForm& form) {
   return std::any_of(form.products.begin(), form.products.end(), [&](const Product& product) {
     const int first = product.unknown.first;
     const auto found = form.terms.lower_bound({0, first});
@@ -113,7 +113,7 @@ bool stands_elsewhere(const AffineForm& form) {
 
 Block block_of(const AffineForm& form, std::string name, std::string point, bool strict,
                const Place& place) {
-  if (stands_elsewhere(form)) {
+  if (is_elsewhere(form)) {
     Block block = block_of(expanded(form), std::move(name), std::move(point), strict, place);
     block.products.reset();
     return block;

@@ -24,7 +24,7 @@ Gatherer::Gatherer(int rows, int columns)
     : rows_(rows),
       columns_(columns),
       values_(size(rows) * size(columns), 0.0),
-      stands_(values_.size(), 0),
+      filled_(values_.size(), 0),
       touched_(values_.size()),
       counts_(size(columns), 0) {}
 
@@ -39,7 +39,7 @@ void Gatherer::drain(Visit visit) {
     for (int k = 0; k < count; ++k) {
       const std::size_t at = first + size(rows[k]);
       if (values_[at] != 0) visit(rows[k], c, values_[at]);
-      stands_[at] = 0;
+      filled_[at] = 0;
     }
     count = 0;
   }

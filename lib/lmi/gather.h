@@ -15,11 +15,11 @@ class Gatherer {
   void add(int row, int column, double value) {
     const auto at = static_cast<std::size_t>(column) * static_cast<std::size_t>(rows_) +
                     static_cast<std::size_t>(row);
-    if (stands_[at] != 0) {
+    if (filled_[at] != 0) {
       values_[at] += value;
       return;
     }
-    stands_[at] = 1;
+    filled_[at] = 1;
     values_[at] = value;
     int& count = counts_[static_cast<std::size_t>(column)];
     touched_[static_cast<std::size_t>(column) * static_cast<std::size_t>(rows_) +
@@ -48,7 +48,7 @@ class Gatherer {
   int columns_;
   int elements_ = 0;
   std::vector<double> values_;
-  std::vector<char> stands_;
+  std::vector<char> filled_;
   std::vector<int> touched_;  ///< the rows that were added to, in each column
   std::vector<int> counts_;   ///< of these, for each column
 };

@@ -48,7 +48,7 @@ class Maker {
     program_.c.assign(static_cast<std::size_t>(interior ? margin_ + 1 : own_), 0.0);
     trace_.assign(program_.c.size(), 0.0);
     find_unknowns();
-    if (stands_by_scalars()) return std::nullopt;
+    if (is_in_scalars()) return std::nullopt;
     for (std::size_t k = 0; k < blocks_.size(); ++k) add_block(k);
     if (interior) {
       if (homogenised) program_.rows.push_back({0, {{constant_, 1}, {margin_, -round_.constant}}});
@@ -88,7 +88,7 @@ class Maker {
   }
 
   /// Whether a matrix occurs in a block by its scalars, as in trace(P) < 1.
-  bool stands_by_scalars() const {
+  bool is_in_scalars() const {
     return std::any_of(blocks_.begin(), blocks_.end(), [&](const Block* block) {
       std::vector<bool> in_products(of_matrix_.size(), false);
       for (const HermitianProduct& product : *block->products)

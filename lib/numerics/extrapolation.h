@@ -74,7 +74,7 @@ class Extrapolation {
         continue;
       }
       step = shorter(q, step, columns);
-      if (!(step > (watch_.at ? kShortestAtBorder : kShortest)))
+      if (!(step > (watch_.at ? kShortestAtZero : kShortest)))
         stop(q, y.cwiseAbs().maxCoeff() > beyond);
     }
     return y;
@@ -88,7 +88,7 @@ class Extrapolation {
   static constexpr int kNoRate = -3;    ///< at one of the points
   static constexpr int kMost = 400000;  ///< evaluations
   const Scalar kShortest{0x1p-44};
-  const Scalar kShortestAtBorder{0x1p-51};  ///< where f is known to branch
+  const Scalar kShortestAtZero{0x1p-51};  ///< where f is known to branch
   // The lengths below which zeros are crossed: what f does at a kink changes y by their square.
   const Scalar kAcrossJumps{0x1p-40};
   const Scalar kAcrossKinks{0x1p-24};

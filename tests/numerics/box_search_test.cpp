@@ -49,7 +49,7 @@ TEST(BoxSearch, FindsCornersOfConvexFunctionsExactly) {
   }
 }
 
-TEST(BoxSearch, FindsTopsOnBorders) {
+TEST(BoxSearch, FindsTopsOnBoundaries) {
   // x(1) pushes against its end, x(2) has its top inside.
   const auto f = [](const Vector& x) { return x(0) + x(0) * x(1) - x(1) * x(1); };
   Vector low(2), high(2);

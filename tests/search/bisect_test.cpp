@@ -20,7 +20,7 @@ BisectOptions options(bool largest, double tolerance) {
 }
 
 /// A border anywhere, in either direction, on either scale: the bracket holds it and is narrow.
-TEST(Bisect, BracketsTheBorder) {
+TEST(Bisect, BracketsTheBoundary) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> uniform(0.001, 0.999);
   for (int i = 0; i < 300; ++i) {

@@ -29,7 +29,7 @@ TEST(Minimize, FindsTheBottomOfACurvedValley) {
 }
 
 /// The minimum lies on the border of the feasible set: x + y >= 1 in logarithmic coordinates.
-TEST(Minimize, StopsAtTheBorderOfWhatIsFeasible) {
+TEST(Minimize, StopsAtTheBoundaryOfWhatIsFeasible) {
   const Figure figure = [](const Point& x) -> std::optional<double> {
     if (x[0] + x[1] < 1) return std::nullopt;
     return x[0] * x[0] + 4 * x[1] * x[1];
