@@ -16,7 +16,8 @@ namespace gainsmith::app {
 namespace {
 
 constexpr const char* kLongerHorizon =
-    "the end of a run is compared with its start: a longer campaign.horizon leaves it more time";
+    "the end of a run is compared with its start: a longer campaign.horizon leaves more time to a "
+    "value that decays";
 
 /// What JSON has no number for has no value.
 std::optional<double> finite(double value) {

@@ -8,6 +8,7 @@
 
 #include "base/unit_roundoff.h"
 #include "claims/tolerances.h"
+#include "hybrid/tolerances.h"
 
 namespace gainsmith::claims {
 
@@ -113,7 +114,10 @@ bool ClaimCheck::is_of_another(const Track& track, std::size_t sample) const {
 }
 
 bool ClaimCheck::counts(const Track& track, std::size_t sample) const {
-  if (track.t[sample] < claim_->after || is_of_another(track, sample)) return false;
+  // The time of a jump is rounded, as a sum of lengths.
+  const bool is_jump = sample > 0 && track.moves[sample - 1].jump;
+  const double after = is_jump ? (1 - hybrid::kAddedUp) * claim_->after : claim_->after;
+  if (track.t[sample] < after || is_of_another(track, sample)) return false;
   if (!claim_->over) return true;
   return sample > 0 && track.moves[sample - 1].jump &&
          track.moves[sample - 1].event == *claim_->over;

@@ -76,6 +76,7 @@ class EventDoubts {
   std::vector<std::size_t> next_clock_;      ///< by part: the next jump of a clock in its instant
   std::size_t next_ = 0;                     ///< up to this part:
   const hybrid::FlowPiece* flow_ = nullptr;  ///< the last flow that is longer than an instant
+  std::optional<std::size_t> first_;         ///< the first event since then
   std::vector<bool> happened_;               ///< by event: whether it has since then
 };
 

@@ -8,6 +8,7 @@
 
 #include "claims/smooth_parts.h"
 #include "claims/tolerances.h"
+#include "hybrid/tolerances.h"
 #include "numerics/golden_section.h"
 
 namespace gainsmith::claims {
@@ -191,7 +192,9 @@ std::vector<SamplePoint> points_along(const FlowPiece& flow, const SamplePoints&
   const auto add = [&](double t, int function) {
     if (t > from && t < flow.to()) result.push_back({(t - from) / length, t, function});
   };
-  for (const double t : wanted.times) add(t, -1);
+  // Next to an end of the flow, whose time is rounded, that end is the sample.
+  for (const double t : wanted.times)
+    if (t > (1 + hybrid::kAddedUp) * from && t < (1 - hybrid::kAddedUp) * flow.to()) add(t, -1);
   for (const std::size_t function : wanted.along)
     if (!functions[function].is_smooth()) {
       Breaks breaks;

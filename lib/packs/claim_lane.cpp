@@ -62,7 +62,8 @@ ClaimLane::Known ClaimLane::known(const Reading& reading, bool jumped) {
   differences_ = {differences_[1], differences_[2], difference};
   check_parting(reading.fine, difference, reading.terms);
   const double largest = *std::max_element(differences_.begin(), differences_.end());
-  const double error = kErrorOfPair * largest + rounding(reading.fine, reading.terms);
+  const double error =
+      kErrorOfPair * largest + rounding(reading.fine, reading.terms) + reading.late;
   if (!(error < kNever)) open_ = true;
   return {sign_ * reading.fine, error};
 }
@@ -70,7 +71,9 @@ ClaimLane::Known ClaimLane::known(const Reading& reading, bool jumped) {
 void ClaimLane::at(double t, const Reading& reading, std::optional<std::size_t> event) {
   const bool is_jump = event.has_value();
   const Known value = known(reading, is_jump);
-  if (!counts(t) || (claim_->over && event != claim_->over)) return;
+  // The time of a jump is rounded, as a sum of lengths.
+  const double after = is_jump ? (1 - hybrid::kAddedUp) * claim_->after : claim_->after;
+  if (t < after || (claim_->over && event != claim_->over)) return;
   const double change = sampled_ && is_jump && !claim_->over ? value.value - last_.value : kNever;
   const bool is_rounding = std::abs(change) <= rounding(value.value, reading.terms);
   compare(value, reading.terms, change == 0, is_rounding);
@@ -79,7 +82,7 @@ void ClaimLane::at(double t, const Reading& reading, std::optional<std::size_t> 
 void ClaimLane::along(double t, const StepSamples& samples, const StepPolynomial& along,
                       const Reading& end, bool breaks, bool halved) {
   const Known value = known(end, false);
-  if (claim_->over || !counts(t)) return;
+  if (claim_->over || t < claim_->after) return;
   const bool stays = samples.start.rate == 0 && samples.middle.rate == 0 && samples.end.rate == 0;
   const bool same = (stays || end.fine == end.coarse) && sampled_ && value.value == last_.value &&
                     samples.middle.value == samples.start.value;

@@ -20,6 +20,7 @@ struct Reading {
   double fine = 0;
   double coarse = 0;
   double terms = 0;
+  double late = 0;  ///< what the value may have changed since a root that the step has passed
 };
 
 class ClaimLane {
@@ -47,7 +48,6 @@ class ClaimLane {
     double value = 0;
     double error = 0;
   };
-  bool counts(double t) const { return t >= claim_->after; }
   Known known(const Reading& reading, bool jumped);
   void compare(Known value, double terms, bool same, bool crowded);
   void compare_within(const StepSamples& samples, const StepPolynomial& along, Known end,

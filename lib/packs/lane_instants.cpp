@@ -154,6 +154,8 @@ bool LaneSet::find_due(std::size_t l) {
 
 bool LaneSet::begin_flow(std::size_t l) {
   PackLane& lane = *lanes_[l];
+  // What rounding sets apart is one time.
+  const auto is_same = [](double t, double later) { return later <= (1 + hybrid::kAddedUp) * t; };
   std::fill(lane.relevant.begin(), lane.relevant.end(), 0);
   std::fill(lane.zero.begin(), lane.zero.end(), 0);
   for (const PackEvent& event : pack_.events) {
@@ -181,7 +183,9 @@ bool LaneSet::begin_flow(std::size_t l) {
   }
   lane.stop = std::min({horizon_, lane.clocks.next(), lane.noise.next()});
   for (const PackClaim& claim : pack_.claims)
-    if (claim.after > lane.t) lane.stop = std::min(lane.stop, claim.after);
+    if (claim.after > lane.t && !(lane.has_jumped && is_same(lane.t, claim.after)) &&
+        !is_same(claim.after, lane.stop))
+      lane.stop = std::min(lane.stop, claim.after);
   lane.flow_start = lane.t;
   lane.evaluations = lane.steps = 0;
   lane.has_jumped = false;
@@ -215,9 +219,9 @@ bool LaneSet::arrive_at_root(std::size_t l, std::size_t target) {
   if (!find_due(l)) return false;
   const Watch& watch = pack_.watches[target];
   if (!lane.due && watch.branches.empty()) return true;
-  // The finer run is at its root; the other one is moved to where the difference is the same.
-  lane.coarse_shift = (start_.at(PackSystem::watch_values, target, l) -
-                       coarse_start_.at(PackSystem::watch_values, target, l)) /
+  // The other run is moved to its root, and not to what is left of the difference in the finer one:
+  // then they differ by what that makes of the time of the event.
+  lane.coarse_shift = -coarse_start_.at(PackSystem::watch_values, target, l) /
                       coarse_start_.at(PackSystem::watch_rates, target, l);
   if (!std::isfinite(lane.coarse_shift)) return open(Why::sign);
   move(l, coarse_, start_, lane.coarse_shift);

@@ -178,6 +178,8 @@ class LaneSet {
                     double error) const;
   /// From its side to the other, which it may have left a moment ago.
   static bool crosses_once(const std::array<double, 6>& b, int side);
+  /// How far the end of the step is from the root that it goes to.
+  double time_beside_root(const PackLane& lane, std::size_t l) const;
   bool accept(std::size_t l);
   /// Whether on the step a claim may come to where it branches, or to a sharp turn of a square root.
   bool may_branch(std::size_t c, std::size_t l) const;

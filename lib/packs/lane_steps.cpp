@@ -232,14 +232,22 @@ bool LaneSet::crosses_once(const std::array<double, 6>& b, int side) {
   return changes == 1;
 }
 
+double LaneSet::time_beside_root(const PackLane& lane, std::size_t l) const {
+  if (lane.target < 0) return 0;
+  const auto w = static_cast<std::size_t>(lane.target);
+  return std::abs(end_.at(PackSystem::watch_values, w, l) / end_.at(PackSystem::watch_rates, w, l));
+}
+
 bool LaneSet::accept(std::size_t l) {
   PackLane& lane = *lanes_[l];
   const bool at_stop = arrives(lane);
   const double now = at_stop ? lane.stop : lane.t + lane.h;
   lane.claims_before = lane.claims;
+  const double late = time_beside_root(lane, l);
   for (std::size_t c = 0; c < lane.claims.size(); ++c) {
-    lane.claims[c].along(now, claim_samples(c, l), along_claim(c, l),
-                         reading(c, l, end_, coarse_at_end_), may_branch(c, l),
+    Reading end = reading(c, l, end_, coarse_at_end_);
+    end.late = late * std::abs(end_.at(PackSystem::claim_rates, c, l));
+    lane.claims[c].along(now, claim_samples(c, l), along_claim(c, l), end, may_branch(c, l),
                          lane.halvings > 0 || 2 * lane.h < lane.wanted);
     if (!lane.claims[c].open()) continue;
     // Two halves may say more.

@@ -208,6 +208,45 @@ TEST(ClaimsAlongRuns, WhatRoundingMakesMayNearlyCancel) {
   EXPECT_EQ(report.verdict, CampaignVerdict::undecided);
 }
 
+/// Ten lengths of 0.1 add up to a little less than 1.
+TEST(ClaimsAlongRuns, AJumpAtTheRoundedTimeIsNotBeforeIt) {
+  const std::string method = R"(  events: {tick: {every: [0.1, 0.4], first: 0.1}}
+  plant:
+    state: {x: {shape: scalar, start: 1}}
+    flow: {x: -x}
+    at: {tick: {x: 0.9*x}}
+)";
+  const auto verdict = [&](const char* claims, const char* campaign) {
+    return report_of(instance_of(method, claims,
+                                 "{horizon: 8, sampling: {tick: [{constant: 0.1}]}, " +
+                                     std::string(campaign) + "}"))
+        .verdict;
+  };
+  // exp(-1)*0.9^10 = 0.1282717
+  for (const char* campaign : {"runs: 1", "runs: 16, initial: {x: {box: [1, 1.01]}}"}) {
+    const char* beyond = "{c: {below: x, bound: 0.12, over: tick, after: 1}}";
+    EXPECT_EQ(verdict(beyond, campaign), CampaignVerdict::violated) << campaign;
+    const char* within =
+        "{c: {below: x, bound: 0.13, over: tick, after: 1}, v: {nonincreasing: x}}";
+    EXPECT_EQ(verdict(within, campaign), CampaignVerdict::held) << campaign;
+  }
+}
+
+/// Two clocks strike at 0.1, in the order of the file; the first one leads to `step`.
+TEST(ClaimsAlongRuns, WhatAClockLeadsToComesBeforeTheNextClock) {
+  const std::string method =
+      R"(  events: {tick: {every: 0.1}, step: {when: q > 0}, spot: {at: [0.1]}}
+  plant:
+    state: {x: {shape: scalar, start: 1}}
+    mode: {q: 0}
+    flow: {x: -x}
+    at: {tick: {q: 1}, step: {q: q - 1, x: 0.9*x}, spot: {x: x + 1}}
+)";
+  const Report report =
+      report_of(instance_of(method, "{c: {below: x, bound: 3}}", "{runs: 1, horizon: 1}"));
+  EXPECT_EQ(report.verdict, CampaignVerdict::held);
+}
+
 TEST(ClaimsAlongRuns, AViolationIsFoundWhereItIs) {
   const Report report = report_of(
       instance_of(kMethod, "{c: {below: x, bound: 0.3, after: 1}}", "{runs: 1, horizon: 4.5}"));

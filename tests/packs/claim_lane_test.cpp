@@ -54,6 +54,21 @@ TEST(ClaimLane, ComparesWithABound) {
   EXPECT_FALSE(Follower(ClaimKind::above, -0.1).along(kSine, kCosine, 3, 0.3).violated());
 }
 
+/// x' = 1 on a step that ends at a wall at 1, and passes it by 1e-11: x is no more than 1.
+TEST(ClaimLane, AStepThatPassesARootViolatesNothing) {
+  const auto x = [](double t) { return 1e-11 + t; };
+  const auto rate = [](double) { return 1.0; };
+  for (const double late : {0.0, 1e-11}) {
+    Follower follower(ClaimKind::below, 1);
+    follower.lane.at(0, {x(0), x(0), x(0)}, {});
+    const Reading end{x(1), x(1), 1, late};
+    follower.lane.along(1, {1, {x(0), 1}, {x(0.5), 1}, {x(1), 1}},
+                        polynomial_through(x, rate, 0, 1), end, false, false);
+    EXPECT_EQ(follower.lane.violated(), late == 0) << late;
+    EXPECT_EQ(follower.lane.open(), late > 0) << late;
+  }
+}
+
 TEST(ClaimLane, AValueThatNeverRises) {
   Follower held(ClaimKind::nonincreasing, 0);
   EXPECT_FALSE(held.along(kDecay, kDecayRate, 5, 0.25).open());
