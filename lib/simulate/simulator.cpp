@@ -163,11 +163,16 @@ class EventRun {
     if (watch_.when[due])
       value = fmt::format(" ('{}' is true, {})", watch_.when[due]->text(),
                           watch_.when[due]->differences(values_));
+    const char* const cure =
+        watch_.when[due] && due == event
+            ? "; its own jump leaves the condition true: add to it what the jump changes, such as "
+              "the sign of a velocity"
+            : "";
     throw RunEnd(
         hybrid::Ending::stuck,
         fmt::format("{} jumps without a flow between them, of {}: then the event {} is due "
-                    "again{}; the first {} of them are kept",
-                    hybrid::kMost, names, one.name, value, RunRecord::kept_of_chain));
+                    "again{}; the first {} of them are kept{}",
+                    hybrid::kMost, names, one.name, value, RunRecord::kept_of_chain, cure));
   }
 
   void watch_zeno(std::size_t event) {

@@ -34,6 +34,7 @@ TEST(EventEnding, AChainOfJumpsWithoutFlowNamesTheEventAndItsValue) {
   EXPECT_NEAR(run.end, 1, 1e-15);
   expect_says(run, "the event over is due again");
   expect_says(run, "x >= 1");
+  expect_says(run, "leaves the condition true");
   EXPECT_LT(jumps_of(run).size(), 2000U);
 
   EventProblem two;
