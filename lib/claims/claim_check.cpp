@@ -8,7 +8,6 @@
 
 #include "base/unit_roundoff.h"
 #include "claims/tolerances.h"
-#include "hybrid/tolerances.h"
 
 namespace gainsmith::claims {
 
@@ -114,13 +113,10 @@ bool ClaimCheck::is_of_another(const Track& track, std::size_t sample) const {
 }
 
 bool ClaimCheck::counts(const Track& track, std::size_t sample) const {
-  // The time of a jump is rounded, as a sum of lengths.
   const bool is_jump = sample > 0 && track.moves[sample - 1].jump;
-  const double after = is_jump ? (1 - hybrid::kAddedUp) * claim_->after : claim_->after;
-  if (track.t[sample] < after || is_of_another(track, sample)) return false;
-  if (!claim_->over) return true;
-  return sample > 0 && track.moves[sample - 1].jump &&
-         track.moves[sample - 1].event == *claim_->over;
+  if (!is_after(track.t[sample], is_jump, claim_->after) || is_of_another(track, sample))
+    return false;
+  return !claim_->over || (is_jump && track.moves[sample - 1].event == *claim_->over);
 }
 
 std::vector<Bounded> ClaimCheck::values(const Track& track) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/number.h"
+#include "hybrid/tolerances.h"
 
 namespace gainsmith::claims {
 
@@ -55,6 +56,10 @@ double after_of(const model::Formula& after, const hybrid::System& system, doubl
 }
 
 }  // namespace
+
+bool is_after(double t, bool is_jump, double after) {
+  return t >= (is_jump ? (1 - hybrid::kAddedUp) * after : after);
+}
 
 std::vector<Claim> claims_of(const model::RunTexts& texts, const hybrid::System& system,
                              double horizon) {

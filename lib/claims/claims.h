@@ -30,6 +30,10 @@ struct Claim {
   bool stated() const { return missing.empty(); }
 };
 
+/// Whether a claim that is made from the time `after` on is made at t. The time of a jump is a sum
+/// of lengths, which rounding may leave just below the time that is meant.
+bool is_after(double t, bool is_jump, double after);
+
 /// All claims, in the method's order. InputError for `shrinks` without a factor, a bound that is
 /// missing, and a time `after` that is no number from 0 on or not before the horizon.
 std::vector<Claim> claims_of(const model::RunTexts& texts, const hybrid::System& system,

@@ -71,9 +71,8 @@ ClaimLane::Known ClaimLane::known(const Reading& reading, bool jumped) {
 void ClaimLane::at(double t, const Reading& reading, std::optional<std::size_t> event) {
   const bool is_jump = event.has_value();
   const Known value = known(reading, is_jump);
-  // The time of a jump is rounded, as a sum of lengths.
-  const double after = is_jump ? (1 - hybrid::kAddedUp) * claim_->after : claim_->after;
-  if (t < after || (claim_->over && event != claim_->over)) return;
+  if (!claims::is_after(t, is_jump, claim_->after) || (claim_->over && event != claim_->over))
+    return;
   const double change = sampled_ && is_jump && !claim_->over ? value.value - last_.value : kNever;
   const bool is_rounding = std::abs(change) <= rounding(value.value, reading.terms);
   compare(value, reading.terms, change == 0, is_rounding);
@@ -82,7 +81,7 @@ void ClaimLane::at(double t, const Reading& reading, std::optional<std::size_t> 
 void ClaimLane::along(double t, const StepSamples& samples, const StepPolynomial& along,
                       const Reading& end, bool breaks, bool halved) {
   const Known value = known(end, false);
-  if (claim_->over || t < claim_->after) return;
+  if (claim_->over || !claims::is_after(t, false, claim_->after)) return;
   const bool stays = samples.start.rate == 0 && samples.middle.rate == 0 && samples.end.rate == 0;
   const bool same = (stays || end.fine == end.coarse) && sampled_ && value.value == last_.value &&
                     samples.middle.value == samples.start.value;

@@ -48,7 +48,7 @@ class LaneSet {
   }
   void fill_clocks(std::size_t l);
 
-  // --- Looking at values. ---
+  // --- Values at a point. ---
 
   void evaluate(lanes::LaneMachine& by, const LaneValues& values, LanePoint& seen,
                 std::uint32_t active);

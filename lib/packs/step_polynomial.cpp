@@ -15,11 +15,6 @@ constexpr double kRootWithin = 2e-15;
 /// After a step of Newton's method that is such a part of the root, the digits double.
 constexpr double kLastStep = 1e-8;
 
-/// The first `level` coefficients of one degree less, at a share (de Casteljau).
-void step_down(Coefficients& b, std::size_t level, double share) {
-  for (std::size_t k = 0; k < level; ++k) b[k] += share * (b[k + 1] - b[k]);
-}
-
 /// On its two halves.
 void split(const Coefficients& b, Coefficients& left, Coefficients& right) {
   left = right = b;
@@ -121,7 +116,8 @@ StepPolynomial StepPolynomial::negated() const {
 
 double StepPolynomial::operator()(double share) const {
   Coefficients b = b_;
-  for (std::size_t level = b.size() - 1; level > 0; --level) step_down(b, level, share);
+  for (std::size_t level = b.size() - 1; level > 0; --level)  // de Casteljau
+    for (std::size_t k = 0; k < level; ++k) b[k] += share * (b[k + 1] - b[k]);
   return b[0];
 }
 

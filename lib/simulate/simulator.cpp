@@ -163,11 +163,11 @@ class EventRun {
     if (watch_.when[due])
       value = fmt::format(" ('{}' is true, {})", watch_.when[due]->text(),
                           watch_.when[due]->differences(values_));
-    const char* const cure =
-        watch_.when[due] && due == event
-            ? "; its own jump leaves the condition true: add to it what the jump changes, such as "
-              "the sign of a velocity"
-            : "";
+    const char* const cure = watch_.when[due] && due == event
+                                 ? "; its own jump leaves the condition true: add a part that the "
+                                   "jump makes false, such "
+                                   "as the sign of a velocity"
+                                 : "";
     throw RunEnd(
         hybrid::Ending::stuck,
         fmt::format("{} jumps without a flow between them, of {}: then the event {} is due "
