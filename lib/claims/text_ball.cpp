@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "base/error.h"
 #include "base/unit_roundoff.h"
 #include "claims/tolerances.h"
 
@@ -35,9 +34,15 @@ TextBall::Function::Function(const expr::Program& program, const hybrid::StateLa
         known != constants.end() && !layout.moves(input.name))
       evaluator_.fix(input.name, known->second);
   for (std::size_t i = 0; i < slots_.size(); ++i) evaluator_.set(slots_[i].name, moving_[i]);
+  try {
+    evaluator_.prepare();
+  } catch (const InputError& error) {
+    fault_ = error;
+  }
 }
 
 const Enclosed& TextBall::Function::operator()(const VectorXd& x, const VectorXd& r) {
+  if (fault_) throw *fault_;
   for (std::size_t i = 0; i < slots_.size(); ++i) {
     const hybrid::Slot& slot = slots_[i];
     moving_[i].mid.reshaped() = x.segment(slot.offset, slot.shape.size());

@@ -4,8 +4,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
+#include "base/error.h"
 #include "claims/run_values.h"
 #include "claims/track.h"
 #include "numbers/enclosure.h"
@@ -39,12 +41,14 @@ class TextBall {
    public:
     Function(const expr::Program& program, const hybrid::StateLayout& layout,
              const numbers::EnclosedValues<double>& constants);
+    /// InputError where no bound is known.
     const Enclosed& operator()(const Eigen::VectorXd& x, const Eigen::VectorXd& r);
 
    private:
     std::vector<hybrid::Slot> slots_;  ///< those that the program uses
     std::vector<Enclosed> moving_;
     expr::Evaluator<numbers::Enclosure<double>> evaluator_;
+    std::optional<InputError> fault_;  ///< of what is made of constants alone
   };
 
   bool is_open(std::size_t k, const Eigen::VectorXd& x, const Eigen::VectorXd& r);

@@ -53,6 +53,30 @@ class Evaluator {
     if (at >= 0) set(static_cast<std::size_t>(at), value);
   }
 
+  /// Computes what depends on fixed inputs alone; run() does it where it is not
+  /// done. All inputs must be set.
+  void prepare() {
+    check();
+    link();
+    std::vector<bool> moves(program_->code.size());
+    varying_.clear();
+    for (std::size_t at = 0; at < program_->code.size(); ++at) {
+      const Instruction& instruction = program_->code[at];
+      if (instruction.op == Op::input) {
+        moves[at] = !fixed_[static_cast<std::size_t>(instruction.attributes[0])];
+        continue;
+      }
+      for (const int operand : instruction.operands)
+        if (moves[static_cast<std::size_t>(operand)]) moves[at] = true;
+      if (moves[at]) {
+        varying_.push_back(at);
+      } else {
+        compute(at);
+      }
+    }
+    prepared_ = true;
+  }
+
   /// The result; valid until the next run.
   const Value& run() {
     if (!prepared_) prepare();
@@ -88,29 +112,6 @@ class Evaluator {
         operands_.push_back(&value(static_cast<std::size_t>(operand)));
     }
     linked_ = true;
-  }
-
-  /// Computes what depends on fixed inputs alone and lists the rest.
-  void prepare() {
-    check();
-    link();
-    std::vector<bool> moves(program_->code.size());
-    varying_.clear();
-    for (std::size_t at = 0; at < program_->code.size(); ++at) {
-      const Instruction& instruction = program_->code[at];
-      if (instruction.op == Op::input) {
-        moves[at] = !fixed_[static_cast<std::size_t>(instruction.attributes[0])];
-        continue;
-      }
-      for (const int operand : instruction.operands)
-        if (moves[static_cast<std::size_t>(operand)]) moves[at] = true;
-      if (moves[at]) {
-        varying_.push_back(at);
-      } else {
-        compute(at);
-      }
-    }
-    prepared_ = true;
   }
 
   /// std::logic_error when something has no value that the caller must give.

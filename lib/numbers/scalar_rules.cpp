@@ -3,6 +3,8 @@
 #include <numeric>
 #include <utility>
 
+#include "numbers/tape_block.h"
+
 namespace gainsmith::numbers {
 
 namespace {
@@ -120,7 +122,28 @@ std::optional<Nodes> NodeRules::matrix_power(Shape shape, Nodes square, int expo
   return result;
 }
 
+/// The value of an operation on constants. Where there is none, its fault is to be detected later.
+std::optional<Nodes> NodeRules::folded(const ScalarGraph::Block& block) {
+  TapeCode::Block code{block.instruction, {}, block.shapes, block.is_slope};
+  std::vector<double> values;
+  for (const Nodes& operand : block.operands) {
+    code.operands.emplace_back();
+    for (const int node : operand) {
+      if (!graph_.is_constant(node)) return std::nullopt;
+      code.operands.back().push_back(static_cast<std::uint32_t>(values.size()));
+      values.push_back(graph_.value(node));
+    }
+  }
+  TapeBlock operation(code);
+  const Matrix* const result = operation(values.data());
+  if (result == nullptr || !result->allFinite()) return std::nullopt;
+  Nodes nodes;
+  for (const double value : result->reshaped()) nodes.push_back(graph_.constant(value));
+  return nodes;
+}
+
 Nodes NodeRules::block_of(const ScalarGraph::Block& block) {
+  if (auto known = folded(block)) return std::move(*known);
   Nodes nodes(static_cast<std::size_t>(block.instruction.shape.size()));
   std::iota(nodes.begin(), nodes.end(), graph_.block(block));
   return nodes;

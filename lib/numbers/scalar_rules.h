@@ -35,7 +35,7 @@ class NodeRules {
   std::optional<Nodes> product(expr::Shape left, const Nodes& a, expr::Shape right, const Nodes& b);
   std::optional<Nodes> matrix_power(expr::Shape shape, Nodes square, int exponent);
   int power(int square, int exponent);
-  /// The nodes of a block's result.
+  /// The nodes of a block's result: constants where all operands are.
   Nodes block_of(const ScalarGraph::Block& block);
 
  protected:
@@ -44,6 +44,7 @@ class NodeRules {
  private:
   void blocks(const expr::Instruction& one, const TracedOperands& in,
               const std::vector<const Nodes*>& nodes, Nodes& out);
+  std::optional<Nodes> folded(const ScalarGraph::Block& block);
 };
 
 /// What a derivative is for.

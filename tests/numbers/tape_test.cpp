@@ -70,6 +70,16 @@ TEST(Tape, ZerosAndOnesOfAMatrixCostNothing) {
   EXPECT_EQ(TapeOf({"eye(3)*x + zeros(3, 1)"}).operations(), 0U);
 }
 
+TEST(Tape, AnOperationOnConstantMatricesIsMadeOnce) {
+  EXPECT_EQ(TapeOf({"svd(A'*inv(A + A'))(2)*x(1)"}).operations(), 1);
+}
+
+TEST(Tape, AConstantWithoutAValueKeepsItsFault) {
+  const TapeOf texts({"x(1) + inv(0*A)(1, 1)"});
+  StackedFunctions functions = texts.functions();
+  EXPECT_FALSE(functions.run(point(1, 2, 3)));
+}
+
 TEST(Tape, ADerivativeIsAFormula) {
   const TapeOf texts({"jacobian([x(1)*x(2); x(3)^2; sin(x(1))], x)"});
   StackedFunctions functions = texts.functions();
