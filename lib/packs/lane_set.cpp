@@ -102,7 +102,7 @@ std::size_t LaneSet::rows_of(std::size_t result) const {
     case PackSystem::claim_terms:
       return pack_.claims.size();
     case PackSystem::extras: {
-      std::size_t count = pack_.flats.size();
+      std::size_t count = pack_.flats.size() + pack_.kinks.size();
       for (const PackClaim& claim : pack_.claims)
         count += claim.branches.size() + claim.roots.size();
       return count;

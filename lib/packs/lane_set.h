@@ -140,6 +140,8 @@ class LaneSet {
   void evaluate_between(bool mirrored, LanePoint& seen, std::uint32_t active);
   static double choose_length(PackLane& lane);
   bool shorten(PackLane& lane, double factor);
+  /// After a step with too large an error: up to the first kink on it, or shorter.
+  bool shorten_by_error(std::size_t l);
   bool judge_step(std::size_t l, bool fault);
   /// The polynomials of claims and watches over the step.
   void follow(std::uint32_t active);

@@ -108,11 +108,28 @@ bool LaneSet::shorten(PackLane& lane, double factor) {
   return lane.wanted > kShortestStep * horizon_ || open(Why::steps);
 }
 
+bool LaneSet::shorten_by_error(std::size_t l) {
+  PackLane& lane = *lanes_[l];
+  double share = 1;
+  for (const std::size_t k : pack_.kinks) {
+    const auto at = [&](const LanePoint& seen) { return seen.at(PackSystem::extras, k, l); };
+    const std::array<double, 5> values = {at(start_), at(quarter_), at(middle_),
+                                          at(three_quarters_), at(end_)};
+    share = std::min(share, first_root(values).value_or(1));
+  }
+  const double length = share * lane.h;
+  if (!(share < kBeforeEnd) || length <= kShortestStep * horizon_)
+    return shorten(lane, std::min(ode::step_factor(errors_.at(0, l)), 0.9));
+  forget_root(lane);
+  lane.forced = length;
+  return true;
+}
+
 bool LaneSet::judge_step(std::size_t l, bool fault) {
   PackLane& lane = *lanes_[l];
   const double error = errors_.at(0, l);
   if (fault || !std::isfinite(error)) return shorten(lane, 0.25);
-  if (error > 1) return shorten(lane, std::min(ode::step_factor(error), 0.9));
+  if (error > 1) return shorten_by_error(l);
   if (std::any_of(pack_.flats.begin(), pack_.flats.end(),
                   [&](std::size_t k) { return bends(k, l); }))
     return shorten(lane, 0.5);

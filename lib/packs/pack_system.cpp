@@ -215,6 +215,13 @@ class PointCode {
     return made;
   }
 
+  void add_kink(const expr::Program& difference) {
+    for (const int node : texts_.value(difference, x_).value) {
+      pack_.kinks.push_back(results_[PackSystem::extras].size());
+      push(PackSystem::extras, node);
+    }
+  }
+
   void make() {
     pack_.point.emplace(texts_.graph(), results_, pack_.whole);
     using Is = PackSystem;
@@ -307,10 +314,13 @@ bool add_event(const Dynamics::Event& event, PointCode& point, PackSystem& pack)
   return true;
 }
 
-/// A kink is continuous: the control of steps sees to it.
+/// Steps go up to kinks, across which the flow is continuous, where errors ask for it.
 void add_switches(PointCode& point, PackSystem& pack) {
   for (const hybrid::Switch& one : pack.system->switches) {
-    if (one.kind == hybrid::Switch::Kind::kink) continue;
+    if (one.kind == hybrid::Switch::Kind::kink) {
+      point.add_kink(one.difference);
+      continue;
+    }
     const auto& slot = pack.system->layout.slots[*pack.system->slot(one.input)];
     auto element = static_cast<std::size_t>(slot.offset);
     for (const Watched& watched : point.watch(one.difference))

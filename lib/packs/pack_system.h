@@ -86,6 +86,7 @@ struct PackSystem {
   std::vector<PackClaim> claims;
   std::vector<RunningCost> costs;
   std::vector<std::size_t> flats;  ///< extras that must not change much on a step
+  std::vector<std::size_t> kinks;  ///< extras at whose zeros the flow has a kink (abs, clip, max)
   std::optional<lanes::LaneCode> step, start;
   /// At the points of steps; at the end of the coarser run, without rates and terms of claims; and
   /// between the points, values alone.

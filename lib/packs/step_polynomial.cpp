@@ -152,4 +152,22 @@ double StepPolynomial::root(int side) const {
   return at;
 }
 
+std::optional<double> first_root(const std::array<double, 5>& values) {
+  std::size_t after = 1;
+  while (after < values.size() && (values[after] > 0) == (values[0] > 0)) ++after;
+  if (after == values.size()) return std::nullopt;
+  // Newton's form of the quartic, in quarters.
+  std::array<double, 5> d = values;
+  for (std::size_t order = 1; order < d.size(); ++order)
+    for (std::size_t k = d.size() - 1; k >= order; --k)
+      d[k] = (d[k] - d[k - 1]) / static_cast<double>(order);
+  double low = static_cast<double>(after - 1), high = static_cast<double>(after);
+  while (high - low > kRootWithin) {
+    const double x = (low + high) / 2;
+    const double value = d[0] + x * (d[1] + (x - 1) * (d[2] + (x - 2) * (d[3] + (x - 3) * d[4])));
+    ((value > 0) == (values[0] > 0) ? low : high) = x;
+  }
+  return (low + high) / 8;
+}
+
 }  // namespace gainsmith::packs

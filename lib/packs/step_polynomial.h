@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 
 #include "lanes/machine.h"
 
@@ -79,5 +80,9 @@ class StepPolynomial {
   std::array<double, 6> b_{};
   double error_ = 0;
 };
+
+/// Where the quartic through values at 0, 1/4, 1/2, 3/4 and 1 first changes its sign between two of
+/// them.
+std::optional<double> first_root(const std::array<double, 5>& values);
 
 }  // namespace gainsmith::packs
