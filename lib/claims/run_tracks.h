@@ -23,7 +23,7 @@ namespace gainsmith::claims {
 ///             times where flows are exact (twin_parts.h), or what a rounding for each step and
 ///             jump so far makes of the value, up for some elements and down for the others,
 ///             + 8 u |value| and what its evaluation rounds (text_ball.h): an estimate that leaves
-///             a margin, and no proof. Where such an error of the variables makes a branch
+///             a margin, and no proof. 0 of whole numbers that no error reaches. Where such an error of the variables makes a branch
 ///             uncertain, all values that are possible
 ///
 /// Once the two runs differ by more than a thousandth of the range of a value so far, they are two

@@ -62,8 +62,9 @@ ClaimLane::Known ClaimLane::known(const Reading& reading, bool jumped) {
   differences_ = {differences_[1], differences_[2], difference};
   check_parting(reading.fine, difference, reading.terms);
   const double largest = *std::max_element(differences_.begin(), differences_.end());
+  const bool is_count = claim_->rests && largest == 0 && std::rint(reading.fine) == reading.fine;
   const double error =
-      kErrorOfPair * largest + rounding(reading.fine, reading.terms) + reading.late;
+      is_count ? 0 : kErrorOfPair * largest + rounding(reading.fine, reading.terms) + reading.late;
   if (!(error < kNever)) open_ = true;
   return {sign_ * reading.fine, error};
 }

@@ -118,7 +118,8 @@ bool LaneSet::shorten_by_error(std::size_t l) {
     share = std::min(share, first_root(values).value_or(1));
   }
   const double length = share * lane.h;
-  if (!(share < kBeforeEnd) || length <= kShortestStep * horizon_)
+  const bool is_inside = share > kKinkInside && share < 1 - kKinkInside;
+  if (!is_inside || length <= kShortestStep * horizon_)
     return shorten(lane, std::min(ode::step_factor(errors_.at(0, l)), 0.9));
   forget_root(lane);
   lane.forced = length;

@@ -162,6 +162,7 @@ class PointCode {
     push(PackSystem::claim_values, value.value[0]);
     watch_peaks(value.value[0]);
     push(PackSystem::claim_rates, value.slopes[0][0]);
+    made.rests = texts_.graph().is_zero(value.slopes[0][0]);
     push(PackSystem::claim_terms, texts_.value(hybrid::absolute_terms(text), x_).value[0]);
     const auto moves = [&](const std::string& name) { return pack_.system->is_moving(name); };
     for (const expr::Branch& branch : expr::branches_of(text, moves))

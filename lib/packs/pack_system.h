@@ -69,6 +69,7 @@ struct PackClaim {
   double after = 0;
   std::optional<std::size_t> over;
   double tolerance = 0;
+  bool rests = false;                 ///< along flows: jumps alone change it
   bool squared = false;               ///< the value is the square of the claim's, a norm
   std::vector<std::size_t> branches;  ///< extras: what its value branches on
   std::vector<std::size_t> roots;     ///< extras: of what it has square roots, norms among them

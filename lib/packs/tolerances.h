@@ -27,8 +27,8 @@ constexpr int kMostAtOneInstant = 1000;  ///< evaluations at one instant | a cha
         ///< branches change without end, is left to the careful run | UnusualRuns.AreLeftOpen
 constexpr int kMostHalvings = 4;  ///< times | a step is halved so often where a sign is not certain
         ///< on it | UnusualRuns.AreLeftOpen
-constexpr double kBeforeEnd = 0.99;  ///< of a step | a step with too large an error goes up to a kink
-        ///< that is so far from its end | Systems/PackRuns.AgreeWithCarefulRuns
+constexpr double kKinkInside = 0.01;  ///< of a step | a step with too large an error goes up to a kink
+        ///< that is so far from both ends | Systems/PackRuns.AgreeWithCarefulRuns
 constexpr double kScore = 0.02;  ///< relative, and absolute | how near a run comes to its bound is known
         ///< so well, or it is left to the careful run | Systems/PackRuns.AgreeWithCarefulRuns
 constexpr double kFlatRoot = 0.25;  ///< of the largest operand on a step | a square root whose operand

@@ -95,5 +95,17 @@ TEST(StepPolynomial, FindsItsRoot) {
   EXPECT_NEAR(polynomial_through(flies, flies_at, 0.2, 8).root(1), 0.4 / 8, 1e-15);
 }
 
+TEST(FirstRoot, IsTheFirstOfTheQuartic) {
+  const auto through = [](const auto& value) {
+    return first_root({value(0.0), value(0.25), value(0.5), value(0.75), value(1.0)});
+  };
+  const auto quartic = [](double x) { return (x - 0.3) * (x + 1) * (x - 0.9) * (2 - x); };
+  ASSERT_TRUE(through(quartic));
+  EXPECT_NEAR(*through(quartic), 0.3, 1e-14);
+  EXPECT_NEAR(*through([](double x) { return std::exp(x) - 2; }), std::log(2.0), 1e-4);
+  EXPECT_FALSE(through([](double x) { return x + 0.1; }));
+  EXPECT_FALSE(through([](double) { return -1.0; }));
+}
+
 }  // namespace
 }  // namespace gainsmith::packs

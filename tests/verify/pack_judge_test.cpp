@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -72,6 +73,22 @@ method:
     fast: {below: abs(x(2)), bound: 2.4}
     least: {above: "min(x)", bound: -2.4}
 campaign: {runs: 96, horizon: 5, initial: {x: {box: [-1, 1]}}}
+)yaml"},
+    // Its correction saturates on most of the way, and its estimate is cut off.
+    {"an observer that saturates", R"yaml(problem: p
+method:
+  method: m
+  plant:
+    state: {x: {shape: 2, start: "[1; 0]"}}
+    output: {y: x(1) + 0.3*sin(32*t)}
+    flow: {x: "[x(2); x(1) - x(1)^3]"}
+  observer:
+    state: {z: {shape: 2, start: 0}}
+    flow: {z: "[z(2) + clip(8*(y - z(1)), -1, 1); clip(z(1) - z(1)^3, -0.3, 0.3) + 16*(y - z(1))]"}
+  claims:
+    near: {below: norm(x - z), bound: 1.5, after: 1}
+    shrinks: {shrinks: norm(x - z), to: 0.7}
+campaign: {runs: 96, horizon: 6, initial: {x: {box: [-1.5, 1.5]}}}
 )yaml"},
     {"a ball with drag", R"yaml(problem: p
 method:
@@ -348,6 +365,21 @@ TEST(PackJudge, RepeatsSomeRunsCarefully) {
 TEST(PackJudge, AFewRunsAreMadeOneByOne) {
   EXPECT_FALSE(campaign_of("5", 1).careful);
   EXPECT_TRUE(campaign_of("40", 1).careful);
+}
+
+TEST(PackJudge, ACountAtItsBoundIsExact) {
+  const std::string text = R"yaml(problem: p
+method:
+  method: m
+  events: {e: {every: 0.3}}
+  plant: {state: {x: 1}, flow: {x: -0.7*x}}
+  claims: {few: {below: count(e), bound: 3}, many: {above: count(e), bound: 3, after: 0.9}}
+campaign: {horizon: 1, initial: {x: {box: [1, 2]}}, runs: )yaml";
+  for (const char* runs : {"5}", "100}"}) {
+    const Report report = run_campaign(*make_setup(bind::bind(io::read_problem(text + runs)), {}));
+    EXPECT_EQ(report.verdict, model::CampaignVerdict::held);
+    EXPECT_EQ(std::accumulate(report.open.begin(), report.open.end(), std::uint64_t{0}), 0U);
+  }
 }
 
 TEST(PackJudge, ThreadsDoNotMatter) {
