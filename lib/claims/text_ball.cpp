@@ -59,8 +59,7 @@ TextBall::TextBall(const expr::Program& program, RunValue& value, const hybrid::
 }
 
 double TextBall::rounding(const VectorXd& x) {
-  if (value_->is_smooth())
-    if (const auto known = value_->rounding(x)) return std::isfinite(*known) ? *known : 0;
+  if (const auto known = value_->rounding(x)) return std::isfinite(*known) ? *known : 0;
   try {
     const double radius = function_(x, exact_).rad(0);
     return std::isfinite(radius) ? radius : 0;

@@ -14,10 +14,18 @@ Range widened(double low, double high, double ulps = 1) {
   return {low - part * std::abs(low) - least, high + part * std::abs(high) + least};
 }
 
+/// One whole number: sums and products of such are exact.
+bool is_whole(const Range& a) {
+  constexpr double largest = 0x1p53;
+  return a.low == a.high && std::rint(a.low) == a.low && std::abs(a.low) <= largest;
+}
+
 bool is_zero(const Range& a) { return a.low == 0 && a.high == 0; }
 
 Range product(const Range& a, const Range& b, bool square) {
   if (is_zero(a) || is_zero(b)) return {0, 0};
+  if (is_whole(a) && is_whole(b) && is_whole({a.low * b.low, a.low * b.low}))
+    return {a.low * b.low, a.low * b.low};
   if (square) {
     const Range made = widened(a.least() * a.least(), a.largest() * a.largest());
     return {std::max(made.low, 0.0), made.high};
@@ -31,6 +39,7 @@ Range product(const Range& a, const Range& b, bool square) {
 Range difference(const Range& a, const Range& b) {
   constexpr double part = std::numeric_limits<double>::epsilon();
   const double low = a.low - b.high, high = a.high - b.low;
+  if (is_whole(a) && is_whole(b) && is_whole({low, high})) return {low, high};
   return {low - part * std::abs(low), high + part * std::abs(high)};
 }
 

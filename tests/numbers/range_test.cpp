@@ -86,6 +86,23 @@ TEST(Range, IsNarrowWhereTheBoxIs) {
   EXPECT_LT(function.range(0, 0).high - function.range(0, 0).low, 1e-14);
 }
 
+TEST(Range, WholeNumbersAreAddedAndMultipliedExactly) {
+  const auto is = [](ScalarOp op, double a, double b, double low, double high) {
+    Range made;
+    EXPECT_TRUE(enclose(op, {a, a}, {b, b}, {}, false, made));
+    EXPECT_EQ(made.low, low);
+    EXPECT_EQ(made.high, high);
+  };
+  is(ScalarOp::add, 3, -7, -4, -4);
+  is(ScalarOp::subtract, 3, -7, 10, 10);
+  is(ScalarOp::multiply, 3, -7, -21, -21);
+  Range made;
+  enclose(ScalarOp::multiply, {0x1p40, 0x1p40}, {0x1p40 + 1, 0x1p40 + 1}, {}, false, made);
+  EXPECT_LT(made.low, made.high);
+  enclose(ScalarOp::add, {0.5, 0.5}, {1, 1}, {}, false, made);
+  EXPECT_LT(made.low, made.high);
+}
+
 TEST(Range, WhereSomethingMayHaveNoValueThereAreNone) {
   const Box around(3, {-1, 1});
   for (const char* text :

@@ -371,9 +371,13 @@ TEST(PackJudge, ACountAtItsBoundIsExact) {
   const std::string text = R"yaml(problem: p
 method:
   method: m
-  events: {e: {every: 0.3}}
+  events: {e: {every: 0.3}, f: {every: 0.7}}
   plant: {state: {x: 1}, flow: {x: -0.7*x}}
-  claims: {few: {below: count(e), bound: 3}, many: {above: count(e), bound: 3, after: 0.9}}
+  claims:
+    few: {below: count(e), bound: 3}
+    many: {above: count(e), bound: 3, after: 0.9}
+    apart: {below: abs(count(e) - count(f)), bound: 2}
+    more: {above: 2*count(e) - 3*count(f), bound: 1, after: 0.6}
 campaign: {horizon: 1, initial: {x: {box: [1, 2]}}, runs: )yaml";
   for (const char* runs : {"5}", "100}"}) {
     const Report report = run_campaign(*make_setup(bind::bind(io::read_problem(text + runs)), {}));
