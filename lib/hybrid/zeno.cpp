@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "hybrid/tolerances.h"
 
@@ -22,33 +21,37 @@ ZenoDetector::ZenoDetector(const System& system, double horizon)
 void ZenoDetector::push(double t, double length, std::size_t event, const Eigen::VectorXd& values,
                         const Eigen::VectorXd& largest) {
   t_ = t;
-  sizes_ = sizes_.size() == 0 ? largest(rows_).eval() : sizes_.cwiseMax(largest(rows_)).eval();
+  if (sizes_.size() == 0) sizes_.setZero(static_cast<Eigen::Index>(rows_.size()));
+  sizes_ = sizes_.cwiseMax(largest(rows_));
   longest_ = std::max(longest_, length);
   const bool has_clock = system_->has_clock(event);
   short_flows_ = length < kHardly * horizon_ && !has_clock ? short_flows_ + 1 : 0;
-  lengths_.push_back(length);
-  events_.push_back(event);
-  states_.emplace_back(values(rows_));
-  if (lengths_.size() <= kRatios + longest_period) return;
-  states_.erase(states_.begin());
-  lengths_.erase(lengths_.begin());
-  events_.erase(events_.begin());
+  if (flows_.size() < kRatios + longest_period)
+    flows_.emplace_back();
+  else
+    std::rotate(flows_.begin(), flows_.begin() + 1, flows_.end());
+  Flow& last = flows_.back();
+  last.length = length;
+  last.event = event;
+  last.state = values(rows_);
 }
 
 bool ZenoDetector::settles(std::size_t period) const {
-  const Eigen::VectorXd change = states_.back() - states_[states_.size() - 1 - period];
+  const Eigen::VectorXd change = flows_.back().state - before(period).state;
   return (change.array().abs() <= kSteady * sizes_.array()).all();
 }
 
 double ZenoDetector::last(std::size_t period) const {
-  return std::accumulate(lengths_.end() - static_cast<std::ptrdiff_t>(period), lengths_.end(), 0.0);
+  double sum = 0;
+  for (std::size_t k = flows_.size() - period; k < flows_.size(); ++k) sum += flows_[k].length;
+  return sum;
 }
 
 /// Whether little may be left: a steady factor is no smaller than the last ratio by more than
 /// kSteady.
 bool ZenoDetector::is_near(std::size_t period) const {
-  if (lengths_.size() <= period) return false;
-  const double r = lengths_.back() / lengths_[lengths_.size() - 1 - period] - kSteady;
+  if (flows_.size() <= period) return false;
+  const double r = flows_.back().length / before(period).length - kSteady;
   return r < 1 && last(period) * r <= kLeftOver * t_ * (1 - r);
 }
 
@@ -66,18 +69,18 @@ std::optional<double> ZenoDetector::accumulation() const {
 /// What is left where the last so many ratios agree: twelve, or as many as leave nothing
 /// of a length.
 std::optional<double> ZenoDetector::steady_rest(std::size_t period, std::size_t ratios) const {
-  if (lengths_.size() < ratios + period) return std::nullopt;
+  if (flows_.size() < ratios + period) return std::nullopt;
   double smallest = 2;
   double largest = 0;
-  for (std::size_t k = lengths_.size() - ratios; k < lengths_.size(); ++k) {
-    const double ratio = lengths_[k] / lengths_[k - period];
+  for (std::size_t k = flows_.size() - ratios; k < flows_.size(); ++k) {
+    const double ratio = flows_[k].length / flows_[k - period].length;
     smallest = std::min(smallest, ratio);
     largest = std::max(largest, ratio);
   }
   if (!(largest < 1) || largest - smallest > kSteady * (1 - largest)) return std::nullopt;
   // The last ratio errs by rounding most: the mean over all of them.
   const std::size_t periods = ratios / period;
-  const double all = lengths_.back() / lengths_[lengths_.size() - 1 - periods * period];
+  const double all = flows_.back().length / before(periods * period).length;
   if (ratios < kRatios && all > kLeftOver) return std::nullopt;
   const double r = std::pow(all, 1 / static_cast<double>(periods));
   return last(period) * r / (1 - r);
@@ -85,8 +88,9 @@ std::optional<double> ZenoDetector::steady_rest(std::size_t period, std::size_t 
 
 std::vector<std::size_t> ZenoDetector::events() const {
   std::vector<std::size_t> result;
-  for (const std::size_t event : events_)
-    if (std::find(result.begin(), result.end(), event) == result.end()) result.push_back(event);
+  for (const Flow& flow : flows_)
+    if (std::find(result.begin(), result.end(), flow.event) == result.end())
+      result.push_back(flow.event);
   return result;
 }
 

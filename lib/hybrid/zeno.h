@@ -34,15 +34,22 @@ class ZenoDetector {
   std::optional<double> accumulation() const;
   bool chatters() const { return short_flows_ >= kInARow; }
   /// The length of the last flow, as a part of the longest one.
-  double shrinkage() const { return lengths_.empty() ? 1 : lengths_.back() / longest_; }
+  double shrinkage() const { return flows_.empty() ? 1 : flows_.back().length / longest_; }
   /// The events of the last flows, each once, in order.
   std::vector<std::size_t> events() const;
 
  private:
   static constexpr std::size_t longest_period = 3;
+  struct Flow {
+    double length = 0;
+    std::size_t event = 0;  ///< that ended it
+    Eigen::VectorXd state;  ///< there
+  };
   std::optional<double> steady_rest(std::size_t period, std::size_t ratios) const;
   bool settles(std::size_t period) const;
   bool is_near(std::size_t period) const;
+  /// So many flows before the last.
+  const Flow& before(std::size_t count) const { return flows_[flows_.size() - 1 - count]; }
   /// The sum of the last lengths.
   double last(std::size_t period) const;
 
@@ -52,9 +59,7 @@ class ZenoDetector {
   double t_ = 0;
   double longest_ = 0;
   std::size_t short_flows_ = 0;  ///< in a row
-  std::vector<double> lengths_;
-  std::vector<std::size_t> events_;
-  std::vector<Eigen::VectorXd> states_;
+  std::vector<Flow> flows_;  ///< the last ones, as many as count
   Eigen::VectorXd sizes_;  ///< the largest of each state so far
 };
 
