@@ -93,12 +93,12 @@ void LaneSet::jump(std::size_t event, std::uint32_t mask, LaneMachine& machine) 
     std::copy_n(values->row(0), pack_.whole * kLanes, machine.input(0));
     machine.run(mask);
     bad |= machine.faults();
+    const LaneMask jumping(mask);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(pack_.system->size); ++k)
+      jumping.copy(machine.result(0, k), values->row(k));
     each(mask, [&](std::size_t l) {
-      for (std::size_t k = 0; k < static_cast<std::size_t>(pack_.system->size); ++k) {
-        const double value = machine.result(0, k)[l];
-        if (!(std::abs(value) <= hybrid::kLargestState)) bad |= 1U << l;
-        values->at(k, l) = value;
-      }
+      for (std::size_t k = 0; k < static_cast<std::size_t>(pack_.system->size); ++k)
+        if (!(std::abs(values->at(k, l)) <= hybrid::kLargestState)) bad |= 1U << l;
       for (std::size_t k = 0; k < machine.size(1); ++k)
         if (machine.result(1, k)[l] != 0) bad |= 1U << l;
     });

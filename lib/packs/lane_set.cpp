@@ -197,9 +197,10 @@ void LaneSet::evaluate_all(std::uint32_t mask) {
   evaluate(point_, fine_, middle_, mask);
   evaluate(point_, coarse_, end_, mask);
   const std::uint32_t faults = middle_.faults | end_.faults | begin_claims(mask);
+  const LaneMask all(mask);
+  start_.copy(middle_, all);
+  coarse_start_.copy(end_, all);
   each(mask, [&](std::size_t l) {
-    start_.copy_lane(middle_, l);
-    coarse_start_.copy_lane(end_, l);
     const bool fault = (faults >> l & 1U) != 0 && !open(Why::no_value);
     const bool endless = ++lanes_[l]->evaluations > kMostAtOneInstant && !open(Why::jumps);
     if (fault || endless || !settle(l)) leave_open(l);

@@ -142,7 +142,8 @@ class LaneSet {
   bool shorten(PackLane& lane, double factor);
   /// After a step with too large an error: up to the first kink on it, or shorter.
   bool shorten_by_error(std::size_t l);
-  bool judge_step(std::size_t l, bool fault);
+  /// False: the run is left open. `takes`: the step is taken; otherwise another one is tried.
+  bool judge_step(std::size_t l, bool fault, bool& takes);
   /// The polynomials of claims and watches over the step.
   void follow(std::uint32_t active);
   StepPolynomial along_claim(std::size_t claim, std::size_t l) { return {polynomials_, claim, l}; }
@@ -182,7 +183,12 @@ class LaneSet {
   static bool crosses_once(const std::array<double, 6>& b, int side);
   /// How far the end of the step is from the root that it goes to.
   double time_beside_root(const PackLane& lane, std::size_t l) const;
-  bool accept(std::size_t l);
+  bool judge_claims(std::size_t l, bool& takes);
+  double end_of_step(const PackLane& lane) const {
+    return arrives(lane) ? lane.stop : lane.t + lane.h;
+  }
+  /// At the end of a step that is taken.
+  bool arrive(std::size_t l);
   /// Whether on the step a claim may come to where it branches, or to a sharp turn of a square root.
   bool may_branch(std::size_t c, std::size_t l) const;
   /// Between which values an extra is on the step.

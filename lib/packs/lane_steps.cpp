@@ -86,10 +86,21 @@ void LaneSet::step_all(std::uint32_t mask) {
   evaluate_between(true, three_quarters_, mask);
   faults |= quarter_.faults | three_quarters_.faults;
   follow(mask);
+  std::uint32_t taken = 0;
   each(mask, [&](std::size_t l) {
     const bool fault = (faults >> l & 1U) != 0;
     const bool many = ++lanes_[l]->steps > kMostSteps && !open(Why::steps);
-    if (many || !judge_step(l, fault)) leave_open(l);
+    bool takes = false;
+    if (many || !judge_step(l, fault, takes)) return leave_open(l);
+    taken |= takes ? 1U << l : 0;
+  });
+  const LaneMask moved(taken);
+  coarse_.copy(coarse_end_, moved);
+  fine_.copy(fine_end_, moved);
+  start_.copy(end_, moved);
+  coarse_start_.copy(coarse_at_end_, moved);
+  each(taken, [&](std::size_t l) {
+    if (!arrive(l)) leave_open(l);
   });
 }
 
@@ -126,7 +137,7 @@ bool LaneSet::shorten_by_error(std::size_t l) {
   return true;
 }
 
-bool LaneSet::judge_step(std::size_t l, bool fault) {
+bool LaneSet::judge_step(std::size_t l, bool fault, bool& takes) {
   PackLane& lane = *lanes_[l];
   const double error = errors_.at(0, l);
   if (fault || !std::isfinite(error)) return shorten(lane, 0.25);
@@ -160,7 +171,7 @@ bool LaneSet::judge_step(std::size_t l, bool fault) {
       return lane.forced > 0 || open(Why::sign);
     }
   }
-  return accept(l);
+  return judge_claims(l, takes);
 }
 
 bool LaneSet::find_root(std::size_t l, int& target, double& share) {
@@ -256,10 +267,9 @@ double LaneSet::time_beside_root(const PackLane& lane, std::size_t l) const {
   return std::abs(end_.at(PackSystem::watch_values, w, l) / end_.at(PackSystem::watch_rates, w, l));
 }
 
-bool LaneSet::accept(std::size_t l) {
+bool LaneSet::judge_claims(std::size_t l, bool& takes) {
   PackLane& lane = *lanes_[l];
-  const bool at_stop = arrives(lane);
-  const double now = at_stop ? lane.stop : lane.t + lane.h;
+  const double now = end_of_step(lane);
   lane.claims_before = lane.claims;
   const double late = time_beside_root(lane, l);
   for (std::size_t c = 0; c < lane.claims.size(); ++c) {
@@ -283,10 +293,14 @@ bool LaneSet::accept(std::size_t l) {
         lane.largest(k) =
             std::max(lane.largest(k), std::abs(values->at(static_cast<std::size_t>(k), l)));
   find_new_sides(l);
-  coarse_.copy_lane(coarse_end_, l);
-  fine_.copy_lane(fine_end_, l);
-  start_.copy_lane(end_, l);
-  coarse_start_.copy_lane(coarse_at_end_, l);
+  takes = true;
+  return true;
+}
+
+bool LaneSet::arrive(std::size_t l) {
+  PackLane& lane = *lanes_[l];
+  const bool at_stop = arrives(lane);
+  const double now = end_of_step(lane);
   const double wanted = lane.h * ode::step_factor(errors_.at(0, l));
   const bool shortened = lane.forced > 0 || lane.h < lane.wanted;
   lane.wanted = shortened ? std::max(lane.wanted, wanted) : wanted;

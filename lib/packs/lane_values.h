@@ -3,12 +3,29 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <vector>
 
 #include "packs/pack_system.h"
 
 namespace gainsmith::packs {
+
+/// Some lanes, of which rows are copied.
+class LaneMask {
+ public:
+  explicit LaneMask(std::uint32_t lanes) {
+    for (std::size_t l = 0; l < lanes::kLanes; ++l) in_[l] = lanes >> l & 1U ? ~0ULL : 0;
+  }
+  void copy(const double* from, double* to) const {
+    for (std::size_t l = 0; l < lanes::kLanes; ++l)
+      to[l] = std::bit_cast<double>((std::bit_cast<std::uint64_t>(from[l]) & in_[l]) |
+                                    (std::bit_cast<std::uint64_t>(to[l]) & ~in_[l]));
+  }
+
+ private:
+  std::array<std::uint64_t, lanes::kLanes> in_{};
+};
 
 class LaneValues {
  public:
@@ -19,8 +36,8 @@ class LaneValues {
   double& at(std::size_t k, std::size_t lane) { return row(k)[lane]; }
   double at(std::size_t k, std::size_t lane) const { return row(k)[lane]; }
   std::size_t rows() const { return rows_; }
-  void copy_lane(const LaneValues& from, std::size_t lane) {
-    for (std::size_t k = 0; k < rows_; ++k) at(k, lane) = from.at(k, lane);
+  void copy(const LaneValues& from, const LaneMask& mask) {
+    for (std::size_t k = 0; k < rows_; ++k) mask.copy(from.row(k), row(k));
   }
 
  private:
@@ -40,8 +57,8 @@ struct LanePoint {
   double at(PackSystem::PointResult result, std::size_t k, std::size_t lane) const {
     return of[result].at(k, lane);
   }
-  void copy_lane(const LanePoint& from, std::size_t lane) {
-    for (std::size_t r = 0; r < of.size(); ++r) of[r].copy_lane(from.of[r], lane);
+  void copy(const LanePoint& from, const LaneMask& mask) {
+    for (std::size_t r = 0; r < of.size(); ++r) of[r].copy(from.of[r], mask);
   }
 };
 

@@ -12,8 +12,8 @@ using Coefficients = std::array<double, 6>;
 
 /// A search for a root ends so near to it.
 constexpr double kRootWithin = 2e-15;
-/// After a step of Newton's method that is such a part of the root, the digits double.
-constexpr double kLastStep = 1e-8;
+/// After a step of Halley's method that is such a part of the root, the digits triple.
+constexpr double kLastStep = 1e-5;
 
 /// On its two halves.
 void split(const Coefficients& b, Coefficients& left, Coefficients& right) {
@@ -145,7 +145,8 @@ double StepPolynomial::root(int side) const {
     const double value = b[0] + at * (c1 + at * (c2 + at * (c3 + at * (c4 + at * c5))));
     const double slope = c1 + at * (2 * c2 + at * (3 * c3 + at * (4 * c4 + at * 5 * c5)));
     (side * value > 0 ? low : high) = at;
-    const double step = -value / slope;
+    const double curve = 2 * c2 + at * (6 * c3 + at * (12 * c4 + at * 20 * c5));
+    const double step = -2 * value * slope / (2 * slope * slope - value * curve);  // Halley
     if (std::abs(step) <= kLastStep * at) return at + step;
     at = at + step > low && at + step < high ? at + step : (low + high) / 2;
   }

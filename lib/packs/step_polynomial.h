@@ -73,7 +73,7 @@ class StepPolynomial {
   /// Whether it falls everywhere, by `margin` over the whole step at the least.
   bool falls(double margin) const;
   /// The share at which it comes to 0 from the side that it is on at the start (`side`), by
-  /// Newton's method between bounds. It must end on the other side.
+  /// Halley's method between bounds. It must end on the other side.
   double root(int side) const;
 
  private:
