@@ -15,7 +15,8 @@ using VariableKind = Dynamics::VariableKind;
 namespace {
 
 constexpr PackAccuracy kAccuracies[] = {{kFirstRelative, kFirstAbsolute},
-                                        {kAgainRelative, kAgainAbsolute}};
+                                        {kAgainRelative, kAgainAbsolute},
+                                        {kLastRelative, kLastAbsolute}};
 
 }  // namespace
 

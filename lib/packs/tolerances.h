@@ -15,6 +15,11 @@ constexpr double kAgainRelative = 0.1;  ///< times the accuracy of the careful r
         ///< Systems/PackRuns.AgreeWithCarefulRuns
 constexpr double kAgainAbsolute = 1e-4;  ///< times the accuracy of the careful run, absolute | the same:
         ///< errors of observers decay | Systems/PackRuns.AgreeWithCarefulRuns
+constexpr double kLastRelative = 1e-4;  ///< times the accuracy of the careful run, relative |
+        ///< packs are integrated to it where both others leave a run open, as where small errors grow |
+        ///< Systems/PackRuns.AgreeWithCarefulRuns
+constexpr double kLastAbsolute = 1e-8;  ///< times the accuracy of the careful run, absolute | the same |
+        ///< Systems/PackRuns.AgreeWithCarefulRuns
 constexpr double kErrorOfPair = 4;  ///< differences of two runs | the error of a value |
         ///< Systems/PackRuns.AgreeWithCarefulRuns
 constexpr double kFirstStep = 1e-3;  ///< of the horizon | the first step of a run |
