@@ -179,6 +179,8 @@ class LaneSet {
   /// Whether a difference comes to 0 just where a step ends anyway, and not before.
   bool ends_at_root(const PackLane& lane, std::size_t w, const std::array<double, 6>& b,
                     double error) const;
+  /// From 0, where a flow or a jump has left it on this side, to the other one.
+  static bool leaves_at_once(const std::array<double, 6>& b, int side, double error);
   /// From its side to the other, which it may have left a moment ago.
   static bool crosses_once(const std::array<double, 6>& b, int side);
   /// How far the end of the step is from the root that it goes to.
@@ -195,6 +197,8 @@ class LaneSet {
   std::pair<double, double> range_of_extra(std::size_t k, std::size_t l) const;
   /// Whether it comes so near to 0 that a square root of it, or a quotient by it, bends sharply.
   bool bends(std::size_t k, std::size_t l) const;
+  /// A crossing that no event wants.
+  void pass(std::size_t w, PackLane& lane) const;
   void find_new_sides(std::size_t l);
 
   const PackSystem& pack_;

@@ -196,6 +196,10 @@ bool LaneSet::find_root(std::size_t l, int& target, double& share) {
       lane.zero[w] = error;
       continue;
     }
+    if (known != 0 && leaves_at_once(b, known, error)) {
+      roots_.push_back({0, w, lane.sides[w]});
+      continue;
+    }
     const std::int8_t from = known != 0 ? lane.sides[w] : left_side(w, l, b, error);
     if (from == 0 || !(from * b[5] < -error) || !crosses_once(b, from)) return false;
     roots_.push_back({along.root(from), w, from});
@@ -224,7 +228,10 @@ bool LaneSet::choose_root(PackLane& lane, int& target, double& share) {
 }
 
 bool LaneSet::decides(std::size_t w, const PackLane& lane) {
-  if (is_crossing_[w] || !pack_.watches[w].branches.empty() || lane.undetermined) return true;
+  if (!pack_.watches[w].branches.empty() || lane.undetermined) return true;
+  for (std::size_t e = 0; e < pack_.events.size(); ++e)
+    if (const auto& crossing = pack_.events[e].crossing)
+      if (crossing->watch == w && is_wanted(e, -crossing->factor * sides_[w])) return true;
   const auto changes = [&](const WatchedCondition& condition) {
     const Truth before = truth(condition, pack_.watches, sides_);
     sides_[w] = static_cast<std::int8_t>(-sides_[w]);
@@ -249,6 +256,12 @@ bool LaneSet::ends_at_root(const PackLane& lane, std::size_t w, const std::array
   for (std::size_t k = 1; k + 1 < b.size(); ++k)
     if (lane.sides[w] * b[k] <= error) return false;
   return std::abs(b.back()) <= error;
+}
+
+bool LaneSet::leaves_at_once(const std::array<double, 6>& b, int side, double error) {
+  bool leaves = std::abs(b[0]) <= error;
+  for (std::size_t k = 1; k < b.size(); ++k) leaves = leaves && side * b[k] < -error;
+  return leaves;
 }
 
 bool LaneSet::crosses_once(const std::array<double, 6>& b, int side) {
@@ -345,12 +358,19 @@ bool LaneSet::may_branch(std::size_t c, std::size_t l) const {
                      [&](std::size_t k) { return bends(k, l); });
 }
 
+void LaneSet::pass(std::size_t w, PackLane& lane) const {
+  for (std::size_t e = 0; e < pack_.events.size(); ++e)
+    if (const auto& crossing = pack_.events[e].crossing; crossing && crossing->watch == w)
+      lane.signs[e] = static_cast<std::int8_t>(-side_of(*crossing, lane));
+}
+
 void LaneSet::find_new_sides(std::size_t l) {
   PackLane& lane = *lanes_[l];
   for (std::size_t w = 0; w < pack_.watches.size(); ++w) {
     if (!pack_.watches[w].moves) continue;
     const double value = std::abs(end_.at(PackSystem::watch_values, w, l));
     const double error = error_of(w, l, end_, coarse_at_end_);
+    if (lane.passed[w] != 0) pass(w, lane);
     if (static_cast<int>(w) == lane.target) {
       lane.sides[w] = static_cast<std::int8_t>(-lane.sides[w]);
       lane.zero[w] = std::max(error, 2 * value);

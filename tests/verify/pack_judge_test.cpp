@@ -90,6 +90,21 @@ method:
     shrinks: {shrinks: norm(x - z), to: 0.7}
 campaign: {runs: 96, horizon: 6, initial: {x: {box: [-1.5, 1.5]}}}
 )yaml"},
+    // At the wall x(1) is -0.455 up to rounding, and rises through it without an event.
+    {"a pendulum that a wall throws back", R"yaml(problem: p
+method:
+  method: m
+  events: {hit: {falls: x(1) + 0.455}}
+  plant:
+    state: {x: {shape: 2, start: 0}}
+    flow: {x: "[x(2); -5.269*sin(x(1)) - 0.336*x(2)]"}
+    at: {hit: {x: "[x(1); -0.843*x(2)]"}}
+  claims:
+    slow: {below: abs(x(2)), bound: 1, after: 2}
+    wall: {above: x(1), bound: -0.46}
+    few: {below: count(hit), bound: 3}
+campaign: {runs: 96, horizon: 6, initial: {x: {box: ["[0; -1]", "[1.3; 1.2]"]}}}
+)yaml"},
     {"a ball with drag", R"yaml(problem: p
 method:
   method: m
