@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "base/eigen_scalars.h"
 #include "numbers/ball.h"
@@ -31,7 +33,7 @@ struct Enclosed {
   bool is_exact() const { return (rad.array() == 0).all(); }
   bool is_zero() const { return is_exact() && (mid.array() == S(0)).all(); }
   /// A radius is finite everywhere.
-  bool is_known() const { return rad.allFinite(); }
+  bool is_known() const { return is_finite(rad); }
 };
 
 template <class S>
@@ -125,8 +127,7 @@ namespace enclosed {
 /// For each row the relative error of a sum of as many products as it has elements: 0 for a row
 /// that picks one element. `element(i, j)` are those of the matrix, or of its transpose.
 template <class S, class Element>
-Vector row_roundoff(Eigen::Index rows, Eigen::Index cols, const Element& element) {
-  Vector roundoff(rows);
+void row_roundoff(Eigen::Index rows, Eigen::Index cols, const Element& element, double* roundoff) {
   for (Eigen::Index i = 0; i < rows; ++i) {
     int count = 0;
     bool picks = true;
@@ -136,62 +137,88 @@ Vector row_roundoff(Eigen::Index rows, Eigen::Index cols, const Element& element
       ++count;
       picks = picks && x.is_exact() && (x.mid == S(1) || x.mid == S(-1));
     }
-    roundoff(i) = count == 0 || (count == 1 && picks) ? 0 : (count + 2) * unit_roundoff<S>();
+    roundoff[i] = count == 0 || (count == 1 && picks) ? 0 : (count + 2) * unit_roundoff<S>();
   }
-  return roundoff;
 }
 
-/// The least element other than 0; infinite when there is none.
-inline double least_element(const Matrix& sizes) {
+/// The least of `count` numbers other than 0; infinite when there is none.
+inline double least_of(const double* sizes, Eigen::Index count) {
   double least = kNothingKnown;
-  for (const double x : sizes.reshaped())
-    if (x != 0 && x < least) least = x;
+  for (Eigen::Index k = 0; k < count; ++k)
+    if (sizes[k] != 0 && sizes[k] < least) least = sizes[k];
   return least;
 }
 
+/// Numbers that multiply() works with, in one place that stays: small products do not allocate.
+class ProductRoom {
+ public:
+  ProductRoom(Eigen::Index rows, Eigen::Index inner, Eigen::Index cols) {
+    static thread_local std::vector<double> room;
+    const Eigen::Index size = (rows + cols) * inner + 2 * rows + cols;
+    if (static_cast<Eigen::Index>(room.size()) < size) room.resize(static_cast<std::size_t>(size));
+    left = room.data();
+    right = left + rows * inner;
+    along = right + inner * cols;
+    down = along + rows;
+    sums = down + cols;
+  }
+
+  double *left, *right;  ///< sizes of the factors' elements, column by column
+  double *along, *down;  ///< relative errors of rows and columns
+  double* sums;          ///< of a column
+};
+
 }  // namespace enclosed
 
-/// |fl(X Y) - X Y| <= gamma_k |X| |Y|, where k counts the products that are not 0 by themselves.
+/// out = x y, where |fl(X Y) - X Y| <= gamma_k |X| |Y| and k counts the products that are not 0 by
+/// themselves. `out` is neither factor.
 template <class S>
-Enclosed<S> product(const Enclosed<S>& x, const Enclosed<S>& y) {
-  Enclosed<S> out;
-  if (x.mid.size() == 1 && y.mid.size() == 1) {
-    out.resize(1, 1);
-    out.set(0, x.ball(0) * y.ball(0));
-    return out;
-  }
-  const Matrix left = magnitudes<S>(x.mid);
-  const Matrix right = magnitudes<S>(y.mid);
-  const Vector along =
-      enclosed::row_roundoff<S>(x.rows(), x.cols(), [&](auto i, auto j) { return x.ball(i, j); });
-  const Vector down =
-      enclosed::row_roundoff<S>(y.cols(), y.rows(), [&](auto j, auto i) { return y.ball(i, j); });
-  out.mid.setZero(x.rows(), y.cols());
-  out.rad.setZero(x.rows(), y.cols());
-  Vector sizes(x.rows());
-  for (Eigen::Index j = 0; j < y.cols(); ++j) {
-    sizes.setZero();
-    for (Eigen::Index k = 0; k < x.cols(); ++k) {
+void multiply(const Enclosed<S>& x, const Enclosed<S>& y, Enclosed<S>& out) {
+  const Eigen::Index rows = x.rows(), inner = x.cols(), cols = y.cols();
+  out.resize(rows, cols);
+  if (x.mid.size() == 1 && y.mid.size() == 1) return out.set(0, x.ball(0) * y.ball(0));
+  const enclosed::ProductRoom room(rows, inner, cols);
+  const auto size_of = [](const S& element) { return magnitude(element); };
+  std::transform(x.mid.data(), x.mid.data() + x.mid.size(), room.left, size_of);
+  std::transform(y.mid.data(), y.mid.data() + y.mid.size(), room.right, size_of);
+  enclosed::row_roundoff<S>(
+      rows, inner, [&](auto i, auto j) { return x.ball(i, j); }, room.along);
+  enclosed::row_roundoff<S>(
+      cols, inner, [&](auto j, auto i) { return y.ball(i, j); }, room.down);
+  out.mid.setZero();
+  out.rad.setZero();
+  for (Eigen::Index j = 0; j < cols; ++j) {
+    std::fill_n(room.sums, rows, 0.0);
+    for (Eigen::Index k = 0; k < inner; ++k) {
       const S by = y.mid(k, j);
-      const double size = right(k, j), rad = y.rad(k, j), reach = size + rad;
+      const double size = room.right[k + j * inner], rad = y.rad(k, j), reach = size + rad;
       if (reach == 0) continue;
-      for (Eigen::Index i = 0; i < x.rows(); ++i) {
+      const double* const left = room.left + k * rows;
+      for (Eigen::Index i = 0; i < rows; ++i) {
         out.mid(i, j) += x.mid(i, k) * by;
-        sizes(i) += left(i, k) * size;
-        out.rad(i, j) += left(i, k) * rad + x.rad(i, k) * reach;
+        room.sums[i] += left[i] * size;
+        out.rad(i, j) += left[i] * rad + x.rad(i, k) * reach;
       }
     }
-    for (Eigen::Index i = 0; i < x.rows(); ++i)
-      out.rad(i, j) += sizes(i) * std::min(along(i), down(j));
+    for (Eigen::Index i = 0; i < rows; ++i)
+      out.rad(i, j) += room.sums[i] * std::min(room.along[i], room.down[j]);
   }
-  const auto k = static_cast<double>(x.cols());
+  const auto k = static_cast<double>(inner);
+  const auto least = [](const double* sizes, const Matrix& radii) {
+    return std::min(enclosed::least_of(sizes, radii.size()),
+                    enclosed::least_of(radii.data(), radii.size()));
+  };
   const bool may_underflow =
-      std::min(enclosed::least_element(left), enclosed::least_element(x.rad)) *
-          std::min(enclosed::least_element(right), enclosed::least_element(y.rad)) <
-      kLeastNormal / unit_roundoff<S>();
+      least(room.left, x.rad) * least(room.right, y.rad) < kLeastNormal / unit_roundoff<S>();
   const double slack = up(1, 2 * k + 8);
   for (double& r : out.rad.reshaped())
     r = bound_or_nothing(r * slack + (may_underflow || r != 0 ? (k + 1) * kTiny : 0));
+}
+
+template <class S>
+Enclosed<S> product(const Enclosed<S>& x, const Enclosed<S>& y) {
+  Enclosed<S> out;
+  multiply(x, y, out);
   return out;
 }
 

@@ -68,7 +68,7 @@ struct EnclosureRules {
     out.mid = -at[0].mid;
     out.rad = at[0].rad;
   }
-  void operator()(Is<Op::multiply>, const At& at, Value& out) const { out = product(at[0], at[1]); }
+  void operator()(Is<Op::multiply>, const At& at, Value& out) const { multiply(at[0], at[1], out); }
   void operator()(Is<Op::scale>, const At& at, Value& out) const {
     const Ball<S> factor = at[0].ball(0);
     map_balls([&](const Ball<S>& a) { return factor * a; }, at[1], out);
@@ -306,7 +306,7 @@ void Enclosure<S>::apply(const expr::Instruction& instruction, expr::Operands<Va
                          Value& out) const {
   check_stop();
   expr::dispatch(EnclosureRules<S>{}, instruction, operands, out);
-  if (!out.mid.allFinite()) expr::fault::not_finite(instruction.op);
+  if (!is_finite<S>(out.mid)) expr::fault::not_finite(instruction.op);
 }
 
 template <class S>

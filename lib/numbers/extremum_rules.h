@@ -10,7 +10,6 @@
 #include "expr/evaluate.h"
 #include "numbers/extremum.h"
 #include "numbers/real_rules.h"
-#include "numerics/box_search.h"
 
 namespace gainsmith::numbers {
 
@@ -89,16 +88,16 @@ class OverBox {
   expr::Evaluator<Real<Scalar>> evaluator_;
 };
 
+/// The point of the box at which f, or -f, is found to be largest in double.
+Vector extreme_point(const expr::Instruction& instruction, expr::Operands<Matrix> operands,
+                     OverBox<double>& plain);
+
 template <class Scalar>
 MatrixOf<Scalar> extremum(const expr::Instruction& instruction,
                           expr::Operands<MatrixOf<Scalar>> operands) {
-  const double sign = instruction.attributes[0] != 0 ? 1 : -1;
   OverBox<Scalar> exact(instruction, operands);
-  numerics::BoxPoint found;
   if constexpr (std::is_same_v<Scalar, double>) {
-    found = numerics::largest_over_box([&](const Vector& x) { return sign * exact.at(x); },
-                                       exact.low, exact.high);
-    return Matrix::Constant(1, 1, sign * found.value);
+    return Matrix::Constant(1, 1, exact.at(extreme_point(instruction, operands, exact)));
   } else {
     std::vector<Matrix> rounded;
     for (const MatrixOf<Scalar>* operand : operands)
@@ -106,11 +105,10 @@ MatrixOf<Scalar> extremum(const expr::Instruction& instruction,
     std::vector<const Matrix*> pointers;
     for (const Matrix& matrix : rounded) pointers.push_back(&matrix);
     OverBox<double> plain(instruction, pointers);
-    found = numerics::largest_over_box([&](const Vector& x) { return sign * plain.at(x); },
-                                       plain.low, plain.high);
+    const Vector found = extreme_point(instruction, pointers, plain);
     Eigen::Matrix<Scalar, Eigen::Dynamic, 1> x = exact.low;
     for (Eigen::Index i = 0; i < x.size(); ++i) {
-      const double at = found.point(i);
+      const double at = found(i);
       if (at == plain.high(i))
         x(i) = exact.high(i);
       else if (at != plain.low(i))

@@ -58,9 +58,17 @@ class BodyPoint {
   std::vector<expr::Evaluator<Type>> differences_;
 };
 
+/// Of what a rate branches on, one an element: whether it jumps there.
+inline std::vector<bool> jumps_of(const std::vector<expr::Branch>& branches) {
+  std::vector<bool> jumps;
+  for (const expr::Branch& one : branches)
+    jumps.insert(jumps.end(), static_cast<std::size_t>(one.difference.shape().size()), one.jumps);
+  return jumps;
+}
+
 /// The place stays that of the call.
 template <class Scalar>
-MatrixOf<Scalar> moved(numerics::Extrapolation<Scalar> integration, const MatrixOf<Scalar>& start,
+MatrixOf<Scalar> moved(numerics::Extrapolation<Scalar>& integration, const MatrixOf<Scalar>& start,
                        double length) {
   try {
     return integration(start);
@@ -78,9 +86,7 @@ typename numerics::Extrapolation<Scalar>::Watch watch_of(const std::vector<expr:
                                                          BodyPoint<Real<Scalar>>& body,
                                                          GoTo go_to) {
   typename numerics::Extrapolation<Scalar>::Watch watch;
-  for (const expr::Branch& one : branches)
-    watch.jumps.insert(watch.jumps.end(), static_cast<std::size_t>(one.difference.shape().size()),
-                       one.jumps);
+  watch.jumps = jumps_of(branches);
   if (branches.empty()) return watch;
   const auto size = static_cast<Eigen::Index>(watch.jumps.size());
   watch.at = [&branches, &body, go_to, size](const Scalar& q, const MatrixOf<Scalar>& y,
@@ -116,10 +122,9 @@ MatrixOf<Scalar> flow_map(const expr::Instruction& instruction,
     go_to(q, y);
     out = d * body.rate().reshaped();
   };
-  const auto watch = watch_of<Scalar>(branches, body, go_to);
+  numerics::Extrapolation<Scalar> integration(rate, watch_of<Scalar>(branches, body, go_to));
   M end = *operands[0];
-  end.reshaped() = moved<Scalar>(numerics::Extrapolation<Scalar>(rate, watch), M(end.reshaped()),
-                                 static_cast<double>(d));
+  end.reshaped() = moved<Scalar>(integration, M(end.reshaped()), static_cast<double>(d));
   return end;
 }
 
@@ -180,10 +185,9 @@ void flow_map_slope(const expr::Instruction& instruction, expr::Operands<Dual<Sc
   M start(x_slope.rows(), 1 + directions);
   start.col(0) = body.x.value.reshaped();
   start.rightCols(directions) = x_slope;
+  numerics::Extrapolation<Scalar> integration(rate, watch);
   try {
-    out.slope =
-        moved<Scalar>(numerics::Extrapolation<Scalar>(rate, watch), start, static_cast<double>(d))
-            .rightCols(directions);
+    out.slope = moved<Scalar>(integration, start, static_cast<double>(d)).rightCols(directions);
   } catch (const NoSlope&) {
     out.slope.setConstant(std::numeric_limits<Scalar>::quiet_NaN());
   }

@@ -40,30 +40,46 @@ Jet variable_jet(double low, double high) {
 
 namespace jets {
 
-Jet product(const Jet& x, const Jet& y, const Product& multiply) {
-  Jet out;
+void multiply(const Jet& x, const Jet& y, const Product& product, Jet& out) {
+  static thread_local Enclosed<double> term;
   out.order = std::min(2, x.order + y.order);
-  out.derivatives[0] = multiply(x.derivatives[0], y.derivatives[0]);
-  const auto add = [&](int k, Enclosed<double> term) {
-    Enclosed<double>& sum = out.derivatives[static_cast<std::size_t>(k)];
-    sum = sum.mid.size() == 0 ? std::move(term) : numbers::sum(sum, term);
+  product(x.derivatives[0], y.derivatives[0], out.derivatives[0]);
+  bool has_terms = false;
+  // Terms of the k-th derivative, a binomial coefficient times x^(i) y^(k - i).
+  const auto add = [&](std::size_t k, std::size_t i) {
+    if (static_cast<int>(i) > x.order || static_cast<int>(k - i) > y.order) return;
+    Enclosed<double>& sum = out.derivatives[k];
+    Enclosed<double>& made = has_terms ? term : sum;
+    product(x.derivatives[i], y.derivatives[k - i], made);
+    if (k == 2 && i == 1)
+      map_balls([](const Ball<double>& a) { return Ball<double>{2, 0} * a; }, made, made);
+    if (has_terms)
+      map_balls([](const Ball<double>& a, const Ball<double>& b) { return a + b; }, sum, term, sum);
+    has_terms = true;
   };
-  const Ball<double> two{2, 0};
-  if (x.order >= 1) add(1, multiply(x.derivatives[1], y.derivatives[0]));
-  if (y.order >= 1) add(1, multiply(x.derivatives[0], y.derivatives[1]));
-  if (x.order >= 2) add(2, multiply(x.derivatives[2], y.derivatives[0]));
-  if (x.order >= 1 && y.order >= 1)
-    add(2, scaled(two, multiply(x.derivatives[1], y.derivatives[1])));
-  if (y.order >= 2) add(2, multiply(x.derivatives[0], y.derivatives[2]));
+  add(1, 1);
+  add(1, 0);
+  has_terms = false;
+  add(2, 2);
+  add(2, 1);
+  add(2, 0);
+}
+
+void matrix_product(const Jet& x, const Jet& y, Jet& out) {
+  multiply(
+      x, y, [](const auto& a, const auto& b, auto& to) { numbers::multiply(a, b, to); }, out);
+}
+Jet matrix_product(const Jet& x, const Jet& y) {
+  Jet out;
+  matrix_product(x, y, out);
   return out;
 }
 
-Jet matrix_product(const Jet& x, const Jet& y) {
-  return product(x, y, [](const auto& a, const auto& b) { return numbers::product(a, b); });
-}
-
-Jet scaled_jet(const Jet& factor, const Jet& x) {
-  return product(factor, x, [](const auto& s, const auto& a) { return scaled(s.ball(0), a); });
+void scale(const Jet& factor, const Jet& x, Jet& out) {
+  const auto product = [](const auto& s, const auto& a, auto& to) {
+    map_balls([by = s.ball(0)](const Ball<double>& b) { return by * b; }, a, to);
+  };
+  multiply(factor, x, product, out);
 }
 
 Jet transposed_jet(const Jet& x) {
@@ -273,11 +289,12 @@ void JetAlgebra::apply(const expr::Instruction& instruction, expr::Operands<Jet>
                        Jet& out) const {
   check_stop();
   JetRules rules;
-  out = Jet{};
+  out.order = 0;
+  out.ray.reset();
   expr::dispatch(rules, instruction, operands, out);
   for (std::size_t k = 0; k <= static_cast<std::size_t>(out.order); ++k) {
     Enclosed<double>& part = out.derivatives[k];
-    if (part.mid.allFinite()) continue;
+    if (is_finite(part.mid)) continue;
     if (k == 0) expr::fault::not_finite(instruction.op);
     part = nothing_known<double>(Matrix::Zero(part.rows(), part.cols()));
   }

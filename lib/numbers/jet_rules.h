@@ -1,6 +1,7 @@
 // Internal to numbers: the rules of JetAlgebra.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -17,12 +18,14 @@ namespace gainsmith::numbers {
 
 namespace jets {
 
-using Product = std::function<Enclosed<double>(const Enclosed<double>&, const Enclosed<double>&)>;
+using Product =
+    std::function<void(const Enclosed<double>&, const Enclosed<double>&, Enclosed<double>& out)>;
 
-/// (x y)^(k) by Leibniz' rule.
-Jet product(const Jet& x, const Jet& y, const Product& multiply);
+/// (x y)^(k) by Leibniz' rule. `out` is neither factor, and may hold an old value.
+void multiply(const Jet& x, const Jet& y, const Product& product, Jet& out);
+void matrix_product(const Jet& x, const Jet& y, Jet& out);
 Jet matrix_product(const Jet& x, const Jet& y);
-Jet scaled_jet(const Jet& factor, const Jet& x);
+void scale(const Jet& factor, const Jet& x, Jet& out);
 Jet transposed_jet(const Jet& x);
 /// Of the inverse whose value is given.
 Jet inverse(const Jet& x, Enclosed<double> value);
@@ -61,10 +64,10 @@ struct JetRules {
   void operator()(Is<op>, const At& at, Jet& out) const { coefficient(at, 0, out); }
 
   void operator()(Is<Op::multiply>, const At& at, Jet& out) const {
-    out = jets::matrix_product(at[0], at[1]);
+    jets::matrix_product(at[0], at[1], out);
   }
   void operator()(Is<Op::scale>, const At& at, Jet& out) const {
-    out = jets::scaled_jet(at[0], at[1]);
+    jets::scale(at[0], at[1], out);
     with_ray(at[0], at[1], out);
   }
   void operator()(Is<Op::divide>, const At& at, Jet& out) const {
@@ -77,8 +80,9 @@ struct JetRules {
       if (at[0].ray != nullptr) with_ray(reciprocal(at[1]), at[0], out);
       return;
     }
-    out = jets::scaled_jet(reciprocal(at[1]), at[0]);
-    with_ray(reciprocal(at[1]), at[0], out);
+    const Jet factor = reciprocal(at[1]);
+    jets::scale(factor, at[0], out);
+    with_ray(factor, at[0], out);
   }
   void operator()(Is<Op::power>, const At& at, Jet& out) const {
     const int exponent = at.attribute(0);
@@ -95,11 +99,10 @@ struct JetRules {
     }
   }
   void operator()(Is<Op::elementwise_product>, const At& at, Jet& out) const {
-    out = jets::product(at[0], at[1], [](const auto& a, const auto& b) {
-      Enclosed<double> both;
-      map_balls([](const Number& x, const Number& y) { return x * y; }, a, b, both);
-      return both;
-    });
+    const auto product = [](const auto& a, const auto& b, auto& to) {
+      map_balls([](const Number& x, const Number& y) { return x * y; }, a, b, to);
+    };
+    jets::multiply(at[0], at[1], product, out);
   }
   void operator()(Is<Op::elementwise_quotient>, const At& at, Jet& out) const {
     each(out, {&at[0], &at[1]}, at.shape(),
@@ -295,18 +298,20 @@ struct JetRules {
  private:
   /// The instruction applied to the k-th derivatives.
   static void coefficient(const At& at, int k, Jet& out) {
+    const std::size_t count = at.operands.size();
+    std::array<const Enclosed<double>*, 4> few;
+    std::vector<const Enclosed<double>*> many(count > few.size() ? count : 0);
+    const Enclosed<double>** const operands = many.empty() ? few.data() : many.data();
     std::vector<Enclosed<double>> zeros;
-    zeros.reserve(at.operands.size());
-    std::vector<const Enclosed<double>*> operands;
-    operands.reserve(at.operands.size());
-    for (const Jet* operand : at.operands) {
-      if (k <= operand->order) {
-        operands.push_back(&operand->derivatives[static_cast<std::size_t>(k)]);
-      } else {
-        operands.push_back(&zeros.emplace_back(operand->derivative(k)));
+    for (std::size_t i = 0; i < count; ++i) {
+      if (k <= at[i].order) {
+        operands[i] = &at[i].derivatives[static_cast<std::size_t>(k)];
+        continue;
       }
+      if (zeros.empty()) zeros.reserve(count);
+      operands[i] = &zeros.emplace_back(at[i].derivative(k));
     }
-    Enclosure<double>{}.apply(at.instruction, operands,
+    Enclosure<double>{}.apply(at.instruction, {operands, count},
                               out.derivatives[static_cast<std::size_t>(k)]);
   }
 

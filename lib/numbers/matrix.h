@@ -5,6 +5,7 @@
 
 namespace gainsmith::numbers {
 
+using numerics::is_finite;
 using numerics::Matrix;
 using numerics::MatrixOf;
 using numerics::times;

@@ -337,7 +337,7 @@ void Real<Scalar>::apply(const expr::Instruction& instruction, expr::Operands<Va
                          Value& out) const {
   if constexpr (!std::is_same_v<Scalar, double>) check_stop();
   expr::dispatch(RealRules<Scalar>{}, instruction, operands, out);
-  if (!out.allFinite()) expr::fault::not_finite(instruction.op);
+  if (!is_finite<Scalar>(out)) expr::fault::not_finite(instruction.op);
 }
 
 template <class Scalar>

@@ -64,6 +64,7 @@ class ScalarGraph {
     std::vector<std::vector<int>> operands;
     std::vector<expr::Shape> shapes;  ///< of the operands
     /// Its derivative in a direction: the second half of the operands are the slopes of the first.
+    /// Of a flow map: its value and its derivative in all directions (flow_map_evaluator.h).
     bool is_slope = false;
     int first = 0;  ///< node of its result; the others follow
   };

@@ -66,6 +66,8 @@ class Tracer : public NodeRules {
 
   TracedMatrix block(const Instruction& one, const TracedOperands& operands) {
     const std::size_t directions = directions_of(operands);
+    if (directions > 0 && kind_ == Derivative::jacobian && one.op == Op::flow_map)
+      return moving_flow(one, operands, directions);
     if (directions > 0 && (kind_ == Derivative::jacobian || !has_block_slope(one.op)))
       throw NoFormula();
     ScalarGraph::Block made{one, {}, {}};
@@ -83,6 +85,32 @@ class Tracer : public NodeRules {
       }
       out.slopes.push_back(block_of(moved));
     }
+    return out;
+  }
+
+  /// A flow map with its slopes.
+  TracedMatrix moving_flow(const Instruction& one, const TracedOperands& operands,
+                           std::size_t directions) {
+    ScalarGraph::Block made{one, {}, {}};
+    made.is_slope = true;
+    made.instruction.shape = {one.shape.size(), 1 + static_cast<int>(directions)};
+    for (const TracedMatrix* operand : operands) {
+      made.operands.push_back(operand->value);
+      made.shapes.push_back(operand->shape);
+    }
+    for (const TracedMatrix* operand : operands) {
+      Nodes& slopes = made.operands.emplace_back();
+      for (const Nodes& slope : operand->slopes)
+        slopes.insert(slopes.end(), slope.begin(), slope.end());
+      made.shapes.push_back({operand->shape.size(), static_cast<int>(operand->slopes.size())});
+    }
+    const Nodes all = block_of(made);
+    const auto part = [&](std::size_t k) {
+      const auto first = all.begin() + static_cast<std::ptrdiff_t>(k) * one.shape.size();
+      return Nodes(first, first + one.shape.size());
+    };
+    TracedMatrix out{one.shape, part(0)};
+    for (std::size_t d = 1; d <= directions; ++d) out.slopes.push_back(part(d));
     return out;
   }
 

@@ -1,6 +1,7 @@
 #include "numbers/tape_block.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "numbers/block_slope.h"
 #include "numbers/real.h"
@@ -19,15 +20,19 @@ TapeBlock::TapeBlock(const TapeCode::Block& block)
   for (const Matrix& operand : operands_) pointers_.push_back(&operand);
   if (instruction_->op == expr::Op::jacobian)
     jacobian_ = std::make_unique<JacobianEvaluator<double>>(*instruction_);
-  if (instruction_->op == expr::Op::flow_map)
-    flow_map_ = std::make_unique<FlowMapEvaluator>(*instruction_);
+  if (instruction_->op == expr::Op::flow_map) {
+    std::vector<bool> moves;
+    for (std::size_t k = operands_.size() / 2; is_slope_ && k < operands_.size(); ++k)
+      moves.push_back(operands_[k].cols() > 0);
+    flow_map_ = std::make_unique<FlowMapEvaluator>(*instruction_, std::move(moves));
+  }
 }
 
 bool TapeBlock::find_value() {
   using expr::Op;
   const Op op = instruction_->op;
   try {
-    if (is_slope_) return block_slope(*instruction_, pointers_, out_);
+    if (is_slope_ && flow_map_ == nullptr) return block_slope(*instruction_, pointers_, out_);
     if (op == Op::inverse && small_inverse(operands_[0], out_.data())) return true;
     if (op == Op::singular_values && small_singular_values(operands_[0], out_.data())) return true;
     if (jacobian_ != nullptr) {

@@ -60,6 +60,8 @@ class Extrapolation {
     const Scalar beyond = kEscaped * (Scalar(1) + y.cwiseAbs().maxCoeff());
     Scalar q(0), step(1);
     start_known_ = false;
+    evaluations_ = 0;
+    fault_.clear();
     while (q < Scalar(1)) {
       const bool last = step >= Scalar(1) - q;
       if (last) step = Scalar(1) - q;
@@ -150,24 +152,24 @@ class Extrapolation {
     if (++evaluations_ > kMost)
       throw Unreached{static_cast<double>(q), "it takes too many steps: the rate is stiff there"};
     rate_(q, y, rate);
-    if (!rate.allFinite()) throw InputError({}, "the rate is not a finite number");
+    if (!is_finite(rate)) throw InputError({}, "the rate is not a finite number");
   }
 
   /// D of n parts to difference_.
   void midpoint(const Scalar& q, const Scalar& step, const M& y, int n) {
     const Scalar h = step / Scalar(n);
     if (watch_.at) points_.resize(y.rows(), n);
-    M before = M::Zero(y.rows(), y.cols());
+    last_.setZero(y.rows(), y.cols());
     difference_ = h * start_;
     for (int i = 1; i < n; ++i) {
       point_ = y + difference_;
       stage(Scalar(q + h * Scalar(i)), i);
-      before += (h + h) * slope_;
-      before.swap(difference_);
+      last_ += (h + h) * slope_;
+      last_.swap(difference_);
     }
     point_ = y + difference_;
     stage(Scalar(q + step), n);
-    difference_ = M((before + difference_ + h * slope_) / Scalar(2));
+    difference_ = (last_ + difference_ + h * slope_) / Scalar(2);
   }
 
   /// The i-th point of a column.
@@ -278,12 +280,12 @@ class Extrapolation {
     for (int i = 1; i < k; ++i) {
       M& old = table_[static_cast<std::size_t>(i - 1)];
       const Scalar ratio = Scalar(k) / Scalar(k - i);
-      const M next = difference_ + (difference_ - old) / (ratio * ratio - Scalar(1));
-      old = difference_;
-      difference_ = next;
+      next_ = difference_ + (difference_ - old) / (ratio * ratio - Scalar(1));
+      old.swap(difference_);
+      difference_.swap(next_);
     }
     table_[static_cast<std::size_t>(k - 1)] = difference_;
-    return difference_.allFinite();
+    return is_finite(difference_);
   }
 
   /// Of T_{k,k} and T_{k,k-1}, for each element in parts of what it is and may become in the step,
@@ -291,15 +293,14 @@ class Extrapolation {
   Scalar disagreement(int k, const Scalar& step, const M& y) {
     const M& best = table_[static_cast<std::size_t>(k - 1)];
     const M& second = table_[static_cast<std::size_t>(k - 2)];
-    const M size =
-        y.cwiseAbs().cwiseMax((y + best).cwiseAbs()).cwiseMax(M((step * start_).cwiseAbs()));
+    size_ = y.cwiseAbs().cwiseMax((y + best).cwiseAbs()).cwiseMax((step * start_).cwiseAbs());
     Scalar worst(0);
     for (Eigen::Index j = 0; j < y.cols(); ++j) {
-      const Scalar column = size.col(j).maxCoeff() / Scalar(32);
+      const Scalar column = size_.col(j).maxCoeff() / Scalar(32);
       for (Eigen::Index i = 0; i < y.rows(); ++i) {
         const Scalar difference = best(i, j) - second(i, j);
         if (difference == Scalar(0)) continue;
-        const Scalar part = std::max(size(i, j), column);
+        const Scalar part = std::max(size_(i, j), column);
         worst = std::max(worst, Scalar((difference < Scalar(0) ? -difference : difference) / part));
       }
     }
@@ -315,6 +316,7 @@ class Extrapolation {
   std::vector<M> table_;
   M start_;  ///< the rate at y
   M difference_, point_, slope_;
+  M last_, next_, size_;  ///< of a midpoint, an extrapolation and a comparison
   bool start_known_ = false;
   int evaluations_ = 0;
   std::string fault_;  ///< since the last step

@@ -139,6 +139,35 @@ TEST(Tape, AFlowMapIsThatOfReal) {
     }
 }
 
+/// By the state, by what is constant along the flow, by its length and by the time; also across
+/// jumps whose instant does not change.
+TEST(Tape, TheDerivativeOfAFlowMapIsThatOfReal) {
+  const TapeOf texts(
+      {"jacobian(flow_map([x(2); -sin(x(1)); 0.1*x(1)], x, 0.8), x)",
+       "jacobian(flow_map([x(2); -9.8 - abs(x(2))*x(2); t], x, -x(3)/10), x)",
+       "jacobian(flow_map([x(2)^2; -sin(x(1)); t*x(3)], x, t)(1:2), t)",
+       "jacobian(flow_map([x(2)*x(3); -sin(x(1)); sign(x(3) - 20) + sign(t)], x, 2), x)",
+       "jacobian(flow_map(x(1)*sin(x(2)*t), t, x(3)), x)"});
+  StackedFunctions functions = texts.functions();
+  for (const Vector& x : {point(1, -0.2, 3), point(-2, 4, 0.5)})
+    for (const double t : {0.4, -1.0}) {
+      ASSERT_TRUE(functions.run(x, t));
+      for (std::size_t k = 0; k < functions.count(); ++k) {
+        const Matrix truth = functions.at(k, x, t);
+        EXPECT_LT((functions.value(k) - truth).cwiseAbs().maxCoeff(), 1e-9 * (1 + truth.norm()))
+            << k;
+      }
+    }
+}
+
+TEST(Tape, AFlowMapHasNoDerivativeAcrossAJumpThatMoves) {
+  const TapeOf texts({"jacobian(flow_map([1; sign(x(1)); 0], x, 2), x)"});
+  StackedFunctions functions = texts.functions();
+  EXPECT_TRUE(functions.run(point(1, 0, 0)));
+  EXPECT_FALSE(functions.run(point(-1, 0, 0)));
+  EXPECT_THROW(functions.at(0, point(-1, 0, 0)), expr::EvaluationError);
+}
+
 /// Of an integration, of its derivative, and with what stands still along the flow.
 TEST(Tape, AFlowMapAlongAnAffineRateIsAnExponential) {
   const TapeOf texts({"flow_map(A*x, x, 0.7)", "flow_map([x(2); -9.8 - 0.1*x(2); 0], x, x(3)/4)",
