@@ -4,7 +4,9 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <type_traits>
 
@@ -28,10 +30,10 @@ constexpr double function_roundoff() {
   return std::is_same_v<S, double> ? 5 * 0x1p-53 : unit_roundoff<S>();
 }
 
-/// Below this a rounding error is no longer relative to the result; kTiny bounds it then, a few
-/// times.
+/// Below this a rounding error is no longer relative to the result; kTiny bounds it then, many
+/// times: products with numbers that are below the least normal one take a hundred times as long.
 constexpr double kLeastNormal = 1e-290;
-constexpr double kTiny = 16 * std::numeric_limits<double>::denorm_min();
+constexpr double kTiny = 0x1p-1010;
 
 /// Not below the exact value of `radius`, a sum or product of at most `operations` roundings.
 inline double up(double radius, double operations = 6) {
@@ -62,9 +64,13 @@ double below(const S& x) {
 }
 
 /// 2^exponent x, exact where it does not underflow.
-inline double times_power_of_two(double x, int exponent) { return std::ldexp(x, exponent); }
+inline double times_power_of_two(double x, int exponent) {
+  constexpr int kLeast = -1022, kMost = 1023;
+  if (exponent < kLeast || exponent > kMost) return std::ldexp(x, exponent);
+  return x * std::bit_cast<double>(static_cast<std::uint64_t>(exponent + kMost) << 52);
+}
 inline DoubleDouble times_power_of_two(const DoubleDouble& x, int exponent) {
-  return {std::ldexp(x.hi(), exponent), std::ldexp(x.lo(), exponent)};
+  return {times_power_of_two(x.hi(), exponent), times_power_of_two(x.lo(), exponent)};
 }
 inline Decimal100 times_power_of_two(const Decimal100& x, int exponent) {
   return ldexp(x, exponent);

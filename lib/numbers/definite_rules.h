@@ -40,7 +40,7 @@ bool passes(const Enclosed<S>& M, const Matrix& more) {
       if (i >= j) A(i, j) = times_power_of_two(M.mid(i, j), unit);
       double radius = M.rad(i, j);
       if (more.size() != 0) radius += (more(i, j) + more(j, i)) / 2;
-      sums(i) += std::ldexp(radius, unit) + kTiny;
+      sums(i) += times_power_of_two(radius, unit) + kTiny;
     }
   const auto m = static_cast<double>(n) + 2;
   const double shift = up(sums.maxCoeff(), 2 * m + 8) + 2 * m * m * unit_roundoff<S>() * (1 + 1e-9);

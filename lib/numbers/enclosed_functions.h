@@ -202,7 +202,7 @@ template <class S>
 Ball<S> ball_times_power_of_two(const Ball<S>& x, int exponent) {
   if (x.is_zero() || exponent == 0) return x;
   const S mid = times_power_of_two(x.mid, exponent);
-  double rad = std::ldexp(x.rad, exponent);
+  double rad = times_power_of_two(x.rad, exponent);
   if (magnitude(mid) < kLeastNormal || rad < kLeastNormal)
     rad += x.rad == 0 && magnitude(mid) >= kLeastNormal ? 0 : kTiny;
   return {mid, rad};

@@ -113,7 +113,7 @@ std::optional<Matrix> growth(const Matrix& Y) {
   constexpr int kTerms = 8;
   constexpr double kMost = 30;
   const auto scale = [](double x, int exponent) {
-    return x == 0 ? 0 : std::ldexp(x, exponent) + kTiny;
+    return x == 0 ? 0 : times_power_of_two(x, exponent) + kTiny;
   };
   std::vector<int> units = numerics::balance(Y);
   Matrix X = numerics::in_units(Y, units, scale);
