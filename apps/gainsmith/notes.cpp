@@ -53,7 +53,7 @@ std::string note_on_careful_runs(const verify::Report& report) {
                std::to_string(report.open[k]) + ")";
   }
   // A few are no reason for slowness.
-  if (!report.careful || 10 * all < report.runs) return "";
+  if (!report.careful || all == 0 || 10 * *report.careful < report.runs) return "";
   return std::to_string(*report.careful) + " of " + std::to_string(report.runs) +
          " runs were simulated one by one, which takes longer; of those that were tried many at "
          "once " +

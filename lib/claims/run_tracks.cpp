@@ -98,7 +98,7 @@ VectorXd RunTracks::values(const VectorXd& x) {
 VectorXd RunTracks::with_rounding(const VectorXd& x, int bit) const {
   VectorXd result = x;
   for (Index e = 0; e < x.size(); ++e) {
-    if (!rounds_[static_cast<std::size_t>(e)]) continue;
+    if (!rounds(e, x(e))) continue;
     const bool up = ((e >> bit) & 1) == 0;
     result(e) += (up ? 1 : -1) * (4 + rounded_) * kUnitRoundoff * std::abs(x(e));
   }
@@ -109,7 +109,7 @@ VectorXd RunTracks::with_rounding(const VectorXd& x, int bit) const {
 VectorXd RunTracks::errors(const VectorXd& fine, const VectorXd& around) const {
   VectorXd result = error_factor(setup_->system) * around;
   for (Index e = 0; e < fine.size(); ++e)
-    if (rounds_[static_cast<std::size_t>(e)])
+    if (rounds(e, fine(e)))
       result(e) += (4 + rounded_) * kUnitRoundoff * std::abs(fine(e));
   return result;
 }
@@ -340,7 +340,8 @@ bool RunTracks::can_decide_more(double factor) const {
          std::find(parted_.begin(), parted_.end(), 1) == parted_.end();
 }
 
-const Track& RunTracks::run(std::uint64_t seed, std::uint64_t run, double factor) {
+const Track& RunTracks::run(std::uint64_t seed, std::uint64_t run, double factor,
+                            std::uint64_t twin) {
   track_.clear();
   track_.size = static_cast<Index>(functions_.size());
   const simulate::Accuracy accuracy = setup_->accuracy(kAccuracyOfMany, factor);
@@ -348,8 +349,7 @@ const Track& RunTracks::run(std::uint64_t seed, std::uint64_t run, double factor
   rounded_ = 0;
   rounding_.clear();
   hybrid::Trajectory coarse = simulator_.run(seed, run, accuracy);
-  hybrid::Trajectory fine =
-      simulator_.run(seed, run, accuracy.times(kSharper), {}, factor < 1 ? 1 : 0);
+  hybrid::Trajectory fine = simulator_.run(seed, run, accuracy.times(kSharper), {}, twin);
   costs_.add_to(coarse, true);
   costs_.add_to(fine, false);
   rises_ = limits_of_rises(fine.start, accuracy.relative);

@@ -1,6 +1,7 @@
 // Runs of dynamics with events as the samples that claims are judged by.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <vector>
 
@@ -38,8 +39,8 @@ class RunTracks {
  public:
   explicit RunTracks(const RunSetup& setup);
 
-  /// `factor`: of the accuracy of a campaign.
-  const Track& run(std::uint64_t seed, std::uint64_t run, double factor);
+  /// `factor`: of the accuracy of a campaign. `twin`: one of several twins, moved by other units.
+  const Track& run(std::uint64_t seed, std::uint64_t run, double factor, std::uint64_t twin = 0);
 
   /// Whether a smaller factor may decide what the last run left open: its two runs differ by errors
   /// of integration, and have not parted. Two runs that end early alike do so at any accuracy.
@@ -63,6 +64,10 @@ class RunTracks {
   void find_fresh(const SamplePoint& point, const Eigen::VectorXd& coarse,
                   const Eigen::VectorXd& fine, const Eigen::VectorXd& around);
   Eigen::VectorXd values(const Eigen::VectorXd& x);
+  /// Whether rounding reaches an element: not a whole number, as of simulate::LastPlaces.
+  bool rounds(Eigen::Index element, double value) const {
+    return rounds_[static_cast<std::size_t>(element)] && std::rint(value) != value;
+  }
   Eigen::VectorXd with_rounding(const Eigen::VectorXd& x, int bit) const;
   Eigen::VectorXd errors(const Eigen::VectorXd& fine, const Eigen::VectorXd& around) const;
 

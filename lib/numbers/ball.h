@@ -30,10 +30,10 @@ constexpr double function_roundoff() {
   return std::is_same_v<S, double> ? 5 * 0x1p-53 : unit_roundoff<S>();
 }
 
-/// Below this a rounding error is no longer relative to the result; kTiny bounds it then, many
-/// times: products with numbers that are below the least normal one take a hundred times as long.
+/// Below this a rounding error is no longer relative to the result; kTiny bounds it then, a few
+/// times.
 constexpr double kLeastNormal = 1e-290;
-constexpr double kTiny = 0x1p-1010;
+constexpr double kTiny = 16 * std::numeric_limits<double>::denorm_min();
 
 /// Not below the exact value of `radius`, a sum or product of at most `operations` roundings.
 inline double up(double radius, double operations = 6) {

@@ -1,7 +1,10 @@
 #include "verify/judge.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
+
+#include "verify/tolerances.h"
 
 namespace gainsmith::verify {
 
@@ -62,6 +65,14 @@ RunVerdict with_decided(const RunVerdict& before, RunVerdict again) {
   return again;
 }
 
+constexpr double kSharper = claims::kAccuracyOfOne / claims::kAccuracyOfMany;
+
+/// By so little that it may be rounding.
+bool is_doubtful(const claims::Finding& finding) {
+  return finding.violated() && !finding.ended &&
+         std::abs(finding.value - finding.bound) <= kDoubtful * finding.rounding;
+}
+
 }  // namespace
 
 Judge::Judge(const Setup& setup)
@@ -70,8 +81,9 @@ Judge::Judge(const Setup& setup)
 }
 
 /// A track whose events are noted.
-const Track& Judge::noted(std::uint64_t seed, std::uint64_t run, double factor) {
-  track_ = &tracks_.run(seed, run, factor);
+const Track& Judge::noted(std::uint64_t seed, std::uint64_t run, double factor,
+                          std::uint64_t twin) {
+  track_ = &tracks_.run(seed, run, factor, twin);
   happened_.resize(event_count_, 0);
   for (const claims::Move& move : track_->moves)
     if (move.jump) happened_[move.event] = 1;
@@ -79,12 +91,11 @@ const Track& Judge::noted(std::uint64_t seed, std::uint64_t run, double factor) 
 }
 
 RunVerdict Judge::confirm(std::uint64_t seed, std::uint64_t run) {
-  constexpr double sharper = claims::kAccuracyOfOne / claims::kAccuracyOfMany;
-  RunVerdict verdict = last_verdict(noted(seed, run, sharper), checks_);
+  RunVerdict verdict = last_verdict(noted(seed, run, kSharper, 1), checks_);
   if (verdict.judgement != claims::Judgement::undecided ||
-      !tracks_.can_decide_more(sharper * sharper))
+      !tracks_.can_decide_more(kSharper * kSharper))
     return verdict;
-  return with_decided(verdict, last_verdict(noted(seed, run, sharper * sharper), checks_));
+  return with_decided(verdict, last_verdict(noted(seed, run, kSharper * kSharper, 1), checks_));
 }
 
 void Judge::take_held(const std::vector<bool>& holds, RunVerdict& verdict) const {
@@ -95,10 +106,29 @@ void Judge::take_held(const std::vector<bool>& holds, RunVerdict& verdict) const
   verdict.judgement = worst_of(verdict.findings);
 }
 
+void Judge::doubt(std::uint64_t seed, std::uint64_t run, RunVerdict& verdict) {
+  constexpr std::uint64_t first = 2;  // of twins that no verdict is from
+  bool refuted = false;
+  double factor = kSharper;  // other errors of integration, too
+  for (std::uint64_t twin = first; twin < first + kMoreTwins; ++twin, factor *= 0.5) {
+    if (std::none_of(verdict.findings.begin(), verdict.findings.end(), is_doubtful)) break;
+    const Track& again = noted(seed, run, factor, twin);
+    for (std::size_t i = 0; i < verdict.findings.size(); ++i) {
+      claims::Finding& finding = verdict.findings[i];
+      if (!is_doubtful(finding) || checks_[i](again).violated()) continue;
+      finding.judgement = claims::Judgement::undecided;
+      finding.disputed = refuted = true;
+    }
+  }
+  if (!refuted) return;
+  verdict.judgement = worst_of(verdict.findings);
+  verdict.confirmed = verdict.judgement == claims::Judgement::violated;
+}
+
 RunVerdict Judge::operator()(std::uint64_t seed, std::uint64_t run,
                              const std::vector<bool>& holds) {
   happened_.assign(event_count_, 0);
-  RunVerdict verdict = verdict_on(noted(seed, run, 1), checks_);
+  RunVerdict verdict = verdict_on(noted(seed, run, 1, 0), checks_);
   take_held(holds, verdict);
   const bool open = std::any_of(verdict.findings.begin(), verdict.findings.end(),
                                 [](const claims::Finding& one) { return one.undecided(); });
@@ -107,6 +137,7 @@ RunVerdict Judge::operator()(std::uint64_t seed, std::uint64_t run,
     verdict = with_decided(verdict, confirm(seed, run));
     take_held(holds, verdict);
   }
+  doubt(seed, run, verdict);
   verdict.happened = happened_;
   return verdict;
 }

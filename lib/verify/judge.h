@@ -28,7 +28,9 @@ class Judge {
   /// A stop (base/stop.h) may end a run; then its verdict says nothing.
   explicit Judge(const Setup& setup);
 
-  /// A run with a claim that is not decided, or that does not reach the horizon, is repeated.
+  /// A run with a claim that is not decided, or that does not reach the horizon, is repeated. So is
+  /// one with a claim that is violated by little: where the truth is a tie, the two runs of a twin
+  /// may agree by chance, and what other twins do not confirm is undecided.
   /// `holds`: claims that are known to hold, of which what is not certain counts as held.
   RunVerdict operator()(std::uint64_t seed, std::uint64_t run, const std::vector<bool>& holds = {});
 
@@ -42,7 +44,9 @@ class Judge {
   const std::vector<claims::ClaimCheck>& checks() const { return checks_; }
 
  private:
-  const claims::Track& noted(std::uint64_t seed, std::uint64_t run, double factor);
+  const claims::Track& noted(std::uint64_t seed, std::uint64_t run, double factor,
+                             std::uint64_t twin);
+  void doubt(std::uint64_t seed, std::uint64_t run, RunVerdict& verdict);
   void take_held(const std::vector<bool>& holds, RunVerdict& verdict) const;
 
   std::size_t event_count_;

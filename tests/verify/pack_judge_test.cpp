@@ -387,9 +387,10 @@ TEST(PackJudge, ACountAtItsBoundIsExact) {
 method:
   method: m
   events: {e: {every: 0.3}, f: {every: 0.7}}
-  plant: {state: {x: 1}, flow: {x: -0.7*x}}
+  plant: {state: {x: 1, k: {shape: scalar, start: 0}}, flow: {x: -0.7*x}, at: {e: {k: k + 1}}}
   claims:
     few: {below: count(e), bound: 3}
+    counted: {below: k, bound: 3}
     many: {above: count(e), bound: 3, after: 0.9}
     apart: {below: abs(count(e) - count(f)), bound: 2}
     more: {above: 2*count(e) - 3*count(f), bound: 1, after: 0.6}
@@ -399,6 +400,23 @@ campaign: {horizon: 1, initial: {x: {box: [1, 2]}}, runs: )yaml";
     EXPECT_EQ(report.verdict, model::CampaignVerdict::held);
     EXPECT_EQ(std::accumulate(report.open.begin(), report.open.end(), std::uint64_t{0}), 0U);
   }
+}
+
+/// The error of a dead-beat observer is 0 from its third sample on, up to rounding of either sign.
+TEST(Judge, ATieIsNotViolatedByChance) {
+  const model::Instance instance = bind::bind(io::read_problem(R"yaml(problem: p
+method:
+  method: m
+  let: {A: "[0, 1, 0; 0, 0, 1; 0, 0, 0]", C: "[1, 0, 0]", L: "[1; 3; 4]"}
+  events: {s: {every: 0.5}}
+  plant: {state: {x: {shape: 3}}, output: {y: {value: C*x, at: s}}, flow: {x: A*x}}
+  observer: {state: {xh: {shape: 3, start: 0}}, flow: {xh: A*xh}, at: {s: {xh: xh + L*(y - C*xh)}}}
+  claims: {zero: {below: norm(x - xh), bound: 0, after: 1.7}}
+campaign: {runs: 800, horizon: 5, initial: {x: {box: [-1, 1]}}}
+)yaml"));
+  const Report report = run_campaign(*make_setup(instance, {}));
+  EXPECT_EQ(report.violations, 0U);
+  EXPECT_EQ(report.undecided, 800U);
 }
 
 TEST(PackJudge, ThreadsDoNotMatter) {
