@@ -7,7 +7,6 @@
 #include <type_traits>
 #include <vector>
 
-#include "base/products.h"
 #include "base/scalars.h"
 #include "base/stop.h"
 #include "sdp/pairs.h"
@@ -126,17 +125,13 @@ void multiply_pairs(const View<const DoubleDouble>& a, const View<const DoubleDo
 template <typename T>
 void multiply_plain(const View<const T>& a, const View<const T>& b, const View<T>& c,
                     Update update) {
-  T room(0);
   for (Index j = 0; j < c.columns; ++j) {
     spend_on<T>(static_cast<double>(c.rows * a.columns));
     if (update == Update::assign)
       for (Index i = 0; i < c.rows; ++i) c(i, j) = T(0);
     for (Index k = 0; k < a.columns; ++k) {
-      const T& factor = b(k, j);
-      if (update == Update::assign)
-        for (Index i = 0; i < c.rows; ++i) add_times(c(i, j), a(i, k), factor, room);
-      else
-        for (Index i = 0; i < c.rows; ++i) subtract_times(c(i, j), a(i, k), factor, room);
+      const T factor = update == Update::assign ? b(k, j) : T(-b(k, j));
+      for (Index i = 0; i < c.rows; ++i) c(i, j) += a(i, k) * factor;
     }
   }
 }
@@ -144,13 +139,11 @@ void multiply_plain(const View<const T>& a, const View<const T>& b, const View<T
 /// sum of a_i b_i, first <= i < last, in four chains that do not wait for each other.
 template <typename T>
 T dot(const T* a, const T* b, Index first, Index last) {
-  T room(0);
   std::array<T, 4> sums = {T(0), T(0), T(0), T(0)};
   Index i = first;
   for (; i + 4 <= last; i += 4)
-    for (Index q = 0; q < 4; ++q)
-      add_times(sums[static_cast<std::size_t>(q)], a[i + q], b[i + q], room);
-  for (; i < last; ++i) add_times(sums[0], a[i], b[i], room);
+    for (Index q = 0; q < 4; ++q) sums[static_cast<std::size_t>(q)] += a[i + q] * b[i + q];
+  for (; i < last; ++i) sums[0] += a[i] * b[i];
   return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
@@ -189,14 +182,13 @@ constexpr Index kLarge = 512;
 
 template <typename T>
 void invert_lower_plain(const View<const T>& l, const View<T>& result) {
-  T room(0);
   for (Index k = 0; k < l.rows; ++k) {
     const T root = T(1) / l(k, k);
     result(k, k) = T(1);
     for (Index j = 0; j <= k; ++j) {
       const T value = result(k, j) * root;
       result(k, j) = value;
-      for (Index i = k + 1; i < l.rows; ++i) subtract_times(result(i, j), l(i, k), value, room);
+      for (Index i = k + 1; i < l.rows; ++i) result(i, j) -= l(i, k) * value;
     }
   }
 }
@@ -204,11 +196,10 @@ void invert_lower_plain(const View<const T>& l, const View<T>& result) {
 template <typename T>
 bool cholesky_plain(const View<T>& a) {
   using std::sqrt;
-  T room(0);
   for (Index j = 0; j < a.columns; ++j) {
     for (Index p = 0; p < j; ++p) {
       const T factor = a(j, p);
-      for (Index i = j; i < a.rows; ++i) subtract_times(a(i, j), a(i, p), factor, room);
+      for (Index i = j; i < a.rows; ++i) a(i, j) -= a(i, p) * factor;
     }
     if (!(a(j, j) > T(0))) return false;
     const T root = T(1) / sqrt(a(j, j));
@@ -298,17 +289,13 @@ void multiply_sparse(const View<const T>& a, const View<const T>& s, const std::
                      const std::vector<int>& rows, const View<T>& c) {
   using Column = Eigen::Map<Vector<T>>;
   using ConstColumn = Eigen::Map<const Vector<T>>;
-  [[maybe_unused]] T room(0);
   for (Index j = 0; j < c.columns; ++j) {
     Column target(c.data + c.stride * j, c.rows);
     target.setZero();
     const auto at = static_cast<std::size_t>(j);
     for (int p = start[at]; p < start[at + 1]; ++p) {
       const int k = rows[static_cast<std::size_t>(p)];
-      if constexpr (std::is_same_v<T, Decimal100>)
-        for (Index i = 0; i < a.rows; ++i) add_times(target[i], a(i, k), s(k, j), room);
-      else
-        target += ConstColumn(a.data + a.stride * k, a.rows) * s(k, j);
+      target += ConstColumn(a.data + a.stride * k, a.rows) * s(k, j);
     }
   }
 }
@@ -380,10 +367,9 @@ void solve_factored(const View<const T>& l, Vector<T>& x) {
   } else if constexpr (std::is_same_v<T, DoubleDouble>) {
     solve_factored_pairs(l, x);
   } else {
-    T room(0);
     for (Index k = 0; k < l.rows; ++k) {
       x[k] /= l(k, k);
-      for (Index i = k + 1; i < l.rows; ++i) subtract_times(x[i], l(i, k), x[k], room);
+      for (Index i = k + 1; i < l.rows; ++i) x[i] -= l(i, k) * x[k];
     }
     for (Index k = l.rows - 1; k >= 0; --k)
       x[k] = (x[k] - dot(&l(0, k), x.data(), k + 1, l.rows)) / l(k, k);
