@@ -109,8 +109,7 @@ VectorXd RunTracks::with_rounding(const VectorXd& x, int bit) const {
 VectorXd RunTracks::errors(const VectorXd& fine, const VectorXd& around) const {
   VectorXd result = error_factor(setup_->system) * around;
   for (Index e = 0; e < fine.size(); ++e)
-    if (rounds(e, fine(e)))
-      result(e) += (4 + rounded_) * kUnitRoundoff * std::abs(fine(e));
+    if (rounds(e, fine(e))) result(e) += (4 + rounded_) * kUnitRoundoff * std::abs(fine(e));
   return result;
 }
 

@@ -112,10 +112,10 @@ void Judge::doubt(std::uint64_t seed, std::uint64_t run, RunVerdict& verdict) {
   double factor = kSharper;  // other errors of integration, too
   for (std::uint64_t twin = first; twin < first + kMoreTwins; ++twin, factor *= 0.5) {
     if (std::none_of(verdict.findings.begin(), verdict.findings.end(), is_doubtful)) break;
-    const Track& again = noted(seed, run, factor, twin);
+    const RunVerdict again = last_verdict(noted(seed, run, factor, twin), checks_);
     for (std::size_t i = 0; i < verdict.findings.size(); ++i) {
       claims::Finding& finding = verdict.findings[i];
-      if (!is_doubtful(finding) || checks_[i](again).violated()) continue;
+      if (!is_doubtful(finding) || again.findings[i].violated()) continue;
       finding.judgement = claims::Judgement::undecided;
       finding.disputed = refuted = true;
     }
