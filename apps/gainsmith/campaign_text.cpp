@@ -84,9 +84,13 @@ std::string uncertainty_text(model::ClaimKind kind, const claims::Finding& findi
   if (has_parted(finding))
     return "two computations that differ in accuracy and in their last places have parted by "
            "then, or the text branches too often";
+  const std::string value = brief(finding.value), bound = brief(finding.bound);
+  if (value == bound)
+    return fmt::format("equal to its bound as far as two integrations tell, to {}: a tie",
+                       brief(finding.rounding, 2));
   return fmt::format("known to {} by two integrations: nothing is certain of {} {} {}",
-                     brief(finding.rounding, 2), brief(finding.value),
-                     kind == model::ClaimKind::above ? ">=" : "<=", brief(finding.bound));
+                     brief(finding.rounding, 2), value,
+                     kind == model::ClaimKind::above ? ">=" : "<=", bound);
 }
 
 /// `width`: of the names.

@@ -7,13 +7,13 @@
 namespace gainsmith::app {
 namespace {
 
-std::string summary_with(double rounding) {
+std::string summary_with(double rounding, double value = 87.4) {
   verify::CheckReport check;
   check.name = "cost";
   check.kind = model::ClaimKind::cost;
   check.undecided = 1;
   check.worst.judgement = claims::Judgement::undecided;
-  check.worst.value = 87.4;
+  check.worst.value = value;
   check.worst.bound = 2435;
   check.worst.rounding = rounding;
   verify::Report report;
@@ -26,6 +26,13 @@ TEST(CampaignText, AnUndecidedComparisonSaysWhatIsKnown) {
   EXPECT_NE(summary_with(3e3).find(
                 "known to 3e+03 by two integrations: nothing is certain of 87.4 <= 2435"),
             std::string::npos);
+}
+
+TEST(CampaignText, ATieIsCalledSo) {
+  const std::string text = summary_with(3e-9, 2435 - 1e-9);
+  EXPECT_NE(text.find("equal to its bound as far as two integrations tell, to 3e-09: a tie"),
+            std::string::npos)
+      << text;
 }
 
 TEST(CampaignText, AnErrorWithoutBoundIsSaidInWords) {
