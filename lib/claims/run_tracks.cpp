@@ -300,8 +300,7 @@ void RunTracks::widen(std::size_t first) {
         around = std::fmax(around, own(f, seen[static_cast<std::size_t>(other)]));
       const double value =
           track_.at(first + static_cast<std::size_t>(k), static_cast<int>(f)).value;
-      // A count is exact.
-      if (around == 0 && rounding(f, k) == 0 && std::rint(value) == value) continue;
+      if (around == 0 && rounding(f, k) == 0 && is_exact_whole(value)) continue;
       bounds(f, k) = factor * around + 8 * kUnitRoundoff * std::abs(value) + rounding(f, k);
     }
   }

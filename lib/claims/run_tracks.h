@@ -1,10 +1,10 @@
 // Runs of dynamics with events as the samples that claims are judged by.
 #pragma once
 
-#include <cmath>
 #include <functional>
 #include <vector>
 
+#include "base/whole_number.h"
 #include "claims/event_doubts.h"
 #include "claims/run_setup.h"
 #include "claims/text_ball.h"
@@ -24,8 +24,9 @@ namespace gainsmith::claims {
 ///             times where flows are exact (twin_parts.h), or what a rounding for each step and
 ///             jump so far makes of the value, up for some elements and down for the others,
 ///             + 8 u |value| and what its evaluation rounds (text_ball.h): an estimate that leaves
-///             a margin, and no proof. 0 of whole numbers that no error reaches. Where such an error of the variables makes a branch
-///             uncertain, all values that are possible
+///             a margin, and no proof. Counts and the like, which no error reaches, are exact.
+///             Where such an error of the variables makes a branch uncertain, all values that are
+///             possible
 ///
 /// Once the two runs differ by more than a thousandth of the range of a value so far, they are two
 /// runs that have nothing to do with each other: from there on bounds of the claim are infinite. So
@@ -64,9 +65,9 @@ class RunTracks {
   void find_fresh(const SamplePoint& point, const Eigen::VectorXd& coarse,
                   const Eigen::VectorXd& fine, const Eigen::VectorXd& around);
   Eigen::VectorXd values(const Eigen::VectorXd& x);
-  /// Whether rounding reaches an element: not a whole number, as of simulate::LastPlaces.
+  /// Whether rounding reaches an element (simulate/last_places.h).
   bool rounds(Eigen::Index element, double value) const {
-    return rounds_[static_cast<std::size_t>(element)] && std::rint(value) != value;
+    return rounds_[static_cast<std::size_t>(element)] && !is_exact_whole(value);
   }
   Eigen::VectorXd with_rounding(const Eigen::VectorXd& x, int bit) const;
   Eigen::VectorXd errors(const Eigen::VectorXd& fine, const Eigen::VectorXd& around) const;

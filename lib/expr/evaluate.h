@@ -53,8 +53,8 @@ class Evaluator {
     if (at >= 0) set(static_cast<std::size_t>(at), value);
   }
 
-  /// Computes what depends on fixed inputs alone; run() does it where it is not
-  /// done. All inputs must be set.
+  /// Computes what depends on fixed inputs alone, which run() does otherwise. All inputs must be
+  /// set.
   void prepare() {
     check();
     link();

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/unit_roundoff.h"
+#include "base/whole_number.h"
 #include "claims/tolerances.h"
 #include "hybrid/tolerances.h"
 #include "packs/tolerances.h"
@@ -62,7 +63,7 @@ ClaimLane::Known ClaimLane::known(const Reading& reading, bool jumped) {
   differences_ = {differences_[1], differences_[2], difference};
   check_parting(reading.fine, difference, reading.terms);
   const double largest = *std::max_element(differences_.begin(), differences_.end());
-  const bool is_count = claim_->rests && largest == 0 && std::rint(reading.fine) == reading.fine;
+  const bool is_count = claim_->rests && largest == 0 && is_exact_whole(reading.fine);
   const double error =
       is_count ? 0 : kErrorOfPair * largest + rounding(reading.fine, reading.terms) + reading.late;
   if (!(error < kNever)) open_ = true;

@@ -197,7 +197,7 @@ class LaneSet {
   std::pair<double, double> range_of_extra(std::size_t k, std::size_t l) const;
   /// Whether it comes so near to 0 that a square root of it, or a quotient by it, bends sharply.
   bool bends(std::size_t k, std::size_t l) const;
-  /// A crossing that no event wants.
+  /// Notes the new sign of a crossing that no event wants.
   void pass(std::size_t w, PackLane& lane) const;
   void find_new_sides(std::size_t l);
 

@@ -5,7 +5,7 @@
 //
 // The sign is a function of (seed, run, draw), the number of steps so far and the bits of the
 // value: what is equal bit by bit at one time is moved alike, so that copies stay equal. A whole
-// number is not moved: counts, modes and values that a text sets.
+// number is not moved, unless it is so large that rounding makes it one (base/whole_number.h).
 #pragma once
 
 #include <cstdint>

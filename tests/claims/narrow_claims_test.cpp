@@ -101,13 +101,13 @@ INSTANTIATE_TEST_SUITE_P(
 // is.
 INSTANTIATE_TEST_SUITE_P(
     Cancellation, NarrowClaims,
-    testing::Values(Case{"above: (1e15 + y/3) - 1e15 - y/3, bound: 0", CampaignVerdict::undecided},
-                    Case{"above: (1e15 + y/3) - 1e15 - y/3, bound: 0.001", CampaignVerdict::undecided},
-                    Case{"below: exp(log(y)) - y, bound: 0", CampaignVerdict::undecided},
-                    Case{"below: t*0.1*10 - t, bound: 0", CampaignVerdict::undecided},
-                    Case{"below: rate(y) + exp(-t) + 0*rate(abs(x - 1)), bound: 0",
-                         CampaignVerdict::undecided},
-                    Case{"above: (1e15 + y/3) - 1e15 - y/3, bound: -2", CampaignVerdict::held}));
+    testing::Values(
+        Case{"above: (1e15 + y/3) - 1e15 - y/3, bound: 0", CampaignVerdict::undecided},
+        Case{"above: (1e15 + y/3) - 1e15 - y/3, bound: 0.001", CampaignVerdict::undecided},
+        Case{"below: exp(log(y)) - y, bound: 0", CampaignVerdict::undecided},
+        Case{"below: t*0.1*10 - t, bound: 0", CampaignVerdict::undecided},
+        Case{"below: rate(y) + exp(-t) + 0*rate(abs(x - 1)), bound: 0", CampaignVerdict::undecided},
+        Case{"above: (1e15 + y/3) - 1e15 - y/3, bound: -2", CampaignVerdict::held}));
 
 // Differences of large numbers that are elements of vectors: their rounding is no branch.
 INSTANTIATE_TEST_SUITE_P(

@@ -71,7 +71,7 @@ TEST(Tape, ZerosAndOnesOfAMatrixCostNothing) {
 }
 
 TEST(Tape, AnOperationOnConstantMatricesIsMadeOnce) {
-  EXPECT_EQ(TapeOf({"svd(A'*inv(A + A'))(2)*x(1)"}).operations(), 1);
+  EXPECT_EQ(TapeOf({"svd(A'*inv(A + A'))(2)*x(1)"}).operations(), 1U);
 }
 
 TEST(Tape, AConstantWithoutAValueKeepsItsFault) {
@@ -125,18 +125,26 @@ TEST(Tape, TheDerivativeOfANormAtZeroHasNoValue) {
   EXPECT_FALSE(functions.run(point(0, 0, 0)));
 }
 
+/// At two points, the first of them twice, and two times.
+void expect_values_of_real(const TapeOf& texts, double within) {
+  StackedFunctions functions = texts.functions();
+  for (const Vector& x : {point(1, -0.2, 3), point(-2, 4, 0.5), point(1, -0.2, 3)})
+    for (const double t : {0.4, -1.0}) {
+      ASSERT_TRUE(functions.run(x, t));
+      for (std::size_t k = 0; k < functions.count(); ++k) {
+        const Matrix truth = functions.at(k, x, t);
+        EXPECT_LT((functions.value(k) - truth).cwiseAbs().maxCoeff(), within * (1 + truth.norm()))
+            << k;
+      }
+    }
+}
+
 TEST(Tape, AFlowMapIsThatOfReal) {
   const TapeOf texts({"flow_map([x(2); -sin(x(1)); 0.1*x(1)], x, 0.8)",
                       "flow_map([x(2); -9.8 - abs(x(2))*x(2); t], x, -x(3)/10)",
                       "flow_map([sign(x(2)); 0.3 - x(2); max(x(1), t)], x, 2)",
                       "flow_map(A*x, x, 0)", "flow_map(ones(3, 1), x, t)"});
-  StackedFunctions functions = texts.functions();
-  for (const Vector& x : {point(1, -0.2, 3), point(-2, 4, 0.5), point(1, -0.2, 3)})
-    for (const double t : {0.4, -1.0}) {
-      ASSERT_TRUE(functions.run(x, t));
-      for (std::size_t k = 0; k < functions.count(); ++k)
-        EXPECT_LT((functions.value(k) - functions.at(k, x, t)).cwiseAbs().maxCoeff(), 1e-11) << k;
-    }
+  expect_values_of_real(texts, 1e-11);
 }
 
 /// By the state, by what is constant along the flow, by its length and by the time; also across
@@ -148,16 +156,7 @@ TEST(Tape, TheDerivativeOfAFlowMapIsThatOfReal) {
        "jacobian(flow_map([x(2)^2; -sin(x(1)); t*x(3)], x, t)(1:2), t)",
        "jacobian(flow_map([x(2)*x(3); -sin(x(1)); sign(x(3) - 20) + sign(t)], x, 2), x)",
        "jacobian(flow_map(x(1)*sin(x(2)*t), t, x(3)), x)"});
-  StackedFunctions functions = texts.functions();
-  for (const Vector& x : {point(1, -0.2, 3), point(-2, 4, 0.5)})
-    for (const double t : {0.4, -1.0}) {
-      ASSERT_TRUE(functions.run(x, t));
-      for (std::size_t k = 0; k < functions.count(); ++k) {
-        const Matrix truth = functions.at(k, x, t);
-        EXPECT_LT((functions.value(k) - truth).cwiseAbs().maxCoeff(), 1e-9 * (1 + truth.norm()))
-            << k;
-      }
-    }
+  expect_values_of_real(texts, 1e-9);
 }
 
 TEST(Tape, AFlowMapHasNoDerivativeAcrossAJumpThatMoves) {
