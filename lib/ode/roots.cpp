@@ -45,7 +45,11 @@ class RootSearch {
   }
 
  private:
-  double value(double t) const { return function_.value(t); }
+  double value(double t) {
+    const double g = function_.value(t);
+    found_.meets_zero = found_.meets_zero || g == 0;
+    return g;
+  }
   bool side(double g) const { return function_.strict ? g > 0 : g >= 0; }
   /// How near to 0 a turning point is reported.
   double near() const { return std::max(kTurnsNear * scale_, function_.near); }
@@ -89,7 +93,7 @@ class RootSearch {
     interval(middle, b, halvings + 1);
   }
 
-  bool agrees(const Matrix& c, double a, double b, double most) const {
+  bool agrees(const Matrix& c, double a, double b, double most) {
     if (c.rightCols(2).cwiseAbs().sum() > most) return false;
     return std::all_of(check_points.begin(), check_points.end(), [&](double x) {
       return std::abs(value(chebyshev::outer(x, a, b)) - chebyshev::first(c, x)) <= most;
@@ -153,16 +157,44 @@ class RootSearch {
     if ((found || towards) && std::abs(g) <= near()) found_.turning_points.push_back({t, g, found});
   }
 
+  struct Point {
+    double t = 0;
+    double g = 0;
+  };
+  Point at(double t) { return {t, value(t)}; }
+
+  /// The part of the way from `last` to `other`, on both sides of the root, to try next: by inverse
+  /// quadratic interpolation where it is safe (Chandrupatla 1997), otherwise a half.
+  static double next_part(const Point& last, const Point& other, const Point& before) {
+    const double xi = (last.t - other.t) / (before.t - other.t);
+    const double phi = (last.g - other.g) / (before.g - other.g);
+    if (!(phi * phi < xi && (1 - phi) * (1 - phi) < 1 - xi)) return 0.5;
+    const double part = last.g / (other.g - last.g) * (before.g / (other.g - before.g)) +
+                        (before.t - last.t) / (other.t - last.t) * (last.g / (before.g - last.g)) *
+                            (other.g / (before.g - other.g));
+    return std::isfinite(part) ? part : 0.5;
+  }
+
   /// The root between a and b where the sides differ.
   bool between(double a, double b) {
-    const bool first = side(value(a));
-    if (first == side(value(b))) return false;
-    while (b - a > resolution(a, b)) {
-      const double middle = a + (b - a) / 2;
-      if (middle <= a || middle >= b) break;
-      (side(value(middle)) == first ? a : b) = middle;
+    Point last = at(a);
+    Point other = at(b);
+    if (side(last.g) == side(other.g)) return false;
+    double part = 0.5;
+    while (true) {
+      const double length = std::abs(other.t - last.t);
+      const double finest = resolution(last.t, other.t);
+      if (length <= finest) break;
+      const double least = std::min(finest / length / 2, 0.5);
+      const Point middle = at(last.t + std::clamp(part, least, 1 - least) * (other.t - last.t));
+      if (middle.t == last.t || middle.t == other.t) break;
+      const bool same = side(middle.g) == side(last.g);
+      const Point before = same ? last : other;
+      if (!same) other = last;
+      last = middle;
+      part = next_part(last, other, before);
     }
-    found_.roots.push_back({a, b});
+    found_.roots.push_back({std::min(last.t, other.t), std::max(last.t, other.t)});
     return true;
   }
 
@@ -182,15 +214,17 @@ Found find_roots(const RootFunction& function, double from, double to) {
 Found find_roots(const RootFunction& function, double from, double to,
                  const std::vector<Break>& breaks) {
   if (breaks.empty()) return find_roots(function, from, to);
+  Found all;
   const auto side = [&](double t) {
     const double g = function.value(t);
+    all.meets_zero = all.meets_zero || g == 0;
     return function.strict ? g > 0 : g >= 0;
   };
-  Found all;
   const auto add = [&](double a, double b) {
     if (!(a < b)) return;
     const Found found = find_roots(function, a, b);
     all.whole = all.whole && found.whole;
+    all.meets_zero = all.meets_zero || found.meets_zero;
     all.roots.insert(all.roots.end(), found.roots.begin(), found.roots.end());
     all.turning_points.insert(all.turning_points.end(), found.turning_points.begin(),
                               found.turning_points.end());

@@ -40,6 +40,8 @@ struct RootFunction {
 struct Found {
   /// False: there may be more, for which kPatience points have not sufficed.
   bool whole = true;
+  /// False: g was nowhere exactly 0 where it was evaluated, and both sides have these roots.
+  bool meets_zero = false;
   std::vector<Root> roots;  ///< in rising order
   std::vector<TurningPoint> turning_points;
 };

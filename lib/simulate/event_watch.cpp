@@ -122,9 +122,11 @@ std::vector<double> EventWatch::crossings(
           *hidden = early;
       if (role.of == hybrid::NearTurn::Of::crossing)
         if (const auto left = on_step.leaves_zero(element)) result.push_back(*left);
+      ode::Found found;
       for (const bool strict : {true, false}) {
         if (!(strict ? sides.above : sides.at_least)) continue;
-        const ode::Found found = on_step.roots(element, strict, near);
+        if (strict || !sides.above || found.meets_zero)
+          found = on_step.roots(element, strict, near);
         for (const ode::Root& root : found.roots) result.push_back(root.right);
         for (const ode::TurningPoint& one : found.turning_points) {
           if (!decides(role, inside.at(one.t))) continue;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/number.h"
+#include "base/unit_roundoff.h"
 #include "numbers/dense.h"
 #include "numerics/balance.h"
 #include "ode/chebyshev.h"
@@ -189,7 +190,11 @@ class ExactFlow : public Flow {
     // What has died down to the rounding of rounding is followed no more.
     const auto size = sizes.array() + series_rounding * peaks_.array();
     agrees = (tail.array() <= series_rounding * size).all();
-    return series;
+    // Of flows that are polynomials of a low degree the other coefficients are rounding.
+    Index last = exact_degree;
+    while (last > 1 && (series.col(last).cwiseAbs().array() <= kUnitRoundoff * sizes.array()).all())
+      --last;
+    return series.leftCols(last + 1);
   }
 
   /// What rests is not moved.
@@ -197,7 +202,7 @@ class ExactFlow : public Flow {
     moves_ = VectorXd::Zero(series.rows());
     for (Index k = 0; k < series.rows(); ++k) {
       const auto row = series.row(k);
-      if ((row.tail(exact_degree).array() == 0).all()) continue;
+      if ((row.tail(series.cols() - 1).array() == 0).all()) continue;
       moves_(k) = moved_->of(row.sum(), sizes_(k));
       series(k, 0) += moves_(k) / 2;
       series(k, 1) += moves_(k) / 2;
