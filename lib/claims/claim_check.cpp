@@ -72,7 +72,7 @@ std::string to_string(Judgement judgement) {
 }
 
 Finding ClaimCheck::operator()(const Track& track, bool holds) const {
-  Finding finding = judged(track, holds);
+  Finding finding = judged(track, holds || claim_->always);
   finding.tolerance = claim_->tolerance;
   return finding;
 }
@@ -235,12 +235,18 @@ Finding ClaimCheck::bounded(const Track& track, bool holds) const {
   };
   for (std::size_t k = 0; k < v.size(); ++k) {
     if (!counts(track, k)) continue;
+    Bounded value = v[k];
+    // A start that is the bound, bit by bit, counts as equal; another one may be that of a text,
+    // rounded.
+    const bool is_bound = k == 0 && value.bound == 0 && value.value == b.value;
+    if (k == 0 && value.bound == 0 && !is_bound)
+      value.bound = 8 * kUnitRoundoff * std::abs(value.value);
     const bool zero = b.value == 0;
     const double size = zero ? sizes[k] : scale;
-    const double error = zero ? 2 * v[k].bound : b.bound;
-    const Judgement judgement = above ? compare(b, eased(v[k], size, error), holds)
-                                      : compare(v[k], eased(b, size, error), holds);
-    Finding found = finding_at(track, k, above ? b : v[k], above ? v[k] : b, scale, judgement);
+    const double error = zero ? 2 * value.bound : b.bound;
+    const Judgement judgement = above ? compare(b, eased(value, size, error), holds || is_bound)
+                                      : compare(value, eased(b, size, error), holds || is_bound);
+    Finding found = finding_at(track, k, above ? b : value, above ? value : b, scale, judgement);
     if (above) std::swap(found.value, found.bound);
     const double part = largest > 0 ? sizes[k] / largest : 1;
     const bool drowned =

@@ -96,6 +96,7 @@ struct JudgedClaim {
   double after = 0;                   ///< the time from which on samples count
   std::optional<std::size_t> over{};  ///< the event just after whose jumps alone they do
   double tolerance = 0;               ///< relative; 0: nothing is forgiven
+  bool always = false;                ///< Claim::always
 };
 
 /// Checks one claim, run after run. The claim must outlive it.

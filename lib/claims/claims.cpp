@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/number.h"
+#include "hybrid/event_functions.h"
 #include "hybrid/tolerances.h"
 
 namespace gainsmith::claims {
@@ -46,6 +47,17 @@ Claim claim_of(const model::Design::Claim& claim, const hybrid::System& system) 
   return made;
 }
 
+/// By intervals, in which a run without an escape has its variables.
+bool always_holds(const Claim& claim, const hybrid::System& system) {
+  if (!claim.stated() || !claim.bound || claim.value.shape().size() != 1) return false;
+  constexpr numbers::Range any = {-hybrid::kLargestState, hybrid::kLargestState};
+  numbers::StackedFunctions both = hybrid::stacked({&claim.value, &*claim.bound}, system);
+  if (!both.enclose(numbers::Box(static_cast<std::size_t>(system.whole), any))) return false;
+  const numbers::Range& value = both.range(0, 0);
+  const numbers::Range& bound = both.range(1, 0);
+  return claim.kind == ClaimKind::above ? value.low >= bound.high : value.high <= bound.low;
+}
+
 double after_of(const model::Formula& after, const hybrid::System& system, double horizon) {
   const double t = system.scalar(after);
   if (!(t >= 0)) throw InputError(after.place, "after: a time from 0 on, found " + brief(t));
@@ -68,6 +80,7 @@ std::vector<Claim> claims_of(const model::RunTexts& texts, const hybrid::System&
   for (const model::Design::Claim& claim : texts.claims) {
     Claim& made = claims.emplace_back(claim_of(claim, system));
     if (claim.kind == ClaimKind::shrinks && !has_end) made.missing.emplace_back("campaign.horizon");
+    made.always = always_holds(made, system);
     if (made.stated() && claim.after) made.after = after_of(*claim.after, system, horizon);
   }
   return claims;

@@ -26,6 +26,9 @@ struct Claim {
   double after = 0;                   ///< the time from which on it is claimed
   std::optional<std::size_t> over{};  ///< the event just after whose jumps alone it is
   double tolerance = 0;               ///< relative to the bound (claim_check.h)
+  /// Of `below` and `above`: it holds wherever the states are, as a saturated input does. Its
+  /// constants count as the doubles that they are.
+  bool always = false;
 
   bool stated() const { return missing.empty(); }
 };

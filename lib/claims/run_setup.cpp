@@ -31,6 +31,7 @@ void add_claim(const Claim& claim, RunSetup& setup) {
   judged.after = claim.after;
   judged.over = claim.over;
   judged.tolerance = claim.tolerance;
+  judged.always = claim.always;
   judged.value = static_cast<int>(setup.functions.size());
   judged.is_still = is_still(claim.value, setup.system);
   const auto add = [&](expr::Program program, bool at_ends) {

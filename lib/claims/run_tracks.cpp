@@ -98,7 +98,7 @@ VectorXd RunTracks::values(const VectorXd& x) {
 VectorXd RunTracks::with_rounding(const VectorXd& x, int bit) const {
   VectorXd result = x;
   for (Index e = 0; e < x.size(); ++e) {
-    if (!rounds(e, x(e))) continue;
+    if (!rounds(e, x(e)) || track_.samples() == 0) continue;
     const bool up = ((e >> bit) & 1) == 0;
     result(e) += (up ? 1 : -1) * (4 + rounded_) * kUnitRoundoff * std::abs(x(e));
   }
@@ -300,7 +300,9 @@ void RunTracks::widen(std::size_t first) {
         around = std::fmax(around, own(f, seen[static_cast<std::size_t>(other)]));
       const double value =
           track_.at(first + static_cast<std::size_t>(k), static_cast<int>(f)).value;
-      if (around == 0 && rounding(f, k) == 0 && is_exact_whole(value)) continue;
+      // The start is as it is drawn.
+      const bool is_exact = first + static_cast<std::size_t>(k) == 0 || is_exact_whole(value);
+      if (around == 0 && rounding(f, k) == 0 && is_exact) continue;
       bounds(f, k) = factor * around + 8 * kUnitRoundoff * std::abs(value) + rounding(f, k);
     }
   }

@@ -72,7 +72,9 @@ ClaimLane::Known ClaimLane::known(const Reading& reading, bool jumped) {
 
 void ClaimLane::at(double t, const Reading& reading, std::optional<std::size_t> event) {
   const bool is_jump = event.has_value();
-  const Known value = known(reading, is_jump);
+  Known value = known(reading, is_jump);
+  const bool is_bound = value.value == limit_ && reading.fine == reading.coarse;
+  if (!is_jump && claim_->starts_exact && is_bound) value.error = 0;
   if (!claims::is_after(t, is_jump, claim_->after) || (claim_->over && event != claim_->over))
     return;
   const double change = sampled_ && is_jump && !claim_->over ? value.value - last_.value : kNever;
@@ -160,6 +162,9 @@ void ClaimLane::compare_within(const StepSamples& samples, const StepPolynomial&
   if (breaks) possible_score_ = std::max(possible_score_, score_of(along.largest() + error));
   const bool may_exceed = along.largest() + error > most;
   if (!may_exceed && score_of(along.largest()) <= score_) return;
+  // From a start that has been compared; noise drawn anew makes a start that has not.
+  const bool is_known = score_of(along.coefficients().front()) <= score_;
+  if (is_known && !breaks && along.falls(4 * along.error())) return;
   const double highest = along.highest();
   score_ = std::max(score_, score_of(highest));
   // The careful run compares costs at samples alone.

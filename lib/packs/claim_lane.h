@@ -37,8 +37,8 @@ class ClaimLane {
              bool breaks, bool halved);
   void finish();
 
-  bool open() const { return open_; }
-  bool violated() const { return violated_; }
+  bool open() const { return open_ && !claim_->always; }
+  bool violated() const { return violated_ && !claim_->always; }
   bool sampled() const { return sampled_; }
   double score() const { return score_; }
   double floor() const { return floor_; }

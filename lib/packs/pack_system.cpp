@@ -154,6 +154,7 @@ class PointCode {
     made.after = claim.after;
     made.over = claim.over;
     made.tolerance = claim.tolerance;
+    made.always = claim.always;
     if (claim.kind == model::ClaimKind::cost) return add_cost(claim);
     const auto square = is_compared_once(claim) ? expr::square_of_norm(claim.value) : std::nullopt;
     made.squared = square.has_value();
@@ -163,6 +164,7 @@ class PointCode {
     watch_peaks(value.value[0]);
     push(PackSystem::claim_rates, value.slopes[0][0]);
     made.rests = texts_.graph().is_zero(value.slopes[0][0]);
+    made.starts_exact = is_exact(value.value[0]);
     push(PackSystem::claim_terms, texts_.value(hybrid::absolute_terms(text), x_).value[0]);
     const auto moves = [&](const std::string& name) { return pack_.system->is_moving(name); };
     for (const expr::Branch& branch : expr::branches_of(text, moves))
@@ -239,6 +241,24 @@ class PointCode {
     return claim.tolerance == 0 &&
            (claim.kind == ClaimKind::below || claim.kind == ClaimKind::above ||
             claim.kind == ClaimKind::shrinks);
+  }
+
+  /// Of values that are exact: whether it is one of them, or its size, or the largest of some.
+  bool is_exact(int node) {
+    const ScalarGraph::Node one = texts_.graph().nodes()[index(node)];
+    switch (one.op) {
+      case ScalarOp::input:
+      case ScalarOp::constant:
+        return true;
+      case ScalarOp::abs:
+      case ScalarOp::negate:
+        return is_exact(one.a);
+      case ScalarOp::minimum:
+      case ScalarOp::maximum:
+        return is_exact(one.a) && is_exact(one.b);
+      default:
+        return false;
+    }
   }
 
   LaneCode without(std::initializer_list<PackSystem::PointResult> left_out) {

@@ -69,6 +69,8 @@ struct PackClaim {
   double after = 0;
   std::optional<std::size_t> over;
   double tolerance = 0;
+  bool always = false;                ///< it holds wherever the states are
+  bool starts_exact = false;          ///< no operation on the values at the start rounds
   bool rests = false;                 ///< along flows: jumps alone change it
   bool squared = false;               ///< the value is the square of the claim's, a norm
   std::vector<std::size_t> branches;  ///< extras: what its value branches on

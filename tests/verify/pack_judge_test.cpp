@@ -120,6 +120,27 @@ campaign: {horizon: 1, initial: {x: {box: [1, 2]}}, runs: )yaml";
   }
 }
 
+/// Held at a bound that a saturated input reaches, and at a start that is the bound.
+TEST(PackJudge, WhatHoldsWhereverStatesAreIsHeld) {
+  const std::string text = R"yaml(problem: p
+method:
+  method: m
+  data: {most: scalar}
+  plant: {state: {x: 2}, flow: {x: "[x(2); clip(-5*x(1) - 3*x(2), -most, most)]"}}
+  claims:
+    limits: {below: "abs(clip(-5*x(1) - 3*x(2), -most, most))", bound: most}
+    sign: {above: sign(x(1)), bound: -1}
+    branch: {above: "where(x(1) > 0.2, most, 0)", bound: 0}
+    start: {below: "max(abs(x))", bound: 0.9}
+data: {most: 0.7}
+campaign: {horizon: 8, initial: {x: {box: [[-0.9, 0.05], [-0.9, 0.1]]}}, runs: )yaml";
+  for (const char* runs : {"5}", "100}"}) {
+    const Report report = run_campaign(*make_setup(bind::bind(io::read_problem(text + runs)), {}));
+    EXPECT_EQ(report.verdict, model::CampaignVerdict::held);
+    EXPECT_EQ(std::accumulate(report.open.begin(), report.open.end(), std::uint64_t{0}), 0U);
+  }
+}
+
 /// The error of a dead-beat observer is 0 from its third sample on, up to rounding of either sign.
 /// States of 1e16 are whole numbers, and round nevertheless.
 TEST(Judge, ATieIsNotViolatedByChance) {
