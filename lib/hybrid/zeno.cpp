@@ -26,38 +26,35 @@ void ZenoDetector::push(double t, double length, std::size_t event, const Eigen:
   longest_ = std::max(longest_, length);
   const bool has_clock = system_->has_clock(event);
   short_flows_ = length < kHardly * horizon_ && !has_clock ? short_flows_ + 1 : 0;
-  if (flows_.size() < kRatios + longest_period)
-    flows_.emplace_back();
-  else
-    std::rotate(flows_.begin(), flows_.begin() + 1, flows_.end());
-  Flow& last = flows_.back();
+  Flow& last = flows_[next_];
+  next_ = (next_ + 1) % kKept;
+  count_ = std::min(count_ + 1, kKept);
   last.length = length;
   last.event = event;
   last.state = values(rows_);
 }
 
+void ZenoDetector::start_over() {
+  t_ = longest_ = 0;
+  short_flows_ = count_ = next_ = 0;
+  sizes_.setZero();
+}
+
 bool ZenoDetector::settles(std::size_t period) const {
-  const Eigen::VectorXd change = flows_.back().state - before(period).state;
+  const Eigen::VectorXd change = before(0).state - before(period).state;
   return (change.array().abs() <= kSteady * sizes_.array()).all();
 }
 
 double ZenoDetector::last(std::size_t period) const {
   double sum = 0;
-  for (std::size_t k = flows_.size() - period; k < flows_.size(); ++k) sum += flows_[k].length;
+  for (std::size_t k = period; k-- > 0;) sum += before(k).length;
   return sum;
 }
 
-/// Whether little may be left: a steady factor is no smaller than the last ratio by more than
-/// kSteady.
-bool ZenoDetector::is_near(std::size_t period) const {
-  if (flows_.size() <= period) return false;
-  const double r = flows_.back().length / before(period).length - kSteady;
-  return r < 1 && last(period) * r <= kLeftOver * t_ * (1 - r);
-}
-
 std::optional<double> ZenoDetector::accumulation() const {
-  for (std::size_t period = 1; period <= longest_period; ++period) {
-    if (!is_near(period)) continue;
+  for (std::size_t period = 1; period <= kLongestPeriod; ++period) {
+    if (count_ <= period || !is_near(last(period), before(0).length, before(period).length, t_))
+      continue;
     for (std::size_t ratios = kRatios; ratios >= kFewestRatios; --ratios)
       if (const auto left = steady_rest(period, ratios);
           left && (*left <= kNothingLeft * t_ || (*left <= kLeftOver * t_ && settles(period))))
@@ -69,18 +66,18 @@ std::optional<double> ZenoDetector::accumulation() const {
 /// What is left where the last so many ratios agree: twelve, or as many as leave nothing
 /// of a length.
 std::optional<double> ZenoDetector::steady_rest(std::size_t period, std::size_t ratios) const {
-  if (flows_.size() < ratios + period) return std::nullopt;
+  if (count_ < ratios + period) return std::nullopt;
   double smallest = 2;
   double largest = 0;
-  for (std::size_t k = flows_.size() - ratios; k < flows_.size(); ++k) {
-    const double ratio = flows_[k].length / flows_[k - period].length;
+  for (std::size_t k = ratios; k-- > 0;) {
+    const double ratio = before(k).length / before(k + period).length;
     smallest = std::min(smallest, ratio);
     largest = std::max(largest, ratio);
   }
   if (!(largest < 1) || largest - smallest > kSteady * (1 - largest)) return std::nullopt;
   // The last ratio errs by rounding most: the mean over all of them.
   const std::size_t periods = ratios / period;
-  const double all = flows_.back().length / before(periods * period).length;
+  const double all = before(0).length / before(periods * period).length;
   if (ratios < kRatios && all > kLeftOver) return std::nullopt;
   const double r = std::pow(all, 1 / static_cast<double>(periods));
   return last(period) * r / (1 - r);
@@ -88,9 +85,9 @@ std::optional<double> ZenoDetector::steady_rest(std::size_t period, std::size_t 
 
 std::vector<std::size_t> ZenoDetector::events() const {
   std::vector<std::size_t> result;
-  for (const Flow& flow : flows_)
-    if (std::find(result.begin(), result.end(), flow.event) == result.end())
-      result.push_back(flow.event);
+  for (std::size_t k = count_; k-- > 0;)
+    if (std::find(result.begin(), result.end(), before(k).event) == result.end())
+      result.push_back(before(k).event);
   return result;
 }
 

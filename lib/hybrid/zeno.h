@@ -10,6 +10,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -32,14 +33,24 @@ class ZenoDetector {
 
   /// The time at which jumps accumulate, when lengths shrink by a steady factor.
   std::optional<double> accumulation() const;
+  /// Whether little may be left after a period of flows whose last one is so long: a steady factor
+  /// is no smaller than the last ratio by more than kSteady.
+  static bool is_near(double period, double length, double length_before, double t) {
+    const double r = length / length_before - kSteady;
+    return r < 1 && period * r <= kLeftOver * t * (1 - r);
+  }
+  /// As if nothing had been pushed.
+  void start_over();
+
+  static constexpr std::size_t kLongestPeriod = 3;
+  static constexpr std::size_t kKept = kRatios + kLongestPeriod;  ///< so many flows count
   bool chatters() const { return short_flows_ >= kInARow; }
   /// The length of the last flow, as a part of the longest one.
-  double shrinkage() const { return flows_.empty() ? 1 : flows_.back().length / longest_; }
+  double shrinkage() const { return count_ == 0 ? 1 : before(0).length / longest_; }
   /// The events of the last flows, each once, in order.
   std::vector<std::size_t> events() const;
 
  private:
-  static constexpr std::size_t longest_period = 3;
   struct Flow {
     double length = 0;
     std::size_t event = 0;  ///< that ended it
@@ -47,9 +58,8 @@ class ZenoDetector {
   };
   std::optional<double> steady_rest(std::size_t period, std::size_t ratios) const;
   bool settles(std::size_t period) const;
-  bool is_near(std::size_t period) const;
-  /// So many flows before the last.
-  const Flow& before(std::size_t count) const { return flows_[flows_.size() - 1 - count]; }
+  /// So many flows before the last, below `count_`.
+  const Flow& before(std::size_t count) const { return flows_[(next_ + kKept - 1 - count) % kKept]; }
   /// The sum of the last lengths.
   double last(std::size_t period) const;
 
@@ -59,7 +69,9 @@ class ZenoDetector {
   double t_ = 0;
   double longest_ = 0;
   std::size_t short_flows_ = 0;  ///< in a row
-  std::vector<Flow> flows_;  ///< the last ones, as many as count
+  std::array<Flow, kKept> flows_;  ///< the last ones
+  std::size_t count_ = 0;          ///< of them
+  std::size_t next_ = 0;           ///< where the next one goes
   Eigen::VectorXd sizes_;  ///< the largest of each state so far
 };
 

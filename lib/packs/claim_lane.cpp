@@ -174,6 +174,17 @@ void ClaimLane::compare_within(const StepSamples& samples, const StepPolynomial&
   if (highest + error > most && !certain) open_ = true;
 }
 
+void ClaimLane::finish(const Course& course) {
+  sampled_ = course.sampled;
+  violated_ = course.violated;
+  floor_ = course.floor;
+  first_ = {course.first, course.first_error};
+  last_ = {course.last, course.last_error};
+  const bool is_bounded = claim_->kind == ClaimKind::below || claim_->kind == ClaimKind::above;
+  if (sampled_ && is_bounded) score_ = score_of(course.peak);
+  finish();
+}
+
 void ClaimLane::finish() {
   if (!sampled_ || open_) return;
   // How near a run comes is what the worst one is chosen by.

@@ -36,6 +36,16 @@ class ClaimLane {
   void along(double t, const StepSamples& samples, const StepPolynomial& along, const Reading& end,
              bool breaks, bool halved);
   void finish();
+  /// What a run made otherwise came to; values with the sign that they are compared with.
+  struct Course {
+    bool sampled = true, violated = false;
+    double peak = 0;  ///< the largest value
+    double first = 0, first_error = 0, last = 0, last_error = 0;
+    double floor = 0;
+  };
+  void finish(const Course& course);
+  /// With what values are compared, with their sign.
+  double limit() const { return limit_; }
 
   bool open() const { return open_ && !claim_->always; }
   bool violated() const { return violated_ && !claim_->always; }

@@ -54,17 +54,17 @@ LaneSet::LaneSet(const PackSystem& pack)
   }
 }
 
-std::vector<PackVerdict> LaneSet::run(std::uint64_t seed, std::uint64_t first, std::uint64_t last) {
+void LaneSet::run(std::uint64_t seed, std::uint64_t first, std::vector<PackVerdict>& verdicts) {
   seed_ = seed;
   first_ = first;
-  verdicts_.assign(static_cast<std::size_t>(last - first), {});
+  verdicts_.swap(verdicts);
   for (const PackAccuracy& accuracy : kAccuracies) {
     waiting_.clear();
-    for (std::uint64_t run = last; run-- > first;)
-      if (verdicts_[static_cast<std::size_t>(run - first)].open) waiting_.push_back(run);
-    run_waiting(accuracy);
+    for (std::size_t k = verdicts_.size(); k-- > 0;)
+      if (verdicts_[k].open) waiting_.push_back(first + k);
+    if (!waiting_.empty()) run_waiting(accuracy);
   }
-  return std::move(verdicts_);
+  verdicts_.swap(verdicts);
 }
 
 void LaneSet::run_waiting(const PackAccuracy& accuracy) {

@@ -16,7 +16,8 @@ namespace gainsmith::packs {
 class LaneSet {
  public:
   explicit LaneSet(const PackSystem& pack);
-  std::vector<PackVerdict> run(std::uint64_t seed, std::uint64_t first, std::uint64_t last);
+  /// Decides those of the runs from `first` on whose verdicts are open.
+  void run(std::uint64_t seed, std::uint64_t first, std::vector<PackVerdict>& verdicts);
 
  private:
   void run_waiting(const PackAccuracy& accuracy);

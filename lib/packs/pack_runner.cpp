@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "packs/flight_runner.h"
 #include "packs/lane_set.h"
 
 namespace gainsmith::packs {
@@ -30,14 +31,19 @@ bool PackVerdict::violated() const {
   return std::any_of(claims.begin(), claims.end(), [](const Claim& one) { return one.violated; });
 }
 
-PackRunner::PackRunner(const PackSystem& system) : lanes_(std::make_unique<LaneSet>(system)) {}
+PackRunner::PackRunner(const PackSystem& system) : lanes_(std::make_unique<LaneSet>(system)) {
+  if (system.flights) flights_ = std::make_unique<FlightRunner>(system);
+}
 PackRunner::PackRunner(PackRunner&&) noexcept = default;
 PackRunner& PackRunner::operator=(PackRunner&&) noexcept = default;
 PackRunner::~PackRunner() = default;
 
 std::vector<PackVerdict> PackRunner::run(std::uint64_t seed, std::uint64_t first,
                                          std::uint64_t last) {
-  return lanes_->run(seed, first, last);
+  std::vector<PackVerdict> verdicts(static_cast<std::size_t>(last - first));
+  if (flights_) verdicts = flights_->run(seed, first, last);
+  lanes_->run(seed, first, verdicts);
+  return verdicts;
 }
 
 }  // namespace gainsmith::packs

@@ -55,6 +55,7 @@ struct PackVerdict {
   bool violated() const;
 };
 
+class FlightRunner;
 class LaneSet;
 
 class PackRunner {
@@ -69,7 +70,8 @@ class PackRunner {
   std::vector<PackVerdict> run(std::uint64_t seed, std::uint64_t first, std::uint64_t last);
 
  private:
-  std::unique_ptr<LaneSet> lanes_;
+  std::unique_ptr<FlightRunner> flights_;  ///< none: no flow has a closed form
+  std::unique_ptr<LaneSet> lanes_;         ///< for what they leave open
 };
 
 }  // namespace gainsmith::packs

@@ -213,7 +213,7 @@ class PointCode {
       push(PackSystem::watch_values, node);
       push(PackSystem::watch_rates, value.slopes[0][e]);
       push(PackSystem::watch_terms, terms[e]);
-      pack_.watches.push_back({moves, {}});
+      pack_.watches.push_back({moves, &difference, e, {}});
     }
     return made;
   }
@@ -390,6 +390,7 @@ std::unique_ptr<const PackSystem> make_pack_system(const hybrid::System& system,
     pack->events[e].jump.emplace(jump_code(*pack, e, false));
     if (system.dynamics.events[e].lost > 0) pack->events[e].lost.emplace(jump_code(*pack, e, true));
   }
+  pack->flights = make_flights(*pack, claims);
   return pack;
 }
 

@@ -22,6 +22,7 @@
 #include "hybrid/scenario.h"
 #include "hybrid/system.h"
 #include "lanes/machine.h"
+#include "packs/flight_system.h"
 #include "packs/pack_graph.h"
 
 namespace gainsmith::packs {
@@ -42,6 +43,8 @@ struct Watch {
     bool strict = true;  ///< of `where`: D > 0, otherwise D >= 0
   };
   bool moves = true;  ///< otherwise it is the same along a flow, and exact
+  const expr::Program* of = nullptr;  ///< of which it is an element
+  std::size_t element_of = 0;
   std::vector<Branch> branches;
 };
 
@@ -96,6 +99,7 @@ struct PackSystem {
   std::optional<lanes::LaneCode> point, coarse_point, between_points;
   /// Of claims, then of watches, over a step (step_polynomial.h).
   std::optional<lanes::LaneCode> polynomials;
+  std::optional<FlightSystem> flights;  ///< in closed form, where they have one
 
   /// Results of `step`.
   enum StepResult : std::size_t { end, error };

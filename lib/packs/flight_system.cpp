@@ -1,0 +1,585 @@
+#include "packs/flight_system.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "base/unit_roundoff.h"
+#include "claims/tolerances.h"
+#include "expr/square_of_norm.h"
+#include "hybrid/tolerances.h"
+#include "numbers/scalar_rules.h"
+#include "packs/flight_series.h"
+#include "packs/pack_system.h"
+#include "packs/tolerances.h"
+
+namespace gainsmith::packs {
+
+using lanes::LaneCode;
+using model::ClaimKind;
+using model::Dynamics;
+using numbers::NoFormula;
+using numbers::ScalarGraph;
+using numbers::ScalarOp;
+
+namespace {
+
+/// Operations on nodes. What is true is 1, what is false 0; a comparison with no number is false.
+class Terms {
+ public:
+  explicit Terms(ScalarGraph& graph) : graph_(graph) {}
+
+  int number(double value) { return graph_.constant(value); }
+  int add(int a, int b) { return graph_.add(a, b); }
+  int minus(int a, int b) { return graph_.subtract(a, b); }
+  int times(int a, int b) { return graph_.multiply(a, b); }
+  int part(double a, int b) { return graph_.multiply(number(a), b); }
+  int abs(int a) { return graph_.apply(ScalarOp::abs, a); }
+  int most(int a, int b) { return graph_.apply(ScalarOp::maximum, a, b); }
+  int least(int a, int b) { return graph_.apply(ScalarOp::minimum, a, b); }
+  int root(int a) { return graph_.apply(ScalarOp::sqrt, most(a, number(0))); }
+  /// What is true picks the first.
+  int pick(int is, int a, int b) { return graph_.where(true, is, a, b); }
+  int is_positive(int a) { return graph_.where(true, a, number(1), number(0)); }
+  int is_at_least_0(int a) { return graph_.where(false, a, number(1), number(0)); }
+  int is_equal(int a, double b) {
+    return minus(number(1), is_positive(abs(minus(a, number(b)))));
+  }
+  int both(int a, int b) { return times(a, b); }
+  int either(int a, int b) { return most(a, b); }
+  int no(int a) { return minus(number(1), a); }
+  /// a/b; `otherwise` where b is 0.
+  int quotient(int a, int b, double otherwise) {
+    const int is = is_positive(abs(b));
+    return pick(is, graph_.divide(a, pick(is, b, number(1))), number(otherwise));
+  }
+  int sign(int a) { return pick(is_positive(a), number(1), number(-1)); }
+
+ private:
+  ScalarGraph& graph_;
+};
+
+constexpr double never = 1e300;
+/// Of all watches: each asks for all conditions.
+constexpr std::size_t most_roots = 8;
+
+/// A polynomial in both runs, from the start of a flight of the first on.
+struct Pair {
+  Series first;
+  Nodes second;
+};
+
+/// Whether something is certainly so, and whether it may be.
+struct Certainty {
+  int certain = 0, possible = 0;
+};
+
+/// On which side of 0 a watch is just after a moment, and whether that is certain.
+struct Side {
+  int sign = 0, known = 0;
+};
+
+class FlightCode {
+ public:
+  FlightCode(const PackSystem& pack, FlightSystem& made)
+      : pack_(pack),
+        made_(made),
+        texts_(*pack.system, pack.costs),
+        graph_(texts_.graph()),
+        is_(graph_),
+        first_(texts_, texts_.inputs(), true),
+        second_(texts_, second_inputs(), false) {
+    made_.whole = pack.whole;
+    made_.rows = pack.rows.size();
+    made_.claims = pack.claims.size();
+    for (std::size_t e = 0; e < pack.events.size(); ++e)
+      if (pack.events[e].crossing) made_.crossings.push_back(e);
+    ok_ = is_.number(1);
+    shift_ = input(made_.at(FlightSystem::shift));
+  }
+
+  void make(const std::vector<claims::Claim>& claims) {
+    for (const Watch& watch : pack_.watches)
+      watches_.push_back(pair(first_.of(*watch.of, watch.element_of), second_.of(*watch.of, watch.element_of)));
+    find_sides();
+    find_event();
+    std::size_t c = 0;
+    std::vector<Nodes> results(FlightSystem::results);
+    for (const claims::Claim& claim : claims)
+      if (claim.stated()) judge(claim, c++, results[FlightSystem::fields]);
+    for (std::size_t k = 0; k < pack_.rows.size(); ++k) {
+      const Pair row = pair(first_.of_value(index(pack_.rows[k])), second_.of_value(index(pack_.rows[k])));
+      const int size = first_.at(row.first.size, length_);
+      const int moved = is_.part(kMoved, is_.times(size, input(made_.sign_of_row(k))));
+      results[FlightSystem::ends].push_back(first_.at(row.first.value, length_));
+      results[FlightSystem::other_ends].push_back(is_.add(first_.at(row.second, other_length_), moved));
+      require(is_.minus(is_.number(hybrid::kLargestState), size));
+    }
+    for (std::size_t k = 0; k < pack_.whole; ++k)
+      results[FlightSystem::largest].push_back(first_.at(first_.of_value(k).size, length_));
+    results[FlightSystem::flight] = {length_, is_.minus(other_length_, length_), event_, ok_};
+    for (const std::size_t e : made_.crossings)
+      results[FlightSystem::sides_after].push_back(sides_after_[pack_.events[e].crossing->watch]);
+    std::optional<std::uint32_t> fed_back;
+    if (made_.claims > 0) fed_back = static_cast<std::uint32_t>(made_.field_of(0, FlightSystem::peak));
+    made_.code.emplace(graph_, results, made_.all_inputs(), fed_back);
+  }
+
+ private:
+  int input(std::size_t position) { return graph_.input(static_cast<int>(position)); }
+
+  Nodes second_inputs() {
+    Nodes x;
+    for (std::size_t k = 0; k < pack_.whole; ++k)
+      x.push_back(input(pack_.whole + index(texts_.kept(static_cast<int>(k)))));
+    return x;
+  }
+
+  /// What is positive is required.
+  void require(int node) { ok_ = is_.both(ok_, is_.is_positive(node)); }
+  void require_true(int truth) { ok_ = is_.both(ok_, truth); }
+
+  /// The second run is moved back to the time of the first, to first order.
+  Pair pair(const Series& first, const Series& second) {
+    Pair made{first, second.value};
+    for (std::size_t j = 0; j + 1 < made.second.size(); ++j)
+      made.second[j] = is_.minus(
+          second.value[j],
+          is_.times(is_.part(static_cast<double>(j + 1), shift_), second.value[j + 1]));
+    made.second.resize(made.first.value.size(), is_.number(0));
+    return made;
+  }
+
+  /// Of coefficient j.
+  int error_of(const Pair& one, std::size_t j) {
+    const int apart = is_.abs(is_.minus(one.first.value[j], one.second[j]));
+    return is_.add(is_.part(kErrorOfFlights, apart), is_.part(hybrid::kTermRounding, one.first.size[j]));
+  }
+
+  // --- Sides and roots. ---
+
+  /// Just after the start. What is 0 within its error is on the side to which it moves.
+  void find_sides() {
+    for (std::size_t w = 0; w < watches_.size(); ++w) {
+      const Pair& watch = watches_[w];
+      const int value = watch.first.value[0];
+      if (!pack_.watches[w].moves) {
+        require_true(is_.is_equal(is_.minus(value, watch.second[0]), 0));
+        rests_.push_back(value);
+        sides_.push_back({is_.sign(value), is_.number(1)});
+        near_0_.push_back(is_.number(0));
+        continue;
+      }
+      rests_.push_back(-1);
+      const int error = error_of(watch, 0);
+      const int clear = is_.is_positive(is_.minus(is_.abs(value), error));
+      near_0_.push_back(is_.no(clear));
+      int side = is_.sign(value);
+      if (watch.first.degree() > 0) {
+        const int rate = watch.first.value[1];
+        const int leaves = is_.is_positive(is_.minus(is_.abs(rate), error_of(watch, 1)));
+        side = is_.pick(clear, side, is_.sign(rate));
+        require_true(is_.either(clear, leaves));
+      } else {
+        require_true(clear);
+      }
+      sides_.push_back({side, is_.number(1)});
+    }
+  }
+
+  /// A root of a watch, in both runs; below 0: none.
+  struct Candidate {
+    int first = 0, second = 0;
+    std::size_t watch = 0;
+  };
+
+  void add_candidates(std::size_t w, std::vector<Candidate>& candidates) {
+    const Pair& watch = watches_[w];
+    const std::size_t degree = watch.first.degree();
+    if (!pack_.watches[w].moves || degree == 0) return;
+    if (degree > 2) throw NoFormula();
+    const int none = is_.number(-1);
+    if (degree == 1) {
+      const auto root = [&](const Nodes& c) {
+        return is_.pick(near_0_[w], none, is_.quotient(is_.minus(is_.number(0), c[0]), c[1], -1));
+      };
+      candidates.push_back({root(watch.first.value), root(watch.second), w});
+      return;
+    }
+    const Nodes& c = watch.first.value;
+    const int discriminant = is_.minus(is_.times(c[1], c[1]), is_.part(4, is_.times(c[0], c[2])));
+    const int size = is_.add(is_.times(c[1], c[1]), is_.part(4, is_.abs(is_.times(c[0], c[2]))));
+    const int error = is_.add(
+        is_.part(2, is_.times(is_.abs(c[1]), error_of(watch, 1))),
+        is_.part(4, is_.add(is_.times(is_.abs(c[0]), error_of(watch, 2)),
+                             is_.times(is_.abs(c[2]), error_of(watch, 0)))));
+    const int margin = is_.add(error, is_.part(kTouches, size));
+    const int has_roots = is_.is_positive(is_.minus(discriminant, margin));
+    // A touch is left open, unless all of it rests.
+    require_true(is_.either(is_.either(has_roots, near_0_[w]), is_.is_positive(is_.minus(is_.minus(is_.number(0), discriminant), margin))));
+    const auto roots = [&](const Nodes& of) {
+      const int d = is_.minus(is_.times(of[1], of[1]), is_.part(4, is_.times(of[0], of[2])));
+      const int q = is_.part(-0.5, is_.add(of[1], is_.times(is_.sign(of[1]), is_.root(d))));
+      return std::array<int, 2>{is_.quotient(q, of[2], -1), is_.quotient(of[0], q, -1)};
+    };
+    const std::array<int, 2> first = roots(c);
+    const std::array<int, 2> second = roots(watch.second);
+    const int both = is_.either(has_roots, near_0_[w]);
+    candidates.push_back({is_.pick(both, first[0], none), second[0], w});
+    // Of what starts at 0 the other root is the start.
+    candidates.push_back({is_.pick(is_.both(both, is_.no(near_0_[w])), first[1], none), second[1], w});
+  }
+
+  /// The sides just after a root.
+  std::vector<Side> sides_after(const Candidate& one) {
+    std::vector<Side> sides;
+    for (std::size_t w = 0; w < watches_.size(); ++w) {
+      const Pair& watch = watches_[w];
+      if (!pack_.watches[w].moves) {
+        sides.push_back(sides_[w]);
+        continue;
+      }
+      if (w == one.watch) {
+        int rate = watch.first.value[1];
+        if (watch.first.degree() == 2)
+          rate = is_.add(rate, is_.part(2, is_.times(watch.first.value[2], one.first)));
+        sides.push_back({is_.sign(rate), is_.number(1)});
+        continue;
+      }
+      const int value = first_.at(watch.first.value, one.first);
+      const int apart = is_.abs(is_.minus(value, first_.at(watch.second, one.second)));
+      const int error = is_.add(is_.part(kErrorOfFlights, apart),
+                                is_.part(hybrid::kTermRounding, first_.at(watch.first.size, one.first)));
+      sides.push_back({is_.sign(value), is_.is_positive(is_.minus(is_.abs(value), error))});
+    }
+    return sides;
+  }
+
+  Certainty truth(const WatchedCondition& condition, const std::vector<Side>& sides) {
+    using Kind = expr::Condition::Kind;
+    const int one = is_.number(1);
+    const int zero = is_.number(0);
+    if (condition.kind == Kind::none) {
+      const Certainty inner = truth(condition.parts.front(), sides);
+      return {is_.no(inner.possible), is_.no(inner.certain)};
+    }
+    if (condition.kind == Kind::any) {
+      Certainty made{zero, zero};
+      for (const WatchedCondition& part : condition.parts) {
+        const Certainty inner = truth(part, sides);
+        made = {is_.either(made.certain, inner.certain), is_.either(made.possible, inner.possible)};
+      }
+      return made;
+    }
+    Certainty made{one, one};
+    for (const WatchedCondition& part : condition.parts) {
+      const Certainty inner = truth(part, sides);
+      made = {is_.both(made.certain, inner.certain), is_.both(made.possible, inner.possible)};
+    }
+    for (const Watched& element : condition.elements) {
+      if (!pack_.watches[element.watch].moves) {
+        const int value = is_.part(element.factor, rests_[element.watch]);
+        const int holds = condition.kind == Kind::positive      ? is_.is_positive(value)
+                          : condition.kind == Kind::nonnegative ? is_.is_at_least_0(value)
+                                                                : is_.is_equal(value, 0);
+        made = {is_.both(made.certain, holds), is_.both(made.possible, holds)};
+        continue;
+      }
+      const Side& side = sides[element.watch];
+      const int holds = is_.is_positive(is_.part(element.factor, side.sign));
+      made = {is_.both(made.certain, is_.both(holds, side.known)),
+              is_.both(made.possible, is_.either(holds, is_.no(side.known)))};
+    }
+    return made;
+  }
+
+  // --- The event that ends the flight. ---
+
+  void find_event() {
+    std::vector<Side> at_start = sides_;
+    for (std::size_t w = 0; w < at_start.size(); ++w) at_start[w].known = is_.no(near_0_[w]);
+    for (std::size_t e = 0; e < pack_.events.size(); ++e) {
+      const PackEvent& event = pack_.events[e];
+      if (event.when) require_true(is_.no(truth(*event.when, at_start).possible));
+      if (event.crossing) require_no_crossing(e);
+    }
+    for (const WatchedCondition& set : pack_.flow_sets) require_true(truth(set, sides_).certain);
+    std::vector<Candidate> candidates;
+    for (std::size_t w = 0; w < watches_.size(); ++w) add_candidates(w, candidates);
+    if (candidates.size() > most_roots) throw NoFormula();
+    int first = is_.number(never), second = first, sure = is_.number(0);
+    event_ = is_.number(-1);
+    for (const Side& side : sides_) sides_after_.push_back(side.sign);
+    for (const Candidate& one : candidates) {
+      const std::vector<Side> sides = sides_after(one);
+      Due due = due_at(one, sides);
+      const int is_before = is_.is_positive(is_.minus(first, one.first));
+      const int takes = is_.both(is_.both(is_.is_positive(one.first), due.possible), is_before);
+      first = is_.pick(takes, one.first, first);
+      second = is_.pick(takes, one.second, second);
+      sure = is_.pick(takes, due.sure, sure);
+      event_ = is_.pick(takes, due.event, event_);
+      for (std::size_t w = 0; w < sides.size(); ++w)
+        sides_after_[w] = is_.pick(takes, sides[w].sign, sides_after_[w]);
+    }
+    const int rest = input(made_.at(FlightSystem::rest));
+    const int ends = is_.is_positive(is_.minus(first, rest));  // at the horizon
+    require_true(is_.either(ends, sure));
+    require(is_.minus(is_.abs(is_.minus(first, rest)),
+                      is_.number(hybrid::kHardly * pack_.scenario->horizon)));
+    event_ = is_.pick(ends, is_.number(-1), event_);
+    length_ = is_.pick(ends, rest, first);
+    other_length_ = is_.pick(ends, rest, second);
+    require(is_.minus(is_.part(kApart, length_), is_.abs(is_.minus(other_length_, length_))));
+  }
+
+  /// Neither the start nor a jump of another event has led through 0 in its direction.
+  void require_no_crossing(std::size_t e) {
+    const Watched& crossing = *pack_.events[e].crossing;
+    const auto found = std::find(made_.crossings.begin(), made_.crossings.end(), e);
+    const int before = input(made_.side_before(static_cast<std::size_t>(found - made_.crossings.begin())));
+    const int own = is_.either(input(made_.at(FlightSystem::fresh)),
+                               is_.is_equal(input(made_.at(FlightSystem::jumped)), static_cast<double>(e)));
+    const int same = is_.is_positive(is_.times(before, sides_[crossing.watch].sign));
+    // What starts at 0 and leaves it in the direction of the event is unusual.
+    const int away = is_.either(is_.no(near_0_[crossing.watch]), is_.no(wanted(e, sides_[crossing.watch].sign)));
+    require_true(is_.both(is_.either(own, same), away));
+  }
+
+  /// Whether an event waits for a crossing to this side.
+  int wanted(std::size_t e, int side) {
+    using Kind = Dynamics::EventKind;
+    const Kind kind = pack_.system->dynamics.events[e].kind;
+    if (kind == Kind::crosses) return is_.number(1);
+    const int own = is_.part(pack_.events[e].crossing->factor, side);
+    return is_.is_positive(kind == Kind::rises ? own : is_.minus(is_.number(0), own));
+  }
+
+  struct Due {
+    int possible = 0, sure = 0, event = 0;
+  };
+  /// The first event that may be due, and whether it is. A flow set that is left is none.
+  Due due_at(const Candidate& one, const std::vector<Side>& sides) {
+    Due due{is_.number(0), is_.number(0), is_.number(-1)};
+    const auto add = [&](const Certainty& is, double event) {
+      const int is_new = is_.both(is_.no(due.possible), is.possible);
+      due.sure = is_.pick(is_new, is.certain, due.sure);
+      due.event = is_.pick(is_new, is_.number(event), due.event);
+      due.possible = is_.either(due.possible, is.possible);
+    };
+    for (std::size_t e = 0; e < pack_.events.size(); ++e) {
+      const PackEvent& event = pack_.events[e];
+      if (event.when) add(truth(*event.when, sides), static_cast<double>(e));
+      if (event.crossing && event.crossing->watch == one.watch) {
+        const int is = wanted(e, sides[one.watch].sign);
+        add({is, is}, static_cast<double>(e));
+      }
+    }
+    for (const WatchedCondition& set : pack_.flow_sets)
+      add({is_.number(0), is_.no(truth(set, sides).certain)}, -1);
+    return due;
+  }
+
+  // --- Claims. ---
+
+  struct Value {
+    int value = 0, error = 0;
+  };
+
+  void judge(const claims::Claim& claim, std::size_t c, Nodes& fields) {
+    const PackClaim& packed = pack_.claims[c];
+    const auto square = packed.squared ? expr::square_of_norm(claim.value) : std::nullopt;
+    const expr::Program& text = square ? *square : claim.value;
+    Pair along = pair(first_.of(text), second_.of(text));
+    if (claim.kind == ClaimKind::above)
+      for (Nodes* nodes : {&along.first.value, &along.second})
+        for (int& node : *nodes) node = is_.minus(is_.number(0), node);
+    const Value start{along.first.value[0], error_along(along, is_.number(0))};
+    const Value end{first_.at(along.first.value, length_), error_along(along, length_)};
+    std::array<int, FlightSystem::fields_of_claim> field{};
+    for (std::size_t f = 0; f < field.size(); ++f)
+      field[f] = input(made_.field_of(c, static_cast<FlightSystem::Field>(f)));
+    const int fresh = input(made_.at(FlightSystem::fresh));
+    using F = FlightSystem;
+    for (const auto& [value, error] :
+         {std::pair{F::first, F::first_error}, std::pair{F::low, F::low_error}, std::pair{F::high, F::high_error}}) {
+      field[value] = is_.pick(fresh, start.value, field[value]);
+      field[error] = is_.pick(fresh, start.error, field[error]);
+    }
+    field[F::peak] = is_.pick(fresh, is_.number(-never), field[F::peak]);
+    field[F::violated] = is_.pick(fresh, is_.number(0), field[F::violated]);
+    field[F::floor] = is_.pick(fresh, is_.number(0), field[F::floor]);
+    const int counts = packed.over ? is_.is_equal(input(made_.at(F::jumped)), static_cast<double>(*packed.over))
+                                   : is_.number(1);
+    if (packed.kind == ClaimKind::below || packed.kind == ClaimKind::above)
+      compare_with_bound(packed, along, packed.over ? start : end, counts, c, field);
+    if (packed.kind == ClaimKind::nonincreasing) compare_with_before(packed, along, start, end, counts, field);
+    field[F::last] = end.value;
+    field[F::last_error] = end.error;
+    fields.insert(fields.end(), field.begin(), field.end());
+  }
+
+  using Fields = std::array<int, FlightSystem::fields_of_claim>;
+
+  /// Of the value anywhere up to s.
+  int error_along(const Pair& along, int s) {
+    Nodes apart;
+    for (std::size_t j = 0; j < along.first.value.size(); ++j)
+      apart.push_back(is_.abs(is_.minus(along.first.value[j], along.second[j])));
+    const int difference = first_.at(apart, s);
+    const int size = first_.at(along.first.size, s);
+    // At the start of a flight terms may be 0.
+    if (s == length_) require_true(is_.is_at_least_0(is_.minus(is_.part(kApart, size), difference)));
+    return is_.add(is_.part(kErrorOfFlights, difference),
+                   is_.part(hybrid::kTermRounding + 8 * kUnitRoundoff, size));
+  }
+
+  /// B_0 ... B_n on [0, length].
+  Nodes bernstein(const Nodes& c) {
+    const std::size_t n = c.size() - 1;
+    Nodes scaled;
+    int power = is_.number(1);
+    for (const int one : c) {
+      scaled.push_back(is_.times(one, power));
+      power = is_.times(power, length_);
+    }
+    const auto choose = [](std::size_t of, std::size_t k) {
+      double made = 1;
+      for (std::size_t i = 0; i < k; ++i) made = made * static_cast<double>(of - i) / static_cast<double>(i + 1);
+      return made;
+    };
+    Nodes b;
+    for (std::size_t k = 0; k <= n; ++k) {
+      int sum = is_.number(0);
+      for (std::size_t j = 0; j <= k; ++j) sum = is_.add(sum, is_.part(choose(k, j) / choose(n, j), scaled[j]));
+      b.push_back(sum);
+    }
+    return b;
+  }
+
+  /// The largest value on the flight. Of a degree above 2 it is to be at an end, or none of the
+  /// largest so far.
+  int highest(const Nodes& c, int end, int so_far, int always) {
+    const int ends = is_.most(c[0], end);
+    if (c.size() <= 2) return ends;
+    if (c.size() == 3) {
+      const int at = is_.quotient(c[1], is_.part(-2, c[2]), -1);
+      const int inside = is_.both(is_.both(is_.is_positive(at), is_.is_positive(is_.minus(length_, at))),
+                                  is_.is_positive(is_.minus(is_.number(0), c[2])));
+      return is_.pick(inside, is_.add(c[0], is_.part(0.5, is_.times(c[1], at))), ends);
+    }
+    int cap = ends;
+    for (const int b : bernstein(c)) cap = is_.most(cap, b);
+    require_true(is_.either(always, is_.is_at_least_0(is_.minus(is_.most(ends, so_far), cap))));
+    return ends;
+  }
+
+  void compare_with_bound(const PackClaim& claim, const Pair& along, const Value& at, int counts,
+                          std::size_t c, Fields& field) {
+    using F = FlightSystem;
+    const int always = is_.number(claim.always ? 1 : 0);
+    const int top = claim.over ? at.value
+                               : highest(along.first.value, at.value, field[F::peak], is_.either(always, field[F::violated]));
+    const int excess = is_.minus(top, input(made_.limit_of(c)));
+    const int held = is_.is_at_least_0(is_.minus(is_.number(0), is_.add(excess, at.error)));
+    const int exceeds = is_.is_positive(is_.minus(excess, at.error));
+    field[F::violated] = is_.either(field[F::violated], is_.both(is_.both(counts, exceeds), is_.no(always)));
+    require_true(is_.either(is_.either(is_.no(counts), always), is_.either(held, field[F::violated])));
+    field[F::peak] = is_.pick(counts, is_.most(field[F::peak], top), field[F::peak]);
+  }
+
+  void compare_with_before(const PackClaim& claim, const Pair& along, const Value& start,
+                           const Value& end, int counts, Fields& field) {
+    using F = FlightSystem;
+    const int fresh = input(made_.at(F::fresh));
+    int compares = is_.both(counts, is_.no(fresh));
+    // A jump that leaves it bit by bit.
+    if (!claim.over)
+      compares = is_.both(compares, is_.no(is_.is_equal(is_.minus(start.value, field[F::last]), 0)));
+    compare_at(start, compares, field);
+    if (claim.over || along.first.degree() == 0) return;
+    const Nodes b = bernstein(along.first.value);
+    int falls = is_.number(1);
+    for (std::size_t k = 1; k < b.size(); ++k)
+      falls = is_.both(falls, is_.is_positive(is_.minus(is_.minus(b[k - 1], b[k]), is_.part(2, end.error))));
+    const int scale = is_.abs(field[F::first]);
+    const int size = is_.add(first_.at(along.first.size, length_), end.error);
+    const int drowned = is_.is_positive(is_.minus(is_.part(pack_.accuracy, scale), size));
+    require_true(is_.either(falls, drowned));
+    keep_extremes(end, is_.number(1), field);
+  }
+
+  void compare_at(const Value& at, int compares, Fields& field) {
+    using F = FlightSystem;
+    const int above_high = is_.minus(at.value, field[F::high]);
+    const int above_low = is_.minus(at.value, field[F::low]);
+    const int violates = is_.is_positive(is_.minus(above_high, is_.add(at.error, field[F::high_error])));
+    const int holds = is_.is_at_least_0(is_.minus(is_.number(0), is_.add(above_low, is_.add(at.error, field[F::low_error]))));
+    const int size = is_.add(is_.abs(at.value), at.error);
+    const int scale = is_.abs(field[F::first]);
+    const int least = is_.pick(violates, is_.number(claims::kFloorOfAccuracy * pack_.accuracy), is_.number(pack_.accuracy));
+    const int drowned = is_.both(is_.is_positive(scale), is_.is_at_least_0(is_.minus(is_.times(least, scale), size)));
+    require_true(is_.either(is_.no(compares), is_.either(holds, drowned)));
+    const int sinks = is_.both(compares, is_.both(is_.no(holds), drowned));
+    field[F::floor] = is_.most(field[F::floor], is_.pick(sinks, is_.quotient(size, scale, 0), is_.number(0)));
+    keep_extremes(at, compares, field);
+  }
+
+  /// The value with the least upper bound so far, and that with the least lower one.
+  void keep_extremes(const Value& at, int counts, Fields& field) {
+    using F = FlightSystem;
+    const int lower = is_.minus(is_.minus(field[F::low], field[F::low_error]), is_.minus(at.value, at.error));
+    const int higher = is_.minus(is_.add(field[F::high], field[F::high_error]), is_.add(at.value, at.error));
+    const int is_low = is_.both(counts, is_.is_positive(lower));
+    const int is_high = is_.both(counts, is_.is_positive(higher));
+    field[F::low] = is_.pick(is_low, at.value, field[F::low]);
+    field[F::low_error] = is_.pick(is_low, at.error, field[F::low_error]);
+    field[F::high] = is_.pick(is_high, at.value, field[F::high]);
+    field[F::high_error] = is_.pick(is_high, at.error, field[F::high_error]);
+  }
+
+  const PackSystem& pack_;
+  FlightSystem& made_;
+  PackGraph texts_;
+  ScalarGraph& graph_;
+  Terms is_;
+  FlightSeries first_, second_;
+  std::vector<Pair> watches_;
+  Nodes rests_;              ///< by watch: its value, of what does not move
+  std::vector<Side> sides_;  ///< just after the start
+  Nodes near_0_;             ///< by watch: whether it starts as 0, within its error
+  Nodes sides_after_;        ///< by watch: at the end
+  int shift_ = 0, ok_ = 0, length_ = 0, other_length_ = 0, event_ = 0;
+};
+
+/// What flights leave to steps whatever the texts are.
+bool may_fly(const PackSystem& pack, const std::vector<claims::Claim>& claims) {
+  const Dynamics& dynamics = pack.system->dynamics;
+  const bool has_branches = std::any_of(pack.watches.begin(), pack.watches.end(),
+                                        [](const Watch& one) { return !one.branches.empty(); });
+  const bool is_plain = std::all_of(pack.events.begin(), pack.events.end(), [](const PackEvent& one) {
+    return (one.when || one.crossing) && !one.only_if && !one.lost;
+  });
+  constexpr std::size_t most_events = 64;
+  return is_plain && !pack.events.empty() && pack.events.size() <= most_events && !has_branches && pack.kinks.empty() &&
+         pack.flats.empty() && pack.costs.empty() && dynamics.noise.empty() && !pack.system->pulses &&
+         std::none_of(claims.begin(), claims.end(), [](const claims::Claim& one) {
+           return one.stated() && (one.after > 0 || one.tolerance > 0 || one.kind == ClaimKind::cost);
+         });
+}
+
+}  // namespace
+
+std::optional<FlightSystem> make_flights(const PackSystem& pack,
+                                         const std::vector<claims::Claim>& claims) {
+  if (!may_fly(pack, claims)) return std::nullopt;
+  FlightSystem made;
+  try {
+    FlightCode(pack, made).make(claims);
+  } catch (const NoFormula&) {
+    return std::nullopt;
+  }
+  return made;
+}
+
+}  // namespace gainsmith::packs

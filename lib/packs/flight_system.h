@@ -1,0 +1,80 @@
+// A whole flight as code over lanes: from a start or a jump to the next event or the horizon, in
+// closed form, where the values of a PackSystem are polynomials of time (flight_series.h) and what
+// decides about events has degree 2 at most: balls, double integrators, tanks with constant flows.
+//
+//   x(s) = sum_j c_j s^j,   s* = the first root of a watch after which an event is due
+//
+// A run is made twice. The second is moved after each flight by kMoved of the size of all terms, up
+// or down at random, and has roots of its own. What both differ by, times kErrorOfFlights, and the
+// rounding of terms is the error of a value. A flight is *ok* where all signs, the order of events and
+// the comparisons of claims are certain by that. Otherwise the run is left to steps (lane_set.h).
+//
+// Inputs, in this order: the values of the first run, then of the second; then as `Input` says; a
+// sign for each of the rows; of each claim its limit (ClaimLane) and its fields so far.
+// Result 0: the fields of all claims; then as `Result` says.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "claims/claims.h"
+#include "lanes/machine.h"
+
+namespace gainsmith::packs {
+
+struct PackSystem;
+
+struct FlightSystem {
+  enum Input : std::size_t {
+    shift,   ///< how much later the root of the second run was, before the last jump
+    rest,    ///< to the horizon
+    fresh,   ///< 1 at the start of a run, otherwise 0
+    jumped,  ///< the event that has jumped; -1: none
+    inputs
+  };
+  enum Result : std::size_t {
+    fields,
+    ends,         ///< of the rows, in the first run, before a jump
+    other_ends,   ///< in the second
+    largest,      ///< along the flight, of all values
+    flight,       ///< as Flight says
+    sides_after,  ///< of the watches of crossings, at the end
+    results
+  };
+  enum Flight : std::size_t { length, later, event, ok };
+  /// Of a claim, all with the sign that it is compared with.
+  enum Field : std::size_t {
+    peak,  ///< the largest value so far
+    violated,
+    first,
+    first_error,
+    low,
+    low_error,
+    high,
+    high_error,
+    floor,  ///< ClaimLane::floor
+    last,   ///< at the end of the flight
+    last_error,
+    fields_of_claim
+  };
+
+  std::size_t whole = 0, rows = 0, claims = 0;
+  std::vector<std::size_t> crossings;  ///< the events with one
+  std::optional<lanes::LaneCode> code;
+
+  std::size_t at(Input input) const { return 2 * whole + input; }
+  std::size_t sign_of_row(std::size_t k) const { return 2 * whole + inputs + k; }
+  std::size_t limit_of(std::size_t claim) const { return 2 * whole + inputs + rows + claim; }
+  std::size_t field_of(std::size_t claim, Field field) const {
+    return limit_of(claims) + claim * fields_of_claim + field;
+  }
+  std::size_t side_before(std::size_t crossing) const { return limit_of(claims) + claims * fields_of_claim + crossing; }
+  std::size_t all_inputs() const { return side_before(crossings.size()); }
+};
+
+/// None where the system or a claim is of another kind. All arguments are those of the PackSystem.
+std::optional<FlightSystem> make_flights(const PackSystem& pack,
+                                         const std::vector<claims::Claim>& claims);
+
+}  // namespace gainsmith::packs
