@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
 
 #include "base/stop.h"
@@ -106,7 +104,6 @@ void FlightRunner::fly() {
       code_.input(flights_.sign_of_row(k))[l] = (z >> (k % 64) & 1U) != 0 ? 1 : -1;
   }
   code_.run(busy_);
-  if (std::getenv("DBG")) { std::fprintf(stderr, "t %g len %g later %g ev %g ok %g | ", t_[0], result(Flown::length)[0], result(Flown::later)[0], result(Flown::event)[0], result(Flown::ok)[0]); for (std::size_t k=0;k<2*pack_.whole;++k) std::fprintf(stderr,"%g ", code_.input(k)[0]); std::fprintf(stderr," limit %g f ", code_.input(flights_.limit_of(0))[0]); for (std::size_t k=0;k<11;++k) std::fprintf(stderr,"%g ", code_.input(flights_.field_of(0,Flown::Field(k)))[0]); std::fprintf(stderr,"\n"); }
   std::uint32_t goes_on = 0;
   each(busy_, [&](std::size_t l) {
     if (result(Flown::ok)[l] != 1 || (code_.faults() >> l & 1U) != 0) {

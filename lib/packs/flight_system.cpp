@@ -62,6 +62,8 @@ class Terms {
 constexpr double never = 1e300;
 /// Of all watches: each asks for all conditions.
 constexpr std::size_t most_roots = 8;
+/// Of a flight, to see how large a claim of degree 3 to 5 becomes.
+constexpr int kHalvings = 2;
 
 /// A polynomial in both runs, from the start of a flight of the first on.
 struct Pair {
@@ -217,9 +219,11 @@ class FlightCode {
     const int has_roots = is_.is_positive(is_.minus(discriminant, margin));
     // A touch is left open, unless all of it rests.
     require_true(is_.either(is_.either(has_roots, near_0_[w]), is_.is_positive(is_.minus(is_.minus(is_.number(0), discriminant), margin))));
+    // The same of both in both runs, though c[1] be 0 but for rounding.
+    const int sign = is_.sign(c[1]);
     const auto roots = [&](const Nodes& of) {
       const int d = is_.minus(is_.times(of[1], of[1]), is_.part(4, is_.times(of[0], of[2])));
-      const int q = is_.part(-0.5, is_.add(of[1], is_.times(is_.sign(of[1]), is_.root(d))));
+      const int q = is_.part(-0.5, is_.add(of[1], is_.times(sign, is_.root(d))));
       return std::array<int, 2>{is_.quotient(q, of[2], -1), is_.quotient(of[0], q, -1)};
     };
     const std::array<int, 2> first = roots(c);
@@ -457,35 +461,54 @@ class FlightCode {
     return b;
   }
 
-  /// The largest value on the flight. Of a degree above 2 it is to be at an end, or none of the
-  /// largest so far.
-  int highest(const Nodes& c, int end, int so_far, int always) {
+  /// The largest value on the flight, and what it is not above: of a degree above 2 the largest
+  /// coefficient of Bernstein.
+  std::pair<int, int> highest(const Nodes& c, int end) {
     const int ends = is_.most(c[0], end);
-    if (c.size() <= 2) return ends;
+    if (c.size() <= 2) return {ends, ends};
     if (c.size() == 3) {
       const int at = is_.quotient(c[1], is_.part(-2, c[2]), -1);
       const int inside = is_.both(is_.both(is_.is_positive(at), is_.is_positive(is_.minus(length_, at))),
                                   is_.is_positive(is_.minus(is_.number(0), c[2])));
-      return is_.pick(inside, is_.add(c[0], is_.part(0.5, is_.times(c[1], at))), ends);
+      const int top = is_.pick(inside, is_.add(c[0], is_.part(0.5, is_.times(c[1], at))), ends);
+      return {top, top};
     }
-    int cap = ends;
-    for (const int b : bernstein(c)) cap = is_.most(cap, b);
-    require_true(is_.either(always, is_.is_at_least_0(is_.minus(is_.most(ends, so_far), cap))));
-    return ends;
+    std::pair<int, int> made{ends, ends};
+    widen(bernstein(c), kHalvings, made);
+    return made;
+  }
+
+  /// By the coefficients of halves of halves: those at their ends are values.
+  void widen(const Nodes& b, int halvings, std::pair<int, int>& highest) {
+    if (halvings == 0) {
+      for (const int one : b) highest.second = is_.most(highest.second, one);
+      return;
+    }
+    Nodes left, right = b;
+    for (std::size_t last = b.size(); last-- > 0;) {
+      left.push_back(right[0]);
+      for (std::size_t k = 0; k < last; ++k) right[k] = is_.part(0.5, is_.add(right[k], right[k + 1]));
+    }
+    highest.first = is_.most(highest.first, right[0]);
+    widen(left, halvings - 1, highest);
+    widen(right, halvings - 1, highest);
   }
 
   void compare_with_bound(const PackClaim& claim, const Pair& along, const Value& at, int counts,
                           std::size_t c, Fields& field) {
     using F = FlightSystem;
     const int always = is_.number(claim.always ? 1 : 0);
-    const int top = claim.over ? at.value
-                               : highest(along.first.value, at.value, field[F::peak], is_.either(always, field[F::violated]));
-    const int excess = is_.minus(top, input(made_.limit_of(c)));
-    const int held = is_.is_at_least_0(is_.minus(is_.number(0), is_.add(excess, at.error)));
-    const int exceeds = is_.is_positive(is_.minus(excess, at.error));
+    const int limit = input(made_.limit_of(c));
+    const auto [top, most] = claim.over ? std::pair(at.value, at.value) : highest(along.first.value, at.value);
+    const int held = is_.is_at_least_0(is_.minus(limit, is_.add(most, at.error)));
+    const int exceeds = is_.is_positive(is_.minus(is_.minus(top, limit), at.error));
     field[F::violated] = is_.either(field[F::violated], is_.both(is_.both(counts, exceeds), is_.no(always)));
     require_true(is_.either(is_.either(is_.no(counts), always), is_.either(held, field[F::violated])));
     field[F::peak] = is_.pick(counts, is_.most(field[F::peak], top), field[F::peak]);
+    // How near it comes is to be known.
+    const int scale = is_.pick(is_.abs(limit), is_.abs(limit), is_.number(1));
+    if (most != top)
+      require_true(is_.is_at_least_0(is_.minus(is_.part(kScore, scale), is_.minus(most, field[F::peak]))));
   }
 
   void compare_with_before(const PackClaim& claim, const Pair& along, const Value& start,
