@@ -94,6 +94,30 @@ class Collector {
 
 namespace {
 
+/// Judges that wait for the next block of runs: as many are made as threads ask at once.
+class Judges {
+ public:
+  Judges(const Setup& setup, const Packs* packs) : setup_(setup), packs_(packs) {}
+
+  std::unique_ptr<PackJudge> take() {
+    const std::scoped_lock lock(mutex_);
+    if (idle_.empty()) return std::make_unique<PackJudge>(setup_, packs_);
+    std::unique_ptr<PackJudge> judge = std::move(idle_.back());
+    idle_.pop_back();
+    return judge;
+  }
+  void give_back(std::unique_ptr<PackJudge> judge) {
+    const std::scoped_lock lock(mutex_);
+    idle_.push_back(std::move(judge));
+  }
+
+ private:
+  const Setup& setup_;
+  const Packs* packs_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<PackJudge>> idle_;
+};
+
 /// Makes these runs, or those until the campaign is stopped. Slow runs are handed over as they come.
 void judge_runs(statistics::RunRange range, PackJudge& judge, Collector& collector) {
   constexpr Seconds kSlow(1);
@@ -222,17 +246,19 @@ bool Campaign::packs_go_on(const PackJudge& first) const {
 
 void Campaign::make_range(statistics::RunRange range, const Packs* packs, const PackJudge* prepared,
                           std::uint64_t size, Collector& collector) const {
+  Judges judges(*setup_, packs);
   parallel_for((range.count() + size - 1) / size, threads_, [&](std::size_t block) {
     const statistics::RunRange own{range.first + block * size,
                                    std::min(range.last, range.first + (block + 1) * size)};
     if (collector.is_behind_the_end(own.first)) return;
-    PackJudge judge(*setup_, packs);
+    std::unique_ptr<PackJudge> judge = judges.take();
     try {
-      prepared ? judge.begin_as(*prepared) : judge.begin(facts_.seed, own.first, own.last);
+      prepared ? judge->begin_as(*prepared) : judge->begin(facts_.seed, own.first, own.last);
     } catch (const Stopped&) {
       return;
     }
-    judge_runs(own, judge, collector);
+    judge_runs(own, *judge, collector);
+    judges.give_back(std::move(judge));
   });
   check_stop();
 }
