@@ -36,8 +36,8 @@ class ZenoDetector {
   /// Whether little may be left after a period of flows whose last one is so long: a steady factor
   /// is no smaller than the last ratio by more than kSteady.
   static bool is_near(double period, double length, double length_before, double t) {
-    const double r = length / length_before - kSteady;
-    return r < 1 && period * r <= kLeftOver * t * (1 - r);
+    const double next = length - kSteady * length_before;  // r times the one before
+    return (next < length_before) & (period * next <= kLeftOver * t * (length_before - next));
   }
   /// As if nothing had been pushed.
   void start_over();

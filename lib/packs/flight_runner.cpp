@@ -61,7 +61,7 @@ void FlightRunner::refill() {
 
 void FlightRunner::begin(std::size_t l, std::uint64_t run) {
   runs_[l] = run;
-  random_[l] = run;
+  random_[l] = (run + 1) * 0x9e3779b97f4a7c15U;  // not 0
   happened_[l] = 0;
   count_[l] = short_[l] = 0;
   t_[l] = 0;
@@ -93,15 +93,16 @@ void FlightRunner::set_limits(std::uint32_t fresh) {
 void FlightRunner::fly() {
   double* const rest = input(Flown::rest);
   for (std::size_t l = 0; l < kLanes; ++l) rest[l] = horizon_ - t_[l];
-  // One sign for each row, bit by bit of a random number (SplitMix64).
-  for (std::size_t l = 0; l < kLanes; ++l) {
-    random_[l] += 0x9e3779b97f4a7c15U;
-    std::uint64_t z = random_[l];
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
-    z ^= z >> 31;
-    for (std::size_t k = 0; k < flights_.rows; ++k)
-      code_.input(flights_.sign_of_row(k))[l] = (z >> (k % 64) & 1U) != 0 ? 1 : -1;
+  // One sign for each row, bit by bit of a random number (xorshift, Marsaglia 2003).
+  for (std::uint64_t& random : random_) {
+    random ^= random << 13;
+    random ^= random >> 7;
+    random ^= random << 17;
+  }
+  for (std::size_t k = 0; k < flights_.rows; ++k) {
+    double* const sign = code_.input(flights_.sign_of_row(k));
+    for (std::size_t l = 0; l < kLanes; ++l)
+      sign[l] = 1 - 2 * static_cast<double>(random_[l] >> (k % 64) & 1U);
   }
   code_.run(busy_);
   std::uint32_t goes_on = 0;
@@ -154,6 +155,7 @@ std::uint32_t FlightRunner::watch_zeno(std::uint32_t mask) {
     for (std::size_t l = 0; l < kLanes; ++l)
       sizes_.at(k, l) = std::max(sizes_.at(k, l), largest[l]);
   }
+  const std::uint32_t near = may_accumulate();
   each(mask, [&](std::size_t l) {
     ++count_[l];
     const double length = lengths_[at][l];
@@ -161,28 +163,39 @@ std::uint32_t FlightRunner::watch_zeno(std::uint32_t mask) {
     if (short_[l] >= hybrid::kInARow) {
       verdict_of(l).why = Why::jumps;
       busy_ &= ~(1U << l);
-    } else if (accumulates(l)) {
+    } else if ((near >> l & 1U) != 0 && accumulates(l)) {
       finish(l);
     }
   });
   return mask & busy_;
 }
 
-bool FlightRunner::accumulates(std::size_t l) {
-  bool is_near = false;
-  double last = 0;
+std::uint32_t FlightRunner::may_accumulate() const {
+  std::array<char, kLanes> near{};
+  Row last{};
+  const Row& length = lengths_[number_ % kept];
   for (std::size_t period = 1; period <= hybrid::ZenoDetector::kLongestPeriod; ++period) {
-    last += lengths_[(number_ + kept - period + 1) % kept][l];
-    is_near = is_near || (count_[l] > period &&
-                          hybrid::ZenoDetector::is_near(last, lengths_[number_ % kept][l],
-                                                        lengths_[(number_ - period) % kept][l], t_[l]));
+    const Row& other = lengths_[(number_ + kept + 1 - period) % kept];
+    const Row& before = lengths_[(number_ + kept - period) % kept];
+    for (std::size_t l = 0; l < kLanes; ++l) {
+      last[l] += other[l];
+      near[l] = static_cast<char>(
+          near[l] | static_cast<char>(hybrid::ZenoDetector::is_near(last[l], length[l], before[l], t_[l])));
+    }
   }
-  if (!is_near) return false;
+  std::uint32_t mask = 0;
+  for (std::size_t l = 0; l < kLanes; ++l) mask |= near[l] != 0 ? 1U << l : 0;
+  return mask;
+}
+
+bool FlightRunner::accumulates(std::size_t l) {
   zeno_.start_over();
-  for (std::size_t k = 0; k < sizes_.rows(); ++k) largest_(static_cast<Eigen::Index>(k)) = sizes_.at(k, l);
+  for (std::size_t k = 0; k < sizes_.rows(); ++k)
+    largest_(static_cast<Eigen::Index>(k)) = sizes_.at(k, l);
   for (std::size_t back = std::min(count_[l], kept); back-- > 0;) {
-    const std::size_t at = (number_ - back) % kept;
-    for (std::size_t k = 0; k < sizes_.rows(); ++k) scratch_(static_cast<Eigen::Index>(k)) = states_[at].at(k, l);
+    const std::size_t at = (number_ + kept - back) % kept;
+    for (std::size_t k = 0; k < sizes_.rows(); ++k)
+      scratch_(static_cast<Eigen::Index>(k)) = states_[at].at(k, l);
     zeno_.push(t_[l], lengths_[at][l], static_cast<std::size_t>(events_[at][l]), scratch_, largest_);
   }
   return zeno_.accumulation().has_value();

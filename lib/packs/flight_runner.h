@@ -36,6 +36,7 @@ class FlightRunner {
   void arrive(std::uint32_t mask);
   /// Of them, those whose jumps do not accumulate; the others are over.
   std::uint32_t watch_zeno(std::uint32_t mask);
+  std::uint32_t may_accumulate() const;
   bool accumulates(std::size_t l);
   void jump(std::size_t event, std::uint32_t mask);
   void finish(std::size_t l);

@@ -24,7 +24,8 @@ using numbers::ScalarOp;
 
 namespace {
 
-/// Operations on nodes. What is true is 1, what is false 0; a comparison with no number is false.
+/// Operations on nodes. What is true is 1, what is false 0; a number that is none is not positive.
+/// A test that only picks takes no operation of its own.
 class Terms {
  public:
   explicit Terms(ScalarGraph& graph) : graph_(graph) {}
@@ -32,28 +33,39 @@ class Terms {
   int number(double value) { return graph_.constant(value); }
   int add(int a, int b) { return graph_.add(a, b); }
   int minus(int a, int b) { return graph_.subtract(a, b); }
+  int minus(int a) { return graph_.negate(a); }
   int times(int a, int b) { return graph_.multiply(a, b); }
   int part(double a, int b) { return graph_.multiply(number(a), b); }
   int abs(int a) { return graph_.apply(ScalarOp::abs, a); }
   int most(int a, int b) { return graph_.apply(ScalarOp::maximum, a, b); }
-  int least(int a, int b) { return graph_.apply(ScalarOp::minimum, a, b); }
   int root(int a) { return graph_.apply(ScalarOp::sqrt, most(a, number(0))); }
-  /// What is true picks the first.
-  int pick(int is, int a, int b) { return graph_.where(true, is, a, b); }
-  int is_positive(int a) { return graph_.where(true, a, number(1), number(0)); }
-  int is_at_least_0(int a) { return graph_.where(false, a, number(1), number(0)); }
-  int is_equal(int a, double b) {
-    return minus(number(1), is_positive(abs(minus(a, number(b)))));
-  }
-  int both(int a, int b) { return times(a, b); }
-  int either(int a, int b) { return most(a, b); }
-  int no(int a) { return minus(number(1), a); }
   /// a/b; `otherwise` where b is 0.
   int quotient(int a, int b, double otherwise) {
     const int is = is_positive(abs(b));
     return pick(is, graph_.divide(a, pick(is, b, number(1))), number(otherwise));
   }
   int sign(int a) { return pick(is_positive(a), number(1), number(-1)); }
+
+  int is_positive(int a) { return graph_.where(true, a, number(1), number(0)); }
+  int is_at_least_0(int a) { return graph_.where(false, a, number(1), number(0)); }
+  int is_equal(int a, double b) { return no(is_positive(abs(minus(a, number(b))))); }
+  int no(int a) { return pick(a, number(0), number(1)); }
+  int both(int a, int b) { return a == b ? a : pick(a, b, number(0)); }
+  int either(int a, int b) { return a == b ? a : pick(a, number(1), b); }
+  /// What is true picks the first.
+  int pick(int is, int a, int b) {
+    if (a == b) return a;
+    if (graph_.is_constant(is)) return graph_.value(is) > 0 ? a : b;
+    const ScalarGraph::Node test = graph_.nodes()[index(is)];
+    const bool strict = test.op == ScalarOp::where_positive;
+    if (!strict && test.op != ScalarOp::where_nonnegative) return graph_.where(true, is, a, b);
+    const auto is_number = [&](int node, double value) {
+      return graph_.is_constant(node) && graph_.value(node) == value;
+    };
+    if (is_number(test.b, 1) && is_number(test.c, 0)) return graph_.where(strict, test.a, a, b);
+    if (is_number(test.b, 0) && is_number(test.c, 1)) return graph_.where(strict, test.a, b, a);
+    return graph_.where(true, is, a, b);
+  }
 
  private:
   ScalarGraph& graph_;
@@ -115,10 +127,12 @@ class FlightCode {
       const int moved = is_.part(kMoved, is_.times(size, input(made_.sign_of_row(k))));
       results[FlightSystem::ends].push_back(first_.at(row.first.value, length_));
       results[FlightSystem::other_ends].push_back(is_.add(first_.at(row.second, other_length_), moved));
+    }
+    for (std::size_t k = 0; k < pack_.whole; ++k) {
+      const int size = first_.at(first_.of_value(k).size, length_);
+      results[FlightSystem::largest].push_back(size);
       require(is_.minus(is_.number(hybrid::kLargestState), size));
     }
-    for (std::size_t k = 0; k < pack_.whole; ++k)
-      results[FlightSystem::largest].push_back(first_.at(first_.of_value(k).size, length_));
     results[FlightSystem::flight] = {length_, is_.minus(other_length_, length_), event_, ok_};
     for (const std::size_t e : made_.crossings)
       results[FlightSystem::sides_after].push_back(sides_after_[pack_.events[e].crossing->watch]);
@@ -138,8 +152,8 @@ class FlightCode {
   }
 
   /// What is positive is required.
-  void require(int node) { ok_ = is_.both(ok_, is_.is_positive(node)); }
-  void require_true(int truth) { ok_ = is_.both(ok_, truth); }
+  void require(int node) { require_true(is_.is_positive(node)); }
+  void require_true(int truth) { ok_ = is_.both(truth, ok_); }
 
   /// The second run is moved back to the time of the first, to first order.
   Pair pair(const Series& first, const Series& second) {
@@ -203,7 +217,7 @@ class FlightCode {
     const int none = is_.number(-1);
     if (degree == 1) {
       const auto root = [&](const Nodes& c) {
-        return is_.pick(near_0_[w], none, is_.quotient(is_.minus(is_.number(0), c[0]), c[1], -1));
+        return is_.pick(near_0_[w], none, is_.quotient(is_.minus(c[0]), c[1], -1));
       };
       candidates.push_back({root(watch.first.value), root(watch.second), w});
       return;
@@ -218,7 +232,7 @@ class FlightCode {
     const int margin = is_.add(error, is_.part(kTouches, size));
     const int has_roots = is_.is_positive(is_.minus(discriminant, margin));
     // A touch is left open, unless all of it rests.
-    require_true(is_.either(is_.either(has_roots, near_0_[w]), is_.is_positive(is_.minus(is_.minus(is_.number(0), discriminant), margin))));
+    require_true(is_.either(is_.either(has_roots, near_0_[w]), is_.is_positive(is_.minus(is_.minus(discriminant), margin))));
     // The same of both in both runs, though c[1] be 0 but for rounding.
     const int sign = is_.sign(c[1]);
     const auto roots = [&](const Nodes& of) {
@@ -356,7 +370,7 @@ class FlightCode {
     const Kind kind = pack_.system->dynamics.events[e].kind;
     if (kind == Kind::crosses) return is_.number(1);
     const int own = is_.part(pack_.events[e].crossing->factor, side);
-    return is_.is_positive(kind == Kind::rises ? own : is_.minus(is_.number(0), own));
+    return is_.is_positive(kind == Kind::rises ? own : is_.minus(own));
   }
 
   struct Due {
@@ -397,7 +411,7 @@ class FlightCode {
     Pair along = pair(first_.of(text), second_.of(text));
     if (claim.kind == ClaimKind::above)
       for (Nodes* nodes : {&along.first.value, &along.second})
-        for (int& node : *nodes) node = is_.minus(is_.number(0), node);
+        for (int& node : *nodes) node = is_.minus(node);
     const Value start{along.first.value[0], error_along(along, is_.number(0))};
     const Value end{first_.at(along.first.value, length_), error_along(along, length_)};
     std::array<int, FlightSystem::fields_of_claim> field{};
@@ -469,7 +483,7 @@ class FlightCode {
     if (c.size() == 3) {
       const int at = is_.quotient(c[1], is_.part(-2, c[2]), -1);
       const int inside = is_.both(is_.both(is_.is_positive(at), is_.is_positive(is_.minus(length_, at))),
-                                  is_.is_positive(is_.minus(is_.number(0), c[2])));
+                                  is_.is_positive(is_.minus(c[2])));
       const int top = is_.pick(inside, is_.add(c[0], is_.part(0.5, is_.times(c[1], at))), ends);
       return {top, top};
     }
@@ -537,7 +551,7 @@ class FlightCode {
     const int above_high = is_.minus(at.value, field[F::high]);
     const int above_low = is_.minus(at.value, field[F::low]);
     const int violates = is_.is_positive(is_.minus(above_high, is_.add(at.error, field[F::high_error])));
-    const int holds = is_.is_at_least_0(is_.minus(is_.number(0), is_.add(above_low, is_.add(at.error, field[F::low_error]))));
+    const int holds = is_.is_at_least_0(is_.minus(is_.add(above_low, is_.add(at.error, field[F::low_error]))));
     const int size = is_.add(is_.abs(at.value), at.error);
     const int scale = is_.abs(field[F::first]);
     const int least = is_.pick(violates, is_.number(claims::kFloorOfAccuracy * pack_.accuracy), is_.number(pack_.accuracy));
