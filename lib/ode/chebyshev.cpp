@@ -118,6 +118,12 @@ Matrix part(const Matrix& coefficients, double from, double to) {
   return chebyshev::coefficients(values);
 }
 
+Matrix trimmed(const Matrix& coefficients, double least) {
+  Index last = coefficients.cols() - 1;
+  while (last > 0 && (coefficients.col(last).cwiseAbs().array() <= least).all()) --last;
+  return coefficients.leftCols(last + 1);
+}
+
 /// d_{k-1} = d_{k+1} + 2 k c_k, d_0 halved.
 Matrix derivative(const Matrix& coefficients) {
   const Index degree = coefficients.cols() - 1;

@@ -42,6 +42,9 @@ void at(const numbers::Matrix& coefficients, double x, double* out);
 /// Where each function lies on [-1, 1], as |T_k| <= 1, and as it is rounded by at().
 numbers::Box ranges(const numbers::Matrix& coefficients);
 
+/// Without the highest degrees, as long as no coefficient of them is above `least`.
+numbers::Matrix trimmed(const numbers::Matrix& coefficients, double least);
+
 /// p on [from, to], a part of [-1, 1], as a series of its own.
 numbers::Matrix part(const numbers::Matrix& coefficients, double from, double to);
 

@@ -84,7 +84,8 @@ class RootSearch {
     // Of a short step late in a run times are rounded, which is no corner of g.
     const double rounding = halvings == 0 ? rounding_of_times(c, a, b) : 0;
     if (agrees(c, a, b, tolerance() + rounding)) {
-      part(c, a, b, 0);
+      // What rounding has left of higher degrees is no part of g.
+      part(chebyshev::trimmed(c, unit * largest), a, b, 0);
       return;
     }
     if (stays_away(values)) return;
@@ -136,6 +137,17 @@ class RootSearch {
     part(chebyshev::part(c, 0, 1), middle, b, halvings + 1);
   }
 
+  /// Just before the root of a monotone series that is positive on the left, or negative.
+  static double root_of(const Matrix& series, bool positive) {
+    double low = -1;
+    double high = 1;
+    while (high - low > unit) {
+      const double x = (low + high) / 2;
+      ((chebyshev::first(series, x) > 0) == positive ? low : high) = x;
+    }
+    return low;
+  }
+
   /// Where the slope is monotone: at most two roots.
   void around_extremum(const Matrix& c, const Matrix& slope, double a, double b) {
     const double left = chebyshev::first(slope, -1);
@@ -143,12 +155,7 @@ class RootSearch {
       between(a, b);
       return;
     }
-    double low = -1;
-    double high = 1;
-    while (high - low > unit) {
-      const double x = (low + high) / 2;
-      ((chebyshev::first(slope, x) > 0) == (left > 0) ? low : high) = x;
-    }
+    const double low = slope.cols() == 2 ? -slope(0) / slope(1) : root_of(slope, left > 0);
     const double t = std::clamp(chebyshev::outer(low, a, b), a, b);
     const bool found = between(a, t) | between(t, b);
     const double g = value(t);

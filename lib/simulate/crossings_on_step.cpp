@@ -101,7 +101,7 @@ std::optional<double> CrossingsOnStep::hidden_turn(Index element) {
   for (Index k = 0; k < points.size(); ++k)
     values(k) = value(element, ode::chebyshev::outer(points(k), inside_.from(), inside_.to()));
   if (!(values.cwiseAbs().maxCoeff() > hybrid::kPlain * noise)) return std::nullopt;
-  const Matrix c = ode::chebyshev::coefficients(values);
+  const Matrix c = ode::chebyshev::trimmed(ode::chebyshev::coefficients(values), noise);
   const Matrix slope = ode::chebyshev::derivative(c);
   const double first = ode::chebyshev::first(slope, -1);
   if (std::abs(first) <= turn_degree * turn_degree * noise) return earliest;
