@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "expr/rewrite.h"
+
 namespace gainsmith::linear {
 
 namespace {

@@ -148,6 +148,18 @@ class RootSearch {
     return low;
   }
 
+  /// Of t and the numbers beside it: rounding may have moved an extremum by one.
+  double nearest_to_0(double t, double a, double b) {
+    double best = t;
+    double least = std::abs(value(t));
+    for (const double beside : {std::nextafter(t, a), std::nextafter(t, b)})
+      if (const double g = std::abs(value(beside)); g < least) {
+        best = beside;
+        least = g;
+      }
+    return best;
+  }
+
   /// Where the slope is monotone: at most two roots.
   void around_extremum(const Matrix& c, const Matrix& slope, double a, double b) {
     const double left = chebyshev::first(slope, -1);
@@ -156,7 +168,7 @@ class RootSearch {
       return;
     }
     const double low = slope.cols() == 2 ? -slope(0) / slope(1) : root_of(slope, left > 0);
-    const double t = std::clamp(chebyshev::outer(low, a, b), a, b);
+    const double t = nearest_to_0(std::clamp(chebyshev::outer(low, a, b), a, b), a, b);
     const bool found = between(a, t) | between(t, b);
     const double g = value(t);
     // A minimum of |g|: below zero the slope falls, above it rises.
