@@ -54,9 +54,9 @@ class RunValue {
   double followed_until = std::numeric_limits<double>::infinity();
   /// What is 0 there.
   std::vector<const expr::Program*> differences() const { return breaks_.differences(); }
-  /// Breaks::distance of the k-th.
-  double distance(std::size_t k, const Eigen::VectorXd& x, const Eigen::VectorXd& r) {
-    return breaks_.distance(k, x, r);
+  /// Breaks::is_far of the k-th.
+  bool is_far(std::size_t k, const Eigen::VectorXd& x, const Eigen::VectorXd& r, double times) {
+    return breaks_.is_far(k, x, r, times);
   }
 
  private:

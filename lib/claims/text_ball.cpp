@@ -75,8 +75,7 @@ bool TextBall::is_open(const VectorXd& x, const VectorXd& r) {
 }
 
 bool TextBall::is_open(std::size_t k, const VectorXd& x, const VectorXd& r) {
-  const double distance = value_->distance(k, x, r.head(exact_.size()));
-  if (distance > kFarBranch) return false;
+  if (value_->is_far(k, x, r.head(exact_.size()), kFarBranch)) return false;
   try {
     const Enclosed& d = differences_[k](x, r);
     if (!d.is_known()) return true;

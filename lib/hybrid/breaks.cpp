@@ -270,6 +270,19 @@ double Breaks::distance(std::size_t k, const VectorXd& x, const VectorXd& r) {
   return least;
 }
 
+bool Breaks::is_far(std::size_t k, const VectorXd& x, const VectorXd& r, double times) {
+  Text& text = texts_[k];
+  box_.resize(static_cast<std::size_t>(r.size()));
+  for (Index e = 0; e < r.size(); ++e) {
+    const double width = times * (r(e) + kTermRounding * std::abs(x(e)));
+    box_[static_cast<std::size_t>(e)] = {x(e) - width, x(e) + width};
+  }
+  const auto size = static_cast<std::size_t>(text.program->shape().size());
+  bool apart = text.value.enclose(box_);
+  for (std::size_t e = 0; e < size && apart; ++e) apart = text.value.range(e).least() > 0;
+  return apart || distance(k, x, r) > times;
+}
+
 std::optional<std::vector<ode::Break>> Breaks::on(const std::function<const VectorXd&(double)>& x,
                                                   double from, double to, const numbers::Box& box,
                                                   std::vector<double>* near) {

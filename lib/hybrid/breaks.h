@@ -39,6 +39,8 @@ class Breaks {
   /// rounding of its terms where that is more; the least of its elements. An estimate from some
   /// such changes, and no bound. Infinite where it has no value, or where nothing changes it.
   double distance(std::size_t k, const Eigen::VectorXd& x, const Eigen::VectorXd& r);
+  /// Whether the distance is above `times`; intervals tell it of most.
+  bool is_far(std::size_t k, const Eigen::VectorXd& x, const Eigen::VectorXd& r, double times);
 
  private:
   struct Text {
@@ -48,6 +50,7 @@ class Breaks {
   };
 
   std::vector<Text> texts_;
+  numbers::Box box_;  ///< around a point
 };
 
 /// Whether it may turn more often along a step than the variables do: sines, exponentials and the

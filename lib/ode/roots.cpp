@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "ode/chebyshev.h"
@@ -20,6 +21,8 @@ using numbers::Matrix;
 
 /// Of the interpolant.
 constexpr int degree = 16;
+/// It divides the degree, so that its points are among the others.
+constexpr int low_degree = 4;
 /// Where the interpolant is compared with g, besides its own last coefficients.
 constexpr std::array<double, 2> check_points = {-0.617, 0.443};
 constexpr double unit = std::numeric_limits<double>::epsilon();
@@ -58,8 +61,23 @@ class RootSearch {
     return 2 * unit * std::max(std::abs(a), std::abs(b)) + unit * unit * (to_ - from_);
   }
 
+  /// The interpolant of a low degree at every fourth of the points, where it agrees to rounding.
+  std::optional<Matrix> of_low_degree(double a, double b) {
+    const VectorXd& points = chebyshev::points(low_degree);
+    RowVectorXd values(points.size());
+    for (Index k = 0; k < points.size(); ++k) values(k) = value(chebyshev::outer(points(k), a, b));
+    const double largest = values.cwiseAbs().maxCoeff();
+    if (!(largest > function_.noise) || b - a <= 4 * resolution(a, b)) return std::nullopt;
+    scale_ = largest;
+    const Matrix c = chebyshev::coefficients(values);
+    if (!agrees(c, a, b, unit * largest + function_.noise)) return std::nullopt;
+    return chebyshev::trimmed(c, unit * largest);
+  }
+
   /// Roots of g on [a, b].
   void interval(double a, double b, int halvings) {
+    if (halvings == 0)
+      if (const auto c = of_low_degree(a, b)) return part(*c, a, b, 0);
     points_ += degree + 1;
     if (points_ > kPatience) {
       found_.whole = false;

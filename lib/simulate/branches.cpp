@@ -119,11 +119,14 @@ std::optional<Branches::Change> Branches::change_of(std::size_t one, Index eleme
     const double d = value(t);
     return branch == 0 ? std::abs(d) > slack : d * branch < -slack;
   };
-  const auto on_side = (branch * on_step.crossings->values().row(element).array()).eval();
+  double least = branch * value(times.front());
+  double largest = least;
+  for (const double t : times) {
+    least = std::min(least, branch * value(t));
+    largest = std::max(largest, branch * value(t));
+  }
   // No pair of roots hides between points of a D that is far from 0 at all of them.
-  if (!watch_->switches[one].waves() &&
-      on_side.minCoeff() > (on_side.maxCoeff() - on_side.minCoeff()) / ode::kFar)
-    return std::nullopt;
+  if (!watch_->switches[one].waves() && least > (largest - least) / ode::kFar) return std::nullopt;
   ode::Found found = on_step.crossings->roots(element, branch < 0);
   std::vector<double> places(times.begin(), times.end());
   for (std::size_t k = 0; k + 1 < found.roots.size(); ++k)

@@ -64,15 +64,11 @@ CrossingsOnStep::CrossingsOnStep(hybrid::EventFunction& function, const StepValu
       inside_(inside),
       times_(times),
       used_(inside, function.elements()),
-      values_(function.size(), static_cast<Index>(times.size())) {
-  for (std::size_t k = 0; k < times.size(); ++k) {
-    const VectorXd& point = used_.at(times[k]);
-    values_.col(static_cast<Index>(k)) = function(point).reshaped();
-    if (k == 0)
-      noise_ = function.terms(point).reshaped();
-    else if (k == times.size() / 2 || k + 1 == times.size())
-      noise_ = noise_.cwiseMax(function.terms(point).reshaped());
-  }
+      values_(function.size(), static_cast<Index>(times.size())),
+      is_known_(times.size(), false) {
+  noise_ = function.terms(used_.at(times.front())).reshaped();
+  for (const double t : {times[times.size() / 2], times.back()})
+    noise_ = noise_.cwiseMax(function.terms(used_.at(t)).reshaped());
   noise_ *= hybrid::kTermRounding;
   breaks_ = function.breaks()
                 .on([this](double t) -> const VectorXd& { return used_.at(t); }, inside_.from(),
@@ -89,8 +85,13 @@ ode::Found CrossingsOnStep::roots(Index element, bool strict, double near) {
 
 double CrossingsOnStep::value(Index element, double t) {
   const auto known = std::lower_bound(times_.begin(), times_.end(), t);
-  if (known != times_.end() && *known == t) return values_(element, known - times_.begin());
-  return function_(used_.at(t))(element);
+  if (known == times_.end() || *known != t) return function_(used_.at(t))(element);
+  const auto k = known - times_.begin();
+  if (!is_known_[static_cast<std::size_t>(k)]) {
+    values_.col(k) = function_(used_.at(t)).reshaped();
+    is_known_[static_cast<std::size_t>(k)] = true;
+  }
+  return values_(element, k);
 }
 
 std::optional<double> CrossingsOnStep::hidden_turn(Index element) {

@@ -32,7 +32,6 @@ class CrossingsOnStep {
   /// Of an element that starts as noise: when it ceases to be.
   std::optional<double> leaves_zero(Eigen::Index element);
   /// Elements x times.
-  const numbers::Matrix& values() const { return values_; }
   /// Of each element, what its terms may round to.
   const Eigen::VectorXd& noise() const { return noise_; }
 
@@ -41,7 +40,8 @@ class CrossingsOnStep {
   const StepValues& inside_;
   const std::vector<double>& times_;
   SomeValues used_;
-  numbers::Matrix values_;
+  numbers::Matrix values_;  ///< elements x times
+  std::vector<bool> is_known_;
   Eigen::VectorXd noise_;
   std::vector<ode::Break> breaks_;
 };
