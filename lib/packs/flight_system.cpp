@@ -203,11 +203,21 @@ class FlightCode {
     }
   }
 
-  /// A root of a watch, in both runs; below 0: none.
+  /// A root of a watch; a time below 0: none.
   struct Candidate {
-    int first = 0, second = 0;
+    int time = 0;
+    int rate = 0;   ///< of the watch there
+    int other = 0;  ///< the watch there in the second run
     std::size_t watch = 0;
   };
+
+  Candidate candidate(int time, std::size_t w) {
+    const Nodes& c = watches_[w].first.value;
+    int rate = is_.number(0);
+    if (c.size() > 1) rate = c[1];
+    if (c.size() > 2) rate = is_.add(rate, is_.part(2, is_.times(c[2], time)));
+    return {time, rate, first_.at(watches_[w].second, time), w};
+  }
 
   void add_candidates(std::size_t w, std::vector<Candidate>& candidates) {
     const Pair& watch = watches_[w];
@@ -216,10 +226,8 @@ class FlightCode {
     if (degree > 2) throw NoFormula();
     const int none = is_.number(-1);
     if (degree == 1) {
-      const auto root = [&](const Nodes& c) {
-        return is_.pick(near_0_[w], none, is_.quotient(is_.minus(c[0]), c[1], -1));
-      };
-      candidates.push_back({root(watch.first.value), root(watch.second), w});
+      const int root = is_.quotient(is_.minus(watch.first.value[0]), watch.first.value[1], -1);
+      candidates.push_back(candidate(is_.pick(near_0_[w], none, root), w));
       return;
     }
     const Nodes& c = watch.first.value;
@@ -233,19 +241,12 @@ class FlightCode {
     const int has_roots = is_.is_positive(is_.minus(discriminant, margin));
     // A touch is left open, unless all of it rests.
     require_true(is_.either(is_.either(has_roots, near_0_[w]), is_.is_positive(is_.minus(is_.minus(discriminant), margin))));
-    // The same of both in both runs, though c[1] be 0 but for rounding.
-    const int sign = is_.sign(c[1]);
-    const auto roots = [&](const Nodes& of) {
-      const int d = is_.minus(is_.times(of[1], of[1]), is_.part(4, is_.times(of[0], of[2])));
-      const int q = is_.part(-0.5, is_.add(of[1], is_.times(sign, is_.root(d))));
-      return std::array<int, 2>{is_.quotient(q, of[2], -1), is_.quotient(of[0], q, -1)};
-    };
-    const std::array<int, 2> first = roots(c);
-    const std::array<int, 2> second = roots(watch.second);
-    const int both = is_.either(has_roots, near_0_[w]);
-    candidates.push_back({is_.pick(both, first[0], none), second[0], w});
+    const int q = is_.part(-0.5, is_.add(c[1], is_.times(is_.sign(c[1]), is_.root(discriminant))));
+    const int has_any = is_.either(has_roots, near_0_[w]);
+    candidates.push_back(candidate(is_.pick(has_any, is_.quotient(q, c[2], -1), none), w));
     // Of what starts at 0 the other root is the start.
-    candidates.push_back({is_.pick(is_.both(both, is_.no(near_0_[w])), first[1], none), second[1], w});
+    const int has_both = is_.both(has_roots, is_.no(near_0_[w]));
+    candidates.push_back(candidate(is_.pick(has_both, is_.quotient(c[0], q, -1), none), w));
   }
 
   /// The sides just after a root.
@@ -258,17 +259,18 @@ class FlightCode {
         continue;
       }
       if (w == one.watch) {
-        int rate = watch.first.value[1];
-        if (watch.first.degree() == 2)
-          rate = is_.add(rate, is_.part(2, is_.times(watch.first.value[2], one.first)));
-        sides.push_back({is_.sign(rate), is_.number(1)});
+        sides.push_back({is_.sign(one.rate), is_.number(1)});
         continue;
       }
-      const int value = first_.at(watch.first.value, one.first);
-      const int apart = is_.abs(is_.minus(value, first_.at(watch.second, one.second)));
-      const int error = is_.add(is_.part(kErrorOfFlights, apart),
-                                is_.part(hybrid::kTermRounding, first_.at(watch.first.size, one.first)));
-      sides.push_back({is_.sign(value), is_.is_positive(is_.minus(is_.abs(value), error))});
+      // Its error there, and what it changes by between the roots of both runs; times the rate.
+      const Candidate at = candidate(one.time, w);
+      const int value = first_.at(watch.first.value, one.time);
+      const int error = is_.add(
+          is_.part(kErrorOfFlights, is_.abs(is_.minus(value, at.other))),
+          is_.part(hybrid::kTermRounding, first_.at(watch.first.size, one.time)));
+      const int later = is_.part(kErrorOfFlights, is_.abs(is_.times(at.rate, one.other)));
+      const int clear = is_.minus(is_.abs(value), error);
+      sides.push_back({is_.sign(value), is_.is_positive(is_.minus(is_.times(clear, is_.abs(one.rate)), later))});
     }
     return sides;
   }
@@ -325,16 +327,18 @@ class FlightCode {
     std::vector<Candidate> candidates;
     for (std::size_t w = 0; w < watches_.size(); ++w) add_candidates(w, candidates);
     if (candidates.size() > most_roots) throw NoFormula();
-    int first = is_.number(never), second = first, sure = is_.number(0);
+    int first = is_.number(never), other = is_.number(0), rate = is_.number(1);
+    int sure = is_.number(0);
     event_ = is_.number(-1);
     for (const Side& side : sides_) sides_after_.push_back(side.sign);
     for (const Candidate& one : candidates) {
       const std::vector<Side> sides = sides_after(one);
       Due due = due_at(one, sides);
-      const int is_before = is_.is_positive(is_.minus(first, one.first));
-      const int takes = is_.both(is_.both(is_.is_positive(one.first), due.possible), is_before);
-      first = is_.pick(takes, one.first, first);
-      second = is_.pick(takes, one.second, second);
+      const int is_before = is_.is_positive(is_.minus(first, one.time));
+      const int takes = is_.both(is_.is_positive(one.time), is_.both(is_before, due.possible));
+      first = is_.pick(takes, one.time, first);
+      other = is_.pick(takes, one.other, other);
+      rate = is_.pick(takes, one.rate, rate);
       sure = is_.pick(takes, due.sure, sure);
       event_ = is_.pick(takes, due.event, event_);
       for (std::size_t w = 0; w < sides.size(); ++w)
@@ -347,7 +351,8 @@ class FlightCode {
                       is_.number(hybrid::kHardly * pack_.scenario->horizon)));
     event_ = is_.pick(ends, is_.number(-1), event_);
     length_ = is_.pick(ends, rest, first);
-    other_length_ = is_.pick(ends, rest, second);
+    // The root of the second run by Newton's method: both are near each other, as is required.
+    other_length_ = is_.minus(length_, is_.pick(ends, is_.number(0), is_.quotient(other, rate, 0)));
     require(is_.minus(is_.part(kApart, length_), is_.abs(is_.minus(other_length_, length_))));
   }
 
