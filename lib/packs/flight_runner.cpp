@@ -226,7 +226,9 @@ void FlightRunner::finish(std::size_t l) {
   PackVerdict& verdict = verdict_of(l);
   verdict.open = false;
   for (std::size_t c = 0; c < pack_.claims.size(); ++c) {
-    const auto value = [&](Flown::Field which) { return code_.input(flights_.field_of(c, which))[l]; };
+    const auto value = [&](Flown::Field which) {
+      return flights_.has(c, which) ? code_.input(flights_.field_of(c, which))[l] : 0;
+    };
     const auto& over = pack_.claims[c].over;
     ClaimLane& claim = claims_[l][c];
     claim.finish({!over || (happened_[l] >> *over & 1U) != 0, value(Flown::violated) != 0,

@@ -108,6 +108,7 @@ class FlightCode {
     made_.claims = pack.claims.size();
     for (std::size_t e = 0; e < pack.events.size(); ++e)
       if (pack.events[e].crossing) made_.crossings.push_back(e);
+    for (const PackClaim& claim : pack.claims) place_fields(claim.kind);
     ok_ = is_.number(1);
     shift_ = input(made_.at(FlightSystem::shift));
   }
@@ -137,12 +138,25 @@ class FlightCode {
     for (const std::size_t e : made_.crossings)
       results[FlightSystem::sides_after].push_back(sides_after_[pack_.events[e].crossing->watch]);
     std::optional<std::uint32_t> fed_back;
-    if (made_.claims > 0) fed_back = static_cast<std::uint32_t>(made_.field_of(0, FlightSystem::peak));
+    if (made_.claims > 0) fed_back = static_cast<std::uint32_t>(made_.limit_of(made_.claims));
     made_.code.emplace(graph_, results, made_.all_inputs(), fed_back);
   }
 
  private:
   int input(std::size_t position) { return graph_.input(static_cast<int>(position)); }
+
+  void place_fields(ClaimKind kind) {
+    using Flown = FlightSystem;
+    std::vector<Flown::Field> kept = {Flown::peak, Flown::violated};
+    if (kind == ClaimKind::shrinks)
+      kept = {Flown::first, Flown::first_error, Flown::last, Flown::last_error};
+    if (kind == ClaimKind::nonincreasing)
+      kept = {Flown::first, Flown::low,  Flown::low_error, Flown::high,
+              Flown::high_error, Flown::floor, Flown::last};
+    made_.places.emplace_back().fill(-1);
+    for (const Flown::Field one : kept)
+      made_.places.back()[one] = static_cast<int>(made_.fields_in_all++);
+  }
 
   Nodes second_inputs() {
     Nodes x;
@@ -419,27 +433,31 @@ class FlightCode {
         for (int& node : *nodes) node = is_.minus(node);
     const Value start{along.first.value[0], error_along(along, is_.number(0))};
     const Value end{first_.at(along.first.value, length_), error_along(along, length_)};
-    std::array<int, FlightSystem::fields_of_claim> field{};
+    using Flown = FlightSystem;
+    Fields field{};
     for (std::size_t f = 0; f < field.size(); ++f)
-      field[f] = input(made_.field_of(c, static_cast<FlightSystem::Field>(f)));
-    const int fresh = input(made_.at(FlightSystem::fresh));
-    using F = FlightSystem;
-    for (const auto& [value, error] :
-         {std::pair{F::first, F::first_error}, std::pair{F::low, F::low_error}, std::pair{F::high, F::high_error}}) {
-      field[value] = is_.pick(fresh, start.value, field[value]);
-      field[error] = is_.pick(fresh, start.error, field[error]);
-    }
-    field[F::peak] = is_.pick(fresh, is_.number(-never), field[F::peak]);
-    field[F::violated] = is_.pick(fresh, is_.number(0), field[F::violated]);
-    field[F::floor] = is_.pick(fresh, is_.number(0), field[F::floor]);
-    const int counts = packed.over ? is_.is_equal(input(made_.at(F::jumped)), static_cast<double>(*packed.over))
+      if (const auto one = static_cast<Flown::Field>(f); made_.has(c, one))
+        field[f] = input(made_.field_of(c, one));
+    const int fresh = input(made_.at(Flown::fresh));
+    const std::pair<Flown::Field, int> begun[] = {
+        {Flown::first, start.value}, {Flown::first_error, start.error},
+        {Flown::low, start.value},   {Flown::low_error, start.error},
+        {Flown::high, start.value},  {Flown::high_error, start.error},
+        {Flown::peak, is_.number(-never)}, {Flown::violated, is_.number(0)}, {Flown::floor, is_.number(0)}};
+    for (const auto& [which, value] : begun)
+      if (made_.has(c, which)) field[which] = is_.pick(fresh, value, field[which]);
+    const int counts = packed.over ? is_.is_equal(input(made_.at(Flown::jumped)), static_cast<double>(*packed.over))
                                    : is_.number(1);
     if (packed.kind == ClaimKind::below || packed.kind == ClaimKind::above)
       compare_with_bound(packed, along, packed.over ? start : end, counts, c, field);
     if (packed.kind == ClaimKind::nonincreasing) compare_with_before(packed, along, start, end, counts, field);
-    field[F::last] = end.value;
-    field[F::last_error] = end.error;
-    fields.insert(fields.end(), field.begin(), field.end());
+    field[Flown::last] = end.value;
+    field[Flown::last_error] = end.error;
+    std::vector<std::pair<int, int>> placed;
+    for (std::size_t f = 0; f < field.size(); ++f)
+      if (made_.has(c, static_cast<Flown::Field>(f))) placed.emplace_back(made_.places[c][f], field[f]);
+    std::sort(placed.begin(), placed.end());
+    for (const auto& [place, node] : placed) fields.push_back(node);
   }
 
   using Fields = std::array<int, FlightSystem::fields_of_claim>;
@@ -515,36 +533,36 @@ class FlightCode {
 
   void compare_with_bound(const PackClaim& claim, const Pair& along, const Value& at, int counts,
                           std::size_t c, Fields& field) {
-    using F = FlightSystem;
+    using Flown = FlightSystem;
     const int always = is_.number(claim.always ? 1 : 0);
     const int limit = input(made_.limit_of(c));
     const auto [top, most] = claim.over ? std::pair(at.value, at.value) : highest(along.first.value, at.value);
     const int held = is_.is_at_least_0(is_.minus(limit, is_.add(most, at.error)));
     const int exceeds = is_.is_positive(is_.minus(is_.minus(top, limit), at.error));
-    field[F::violated] = is_.either(field[F::violated], is_.both(is_.both(counts, exceeds), is_.no(always)));
-    require_true(is_.either(is_.either(is_.no(counts), always), is_.either(held, field[F::violated])));
-    field[F::peak] = is_.pick(counts, is_.most(field[F::peak], top), field[F::peak]);
+    field[Flown::violated] = is_.either(field[Flown::violated], is_.both(is_.both(counts, exceeds), is_.no(always)));
+    require_true(is_.either(is_.either(is_.no(counts), always), is_.either(held, field[Flown::violated])));
+    field[Flown::peak] = is_.pick(counts, is_.most(field[Flown::peak], top), field[Flown::peak]);
     // How near it comes is to be known.
     const int scale = is_.pick(is_.abs(limit), is_.abs(limit), is_.number(1));
     if (most != top)
-      require_true(is_.is_at_least_0(is_.minus(is_.part(kScore, scale), is_.minus(most, field[F::peak]))));
+      require_true(is_.is_at_least_0(is_.minus(is_.part(kScore, scale), is_.minus(most, field[Flown::peak]))));
   }
 
   void compare_with_before(const PackClaim& claim, const Pair& along, const Value& start,
                            const Value& end, int counts, Fields& field) {
-    using F = FlightSystem;
-    const int fresh = input(made_.at(F::fresh));
+    using Flown = FlightSystem;
+    const int fresh = input(made_.at(Flown::fresh));
     int compares = is_.both(counts, is_.no(fresh));
     // A jump that leaves it bit by bit.
     if (!claim.over)
-      compares = is_.both(compares, is_.no(is_.is_equal(is_.minus(start.value, field[F::last]), 0)));
+      compares = is_.both(compares, is_.no(is_.is_equal(is_.minus(start.value, field[Flown::last]), 0)));
     compare_at(start, compares, field);
     if (claim.over || along.first.degree() == 0) return;
     const Nodes b = bernstein(along.first.value);
     int falls = is_.number(1);
     for (std::size_t k = 1; k < b.size(); ++k)
       falls = is_.both(falls, is_.is_positive(is_.minus(is_.minus(b[k - 1], b[k]), is_.part(2, end.error))));
-    const int scale = is_.abs(field[F::first]);
+    const int scale = is_.abs(field[Flown::first]);
     const int size = is_.add(first_.at(along.first.size, length_), end.error);
     const int drowned = is_.is_positive(is_.minus(is_.part(pack_.accuracy, scale), size));
     require_true(is_.either(falls, drowned));
@@ -552,32 +570,32 @@ class FlightCode {
   }
 
   void compare_at(const Value& at, int compares, Fields& field) {
-    using F = FlightSystem;
-    const int above_high = is_.minus(at.value, field[F::high]);
-    const int above_low = is_.minus(at.value, field[F::low]);
-    const int violates = is_.is_positive(is_.minus(above_high, is_.add(at.error, field[F::high_error])));
-    const int holds = is_.is_at_least_0(is_.minus(is_.add(above_low, is_.add(at.error, field[F::low_error]))));
+    using Flown = FlightSystem;
+    const int above_high = is_.minus(at.value, field[Flown::high]);
+    const int above_low = is_.minus(at.value, field[Flown::low]);
+    const int violates = is_.is_positive(is_.minus(above_high, is_.add(at.error, field[Flown::high_error])));
+    const int holds = is_.is_at_least_0(is_.minus(is_.add(above_low, is_.add(at.error, field[Flown::low_error]))));
     const int size = is_.add(is_.abs(at.value), at.error);
-    const int scale = is_.abs(field[F::first]);
+    const int scale = is_.abs(field[Flown::first]);
     const int least = is_.pick(violates, is_.number(claims::kFloorOfAccuracy * pack_.accuracy), is_.number(pack_.accuracy));
     const int drowned = is_.both(is_.is_positive(scale), is_.is_at_least_0(is_.minus(is_.times(least, scale), size)));
     require_true(is_.either(is_.no(compares), is_.either(holds, drowned)));
     const int sinks = is_.both(compares, is_.both(is_.no(holds), drowned));
-    field[F::floor] = is_.most(field[F::floor], is_.pick(sinks, is_.quotient(size, scale, 0), is_.number(0)));
+    field[Flown::floor] = is_.most(field[Flown::floor], is_.pick(sinks, is_.quotient(size, scale, 0), is_.number(0)));
     keep_extremes(at, compares, field);
   }
 
   /// The value with the least upper bound so far, and that with the least lower one.
   void keep_extremes(const Value& at, int counts, Fields& field) {
-    using F = FlightSystem;
-    const int lower = is_.minus(is_.minus(field[F::low], field[F::low_error]), is_.minus(at.value, at.error));
-    const int higher = is_.minus(is_.add(field[F::high], field[F::high_error]), is_.add(at.value, at.error));
+    using Flown = FlightSystem;
+    const int lower = is_.minus(is_.minus(field[Flown::low], field[Flown::low_error]), is_.minus(at.value, at.error));
+    const int higher = is_.minus(is_.add(field[Flown::high], field[Flown::high_error]), is_.add(at.value, at.error));
     const int is_low = is_.both(counts, is_.is_positive(lower));
     const int is_high = is_.both(counts, is_.is_positive(higher));
-    field[F::low] = is_.pick(is_low, at.value, field[F::low]);
-    field[F::low_error] = is_.pick(is_low, at.error, field[F::low_error]);
-    field[F::high] = is_.pick(is_high, at.value, field[F::high]);
-    field[F::high_error] = is_.pick(is_high, at.error, field[F::high_error]);
+    field[Flown::low] = is_.pick(is_low, at.value, field[Flown::low]);
+    field[Flown::low_error] = is_.pick(is_low, at.error, field[Flown::low_error]);
+    field[Flown::high] = is_.pick(is_high, at.value, field[Flown::high]);
+    field[Flown::high_error] = is_.pick(is_high, at.error, field[Flown::high_error]);
   }
 
   const PackSystem& pack_;

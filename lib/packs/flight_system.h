@@ -14,6 +14,7 @@
 // Result 0: the fields of all claims; then as `Result` says.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -43,7 +44,7 @@ struct FlightSystem {
     results
   };
   enum Flight : std::size_t { length, later, event, ok };
-  /// Of a claim, all with the sign that it is compared with.
+  /// Of a claim, with the sign that it is compared with: those that its kind asks for.
   enum Field : std::size_t {
     peak,  ///< the largest value so far
     violated,
@@ -61,15 +62,21 @@ struct FlightSystem {
 
   std::size_t whole = 0, rows = 0, claims = 0;
   std::vector<std::size_t> crossings;  ///< the events with one
+  /// By claim: the place of a field among the fields of all claims; -1: it has none.
+  std::vector<std::array<int, fields_of_claim>> places;
+  std::size_t fields_in_all = 0;
   std::optional<lanes::LaneCode> code;
 
   std::size_t at(Input input) const { return 2 * whole + input; }
   std::size_t sign_of_row(std::size_t k) const { return 2 * whole + inputs + k; }
   std::size_t limit_of(std::size_t claim) const { return 2 * whole + inputs + rows + claim; }
+  bool has(std::size_t claim, Field field) const { return places[claim][field] >= 0; }
   std::size_t field_of(std::size_t claim, Field field) const {
-    return limit_of(claims) + claim * fields_of_claim + field;
+    return limit_of(claims) + static_cast<std::size_t>(places[claim][field]);
   }
-  std::size_t side_before(std::size_t crossing) const { return limit_of(claims) + claims * fields_of_claim + crossing; }
+  std::size_t side_before(std::size_t crossing) const {
+    return limit_of(claims) + fields_in_all + crossing;
+  }
   std::size_t all_inputs() const { return side_before(crossings.size()); }
 };
 
