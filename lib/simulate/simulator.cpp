@@ -211,19 +211,30 @@ class EventRun {
     double stop = std::min({horizon_, due_.clocks().next(), noise_.next(), rows_.next()});
     field_.begin(t_, values_);
     stop = watch_.next_line(field_, t_, stop, values_);
-    flow_->start(t_, values_, stop);
     record_.flow_begins(j_, variables(values_));
     starts_ = true;
+    // A flow may end about as soon as the one before: then its steps are not too long for it.
+    const double from = t_;
+    const double early = t_ + kStepsAhead * last_flow_;
+    const bool is_split = system_.affine && t_ < early && early < stop;
+    if (!is_split || go(early) == Went::on) go(stop);
+    last_flow_ = t_ - from;
+    const bool drawn = noise_.draw_due(t_, values_);
+    if (rows_.arrive(t_, values_) || drawn) branches_.update(values_);
+  }
+
+  /// Steps up to `last` at most.
+  Went go(double last) {
+    flow_->start(t_, values_, last);
     Went went = Went::on;
-    while (went == Went::on && t_ < stop) {
+    while (went == Went::on && t_ < last) {
       check_stop();
       if (++steps_ > hybrid::kMost)
         throw RunEnd(hybrid::Ending::lost, fmt::format("more than {} steps", hybrid::kMost));
       watch_progress();
       went = take(flow_->next());
     }
-    const bool drawn = noise_.draw_due(t_, values_);
-    if (rows_.arrive(t_, values_) || drawn) branches_.update(values_);
+    return went;
   }
 
   /// Goes along a step up to where something happens. A kink that changes at its start again
@@ -295,9 +306,7 @@ class EventRun {
 
   /// The same flow in steps up to `last` at most.
   Went take_shorter(double last) {
-    flow_->start(t_, values_, last);
-    Went went = Went::on;
-    while (went == Went::on && t_ < last) went = take(flow_->next());
+    go(last);
     return Went::stopped;
   }
 
@@ -355,6 +364,7 @@ class EventRun {
   SlidingDetector sliding_;
   VectorXd values_;  ///< variables and branches
   double t_ = 0;
+  double last_flow_ = 0;  ///< its length
   std::int64_t j_ = 0;
   std::int64_t chain_ = 0;  ///< jumps without a flow between them
   std::int64_t steps_ = 0;
