@@ -59,7 +59,9 @@ class ZenoDetector {
   std::optional<double> steady_rest(std::size_t period, std::size_t ratios) const;
   bool settles(std::size_t period) const;
   /// So many flows before the last, below `count_`.
-  const Flow& before(std::size_t count) const { return flows_[(next_ + kKept - 1 - count) % kKept]; }
+  const Flow& before(std::size_t count) const {
+    return flows_[(next_ + kKept - 1 - count) % kKept];
+  }
   /// The sum of the last lengths.
   double last(std::size_t period) const;
 
@@ -68,11 +70,11 @@ class ZenoDetector {
   double horizon_;
   double t_ = 0;
   double longest_ = 0;
-  std::size_t short_flows_ = 0;  ///< in a row
+  std::size_t short_flows_ = 0;    ///< in a row
   std::array<Flow, kKept> flows_;  ///< the last ones
   std::size_t count_ = 0;          ///< of them
   std::size_t next_ = 0;           ///< where the next one goes
-  Eigen::VectorXd sizes_;  ///< the largest of each state so far
+  Eigen::VectorXd sizes_;          ///< the largest of each state so far
 };
 
 }  // namespace gainsmith::hybrid

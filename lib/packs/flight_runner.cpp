@@ -29,7 +29,8 @@ FlightRunner::FlightRunner(const PackSystem& pack)
   const auto& variables = pack.system->dynamics.variables;
   for (std::size_t i = 0; i < variables.size(); ++i)
     if (variables[i].kind == model::Dynamics::VariableKind::since)
-      since_[variables[i].of].push_back(static_cast<std::size_t>(pack.system->layout.slots[i].offset));
+      since_[variables[i].of].push_back(
+          static_cast<std::size_t>(pack.system->layout.slots[i].offset));
 }
 
 std::vector<PackVerdict> FlightRunner::run(std::uint64_t seed, std::uint64_t first,
@@ -76,7 +77,8 @@ void FlightRunner::begin(std::size_t l, std::uint64_t run) {
 
 void FlightRunner::set_limits(std::uint32_t fresh) {
   if (pack_.claims.empty()) return;
-  for (std::size_t k = 0; k < pack_.whole; ++k) std::copy_n(code_.input(k), kLanes, begin_.input(k));
+  for (std::size_t k = 0; k < pack_.whole; ++k)
+    std::copy_n(code_.input(k), kLanes, begin_.input(k));
   begin_.run(fresh);
   each(fresh, [&](std::size_t l) {
     claims_[l].resize(pack_.claims.size());
@@ -179,8 +181,8 @@ std::uint32_t FlightRunner::may_accumulate() const {
     const Row& before = lengths_[(number_ + kept - period) % kept];
     for (std::size_t l = 0; l < kLanes; ++l) {
       last[l] += other[l];
-      near[l] = static_cast<char>(
-          near[l] | static_cast<char>(hybrid::ZenoDetector::is_near(last[l], length[l], before[l], t_[l])));
+      near[l] = static_cast<char>(near[l] | static_cast<char>(hybrid::ZenoDetector::is_near(
+                                                last[l], length[l], before[l], t_[l])));
     }
   }
   std::uint32_t mask = 0;
@@ -196,7 +198,8 @@ bool FlightRunner::accumulates(std::size_t l) {
     const std::size_t at = (number_ + kept - back) % kept;
     for (std::size_t k = 0; k < sizes_.rows(); ++k)
       scratch_(static_cast<Eigen::Index>(k)) = states_[at].at(k, l);
-    zeno_.push(t_[l], lengths_[at][l], static_cast<std::size_t>(events_[at][l]), scratch_, largest_);
+    zeno_.push(t_[l], lengths_[at][l], static_cast<std::size_t>(events_[at][l]), scratch_,
+               largest_);
   }
   return zeno_.accumulation().has_value();
 }
@@ -209,7 +212,8 @@ void FlightRunner::jump(std::size_t event, std::uint32_t mask) {
     std::copy_n(code_.input(first), pack_.whole * kLanes, machine.input(0));
     machine.run(mask);
     bad |= machine.faults();
-    for (std::size_t k = 0; k < sizes_.rows(); ++k) jumping.copy(machine.result(0, k), code_.input(first + k));
+    for (std::size_t k = 0; k < sizes_.rows(); ++k)
+      jumping.copy(machine.result(0, k), code_.input(first + k));
     for (const std::size_t element : since_[event])
       each(mask, [&](std::size_t l) { code_.input(first + element)[l] = 0; });
     for (std::size_t k = 0; k < machine.size(1); ++k)
@@ -232,8 +236,8 @@ void FlightRunner::finish(std::size_t l) {
     const auto& over = pack_.claims[c].over;
     ClaimLane& claim = claims_[l][c];
     claim.finish({!over || (happened_[l] >> *over & 1U) != 0, value(Flown::violated) != 0,
-                  value(Flown::peak), value(Flown::first), value(Flown::first_error), value(Flown::last),
-                  value(Flown::last_error), value(Flown::floor)});
+                  value(Flown::peak), value(Flown::first), value(Flown::first_error),
+                  value(Flown::last), value(Flown::last_error), value(Flown::floor)});
     verdict.open = verdict.open || claim.open();
     verdict.claims.push_back(
         {claim.violated(), claim.sampled(), claim.score(), claim.floor(), 0, 0, 0});

@@ -58,7 +58,8 @@ class FlightRunner {
   std::uint32_t busy_ = 0;
   alignas(64) Row t_{};
   std::array<std::uint64_t, lanes::kLanes> runs_{}, random_{}, happened_{};
-  std::array<std::size_t, lanes::kLanes> count_{}, short_{};  ///< of flights; of short ones in a row
+  std::array<std::size_t, lanes::kLanes> count_{},
+      short_{};  ///< of flights; of short ones in a row
   /// The last flights of all lanes, by number modulo `kept`.
   static constexpr std::size_t kept = hybrid::ZenoDetector::kKept;
   std::size_t number_ = 0;

@@ -115,7 +115,8 @@ class FlightCode {
 
   void make(const std::vector<claims::Claim>& claims) {
     for (const Watch& watch : pack_.watches)
-      watches_.push_back(pair(first_.of(*watch.of, watch.element_of), second_.of(*watch.of, watch.element_of)));
+      watches_.push_back(
+          pair(first_.of(*watch.of, watch.element_of), second_.of(*watch.of, watch.element_of)));
     find_sides();
     find_event();
     std::size_t c = 0;
@@ -123,11 +124,13 @@ class FlightCode {
     for (const claims::Claim& claim : claims)
       if (claim.stated()) judge(claim, c++, results[FlightSystem::fields]);
     for (std::size_t k = 0; k < pack_.rows.size(); ++k) {
-      const Pair row = pair(first_.of_value(index(pack_.rows[k])), second_.of_value(index(pack_.rows[k])));
+      const Pair row =
+          pair(first_.of_value(index(pack_.rows[k])), second_.of_value(index(pack_.rows[k])));
       const int size = first_.at(row.first.size, length_);
       const int moved = is_.part(kMoved, is_.times(size, input(made_.sign_of_row(k))));
       results[FlightSystem::ends].push_back(first_.at(row.first.value, length_));
-      results[FlightSystem::other_ends].push_back(is_.add(first_.at(row.second, other_length_), moved));
+      results[FlightSystem::other_ends].push_back(
+          is_.add(first_.at(row.second, other_length_), moved));
     }
     for (std::size_t k = 0; k < pack_.whole; ++k) {
       const int size = first_.at(first_.of_value(k).size, length_);
@@ -151,7 +154,7 @@ class FlightCode {
     if (kind == ClaimKind::shrinks)
       kept = {Flown::first, Flown::first_error, Flown::last, Flown::last_error};
     if (kind == ClaimKind::nonincreasing)
-      kept = {Flown::first, Flown::low,  Flown::low_error, Flown::high,
+      kept = {Flown::first,      Flown::low,   Flown::low_error, Flown::high,
               Flown::high_error, Flown::floor, Flown::last};
     made_.places.emplace_back().fill(-1);
     for (const Flown::Field one : kept)
@@ -173,9 +176,9 @@ class FlightCode {
   Pair pair(const Series& first, const Series& second) {
     Pair made{first, second.value};
     for (std::size_t j = 0; j + 1 < made.second.size(); ++j)
-      made.second[j] = is_.minus(
-          second.value[j],
-          is_.times(is_.part(static_cast<double>(j + 1), shift_), second.value[j + 1]));
+      made.second[j] =
+          is_.minus(second.value[j],
+                    is_.times(is_.part(static_cast<double>(j + 1), shift_), second.value[j + 1]));
     made.second.resize(made.first.value.size(), is_.number(0));
     return made;
   }
@@ -183,7 +186,8 @@ class FlightCode {
   /// Of coefficient j.
   int error_of(const Pair& one, std::size_t j) {
     const int apart = is_.abs(is_.minus(one.first.value[j], one.second[j]));
-    return is_.add(is_.part(kErrorOfFlights, apart), is_.part(hybrid::kTermRounding, one.first.size[j]));
+    return is_.add(is_.part(kErrorOfFlights, apart),
+                   is_.part(hybrid::kTermRounding, one.first.size[j]));
   }
 
   // --- Sides and roots. ---
@@ -247,14 +251,14 @@ class FlightCode {
     const Nodes& c = watch.first.value;
     const int discriminant = is_.minus(is_.times(c[1], c[1]), is_.part(4, is_.times(c[0], c[2])));
     const int size = is_.add(is_.times(c[1], c[1]), is_.part(4, is_.abs(is_.times(c[0], c[2]))));
-    const int error = is_.add(
-        is_.part(2, is_.times(is_.abs(c[1]), error_of(watch, 1))),
-        is_.part(4, is_.add(is_.times(is_.abs(c[0]), error_of(watch, 2)),
-                             is_.times(is_.abs(c[2]), error_of(watch, 0)))));
+    const int error = is_.add(is_.part(2, is_.times(is_.abs(c[1]), error_of(watch, 1))),
+                              is_.part(4, is_.add(is_.times(is_.abs(c[0]), error_of(watch, 2)),
+                                                  is_.times(is_.abs(c[2]), error_of(watch, 0)))));
     const int margin = is_.add(error, is_.part(kTouches, size));
     const int has_roots = is_.is_positive(is_.minus(discriminant, margin));
     // A touch is left open, unless all of it rests.
-    require_true(is_.either(is_.either(has_roots, near_0_[w]), is_.is_positive(is_.minus(is_.minus(discriminant), margin))));
+    require_true(is_.either(is_.either(has_roots, near_0_[w]),
+                            is_.is_positive(is_.minus(is_.minus(discriminant), margin))));
     const int q = is_.part(-0.5, is_.add(c[1], is_.times(is_.sign(c[1]), is_.root(discriminant))));
     const int has_any = is_.either(has_roots, near_0_[w]);
     candidates.push_back(candidate(is_.pick(has_any, is_.quotient(q, c[2], -1), none), w));
@@ -279,12 +283,13 @@ class FlightCode {
       // Its error there, and what it changes by between the roots of both runs; times the rate.
       const Candidate at = candidate(one.time, w);
       const int value = first_.at(watch.first.value, one.time);
-      const int error = is_.add(
-          is_.part(kErrorOfFlights, is_.abs(is_.minus(value, at.other))),
-          is_.part(hybrid::kTermRounding, first_.at(watch.first.size, one.time)));
+      const int error =
+          is_.add(is_.part(kErrorOfFlights, is_.abs(is_.minus(value, at.other))),
+                  is_.part(hybrid::kTermRounding, first_.at(watch.first.size, one.time)));
       const int later = is_.part(kErrorOfFlights, is_.abs(is_.times(at.rate, one.other)));
       const int clear = is_.minus(is_.abs(value), error);
-      sides.push_back({is_.sign(value), is_.is_positive(is_.minus(is_.times(clear, is_.abs(one.rate)), later))});
+      sides.push_back({is_.sign(value),
+                       is_.is_positive(is_.minus(is_.times(clear, is_.abs(one.rate)), later))});
     }
     return sides;
   }
@@ -374,12 +379,15 @@ class FlightCode {
   void require_no_crossing(std::size_t e) {
     const Watched& crossing = *pack_.events[e].crossing;
     const auto found = std::find(made_.crossings.begin(), made_.crossings.end(), e);
-    const int before = input(made_.side_before(static_cast<std::size_t>(found - made_.crossings.begin())));
-    const int own = is_.either(input(made_.at(FlightSystem::fresh)),
-                               is_.is_equal(input(made_.at(FlightSystem::jumped)), static_cast<double>(e)));
+    const int before =
+        input(made_.side_before(static_cast<std::size_t>(found - made_.crossings.begin())));
+    const int own =
+        is_.either(input(made_.at(FlightSystem::fresh)),
+                   is_.is_equal(input(made_.at(FlightSystem::jumped)), static_cast<double>(e)));
     const int same = is_.is_positive(is_.times(before, sides_[crossing.watch].sign));
     // What starts at 0 and leaves it in the direction of the event is unusual.
-    const int away = is_.either(is_.no(near_0_[crossing.watch]), is_.no(wanted(e, sides_[crossing.watch].sign)));
+    const int away =
+        is_.either(is_.no(near_0_[crossing.watch]), is_.no(wanted(e, sides_[crossing.watch].sign)));
     require_true(is_.both(is_.either(own, same), away));
   }
 
@@ -440,22 +448,26 @@ class FlightCode {
         field[f] = input(made_.field_of(c, one));
     const int fresh = input(made_.at(Flown::fresh));
     const std::pair<Flown::Field, int> begun[] = {
-        {Flown::first, start.value}, {Flown::first_error, start.error},
-        {Flown::low, start.value},   {Flown::low_error, start.error},
-        {Flown::high, start.value},  {Flown::high_error, start.error},
-        {Flown::peak, is_.number(-never)}, {Flown::violated, is_.number(0)}, {Flown::floor, is_.number(0)}};
+        {Flown::first, start.value},       {Flown::first_error, start.error},
+        {Flown::low, start.value},         {Flown::low_error, start.error},
+        {Flown::high, start.value},        {Flown::high_error, start.error},
+        {Flown::peak, is_.number(-never)}, {Flown::violated, is_.number(0)},
+        {Flown::floor, is_.number(0)}};
     for (const auto& [which, value] : begun)
       if (made_.has(c, which)) field[which] = is_.pick(fresh, value, field[which]);
-    const int counts = packed.over ? is_.is_equal(input(made_.at(Flown::jumped)), static_cast<double>(*packed.over))
+    const int counts = packed.over ? is_.is_equal(input(made_.at(Flown::jumped)),
+                                                  static_cast<double>(*packed.over))
                                    : is_.number(1);
     if (packed.kind == ClaimKind::below || packed.kind == ClaimKind::above)
       compare_with_bound(packed, along, packed.over ? start : end, counts, c, field);
-    if (packed.kind == ClaimKind::nonincreasing) compare_with_before(packed, along, start, end, counts, field);
+    if (packed.kind == ClaimKind::nonincreasing)
+      compare_with_before(packed, along, start, end, counts, field);
     field[Flown::last] = end.value;
     field[Flown::last_error] = end.error;
     std::vector<std::pair<int, int>> placed;
     for (std::size_t f = 0; f < field.size(); ++f)
-      if (made_.has(c, static_cast<Flown::Field>(f))) placed.emplace_back(made_.places[c][f], field[f]);
+      if (made_.has(c, static_cast<Flown::Field>(f)))
+        placed.emplace_back(made_.places[c][f], field[f]);
     std::sort(placed.begin(), placed.end());
     for (const auto& [place, node] : placed) fields.push_back(node);
   }
@@ -470,7 +482,8 @@ class FlightCode {
     const int difference = first_.at(apart, s);
     const int size = first_.at(along.first.size, s);
     // At the start of a flight terms may be 0.
-    if (s == length_) require_true(is_.is_at_least_0(is_.minus(is_.part(kApart, size), difference)));
+    if (s == length_)
+      require_true(is_.is_at_least_0(is_.minus(is_.part(kApart, size), difference)));
     return is_.add(is_.part(kErrorOfFlights, difference),
                    is_.part(hybrid::kTermRounding + 8 * kUnitRoundoff, size));
   }
@@ -486,13 +499,15 @@ class FlightCode {
     }
     const auto choose = [](std::size_t of, std::size_t k) {
       double made = 1;
-      for (std::size_t i = 0; i < k; ++i) made = made * static_cast<double>(of - i) / static_cast<double>(i + 1);
+      for (std::size_t i = 0; i < k; ++i)
+        made = made * static_cast<double>(of - i) / static_cast<double>(i + 1);
       return made;
     };
     Nodes b;
     for (std::size_t k = 0; k <= n; ++k) {
       int sum = is_.number(0);
-      for (std::size_t j = 0; j <= k; ++j) sum = is_.add(sum, is_.part(choose(k, j) / choose(n, j), scaled[j]));
+      for (std::size_t j = 0; j <= k; ++j)
+        sum = is_.add(sum, is_.part(choose(k, j) / choose(n, j), scaled[j]));
       b.push_back(sum);
     }
     return b;
@@ -505,8 +520,9 @@ class FlightCode {
     if (c.size() <= 2) return {ends, ends};
     if (c.size() == 3) {
       const int at = is_.quotient(c[1], is_.part(-2, c[2]), -1);
-      const int inside = is_.both(is_.both(is_.is_positive(at), is_.is_positive(is_.minus(length_, at))),
-                                  is_.is_positive(is_.minus(c[2])));
+      const int inside =
+          is_.both(is_.both(is_.is_positive(at), is_.is_positive(is_.minus(length_, at))),
+                   is_.is_positive(is_.minus(c[2])));
       const int top = is_.pick(inside, is_.add(c[0], is_.part(0.5, is_.times(c[1], at))), ends);
       return {top, top};
     }
@@ -524,7 +540,8 @@ class FlightCode {
     Nodes left, right = b;
     for (std::size_t last = b.size(); last-- > 0;) {
       left.push_back(right[0]);
-      for (std::size_t k = 0; k < last; ++k) right[k] = is_.part(0.5, is_.add(right[k], right[k + 1]));
+      for (std::size_t k = 0; k < last; ++k)
+        right[k] = is_.part(0.5, is_.add(right[k], right[k + 1]));
     }
     highest.first = is_.most(highest.first, right[0]);
     widen(left, halvings - 1, highest);
@@ -536,16 +553,20 @@ class FlightCode {
     using Flown = FlightSystem;
     const int always = is_.number(claim.always ? 1 : 0);
     const int limit = input(made_.limit_of(c));
-    const auto [top, most] = claim.over ? std::pair(at.value, at.value) : highest(along.first.value, at.value);
+    const auto [top, most] =
+        claim.over ? std::pair(at.value, at.value) : highest(along.first.value, at.value);
     const int held = is_.is_at_least_0(is_.minus(limit, is_.add(most, at.error)));
     const int exceeds = is_.is_positive(is_.minus(is_.minus(top, limit), at.error));
-    field[Flown::violated] = is_.either(field[Flown::violated], is_.both(is_.both(counts, exceeds), is_.no(always)));
-    require_true(is_.either(is_.either(is_.no(counts), always), is_.either(held, field[Flown::violated])));
+    field[Flown::violated] =
+        is_.either(field[Flown::violated], is_.both(is_.both(counts, exceeds), is_.no(always)));
+    require_true(
+        is_.either(is_.either(is_.no(counts), always), is_.either(held, field[Flown::violated])));
     field[Flown::peak] = is_.pick(counts, is_.most(field[Flown::peak], top), field[Flown::peak]);
     // How near it comes is to be known.
     const int scale = is_.pick(is_.abs(limit), is_.abs(limit), is_.number(1));
     if (most != top)
-      require_true(is_.is_at_least_0(is_.minus(is_.part(kScore, scale), is_.minus(most, field[Flown::peak]))));
+      require_true(is_.is_at_least_0(
+          is_.minus(is_.part(kScore, scale), is_.minus(most, field[Flown::peak]))));
   }
 
   void compare_with_before(const PackClaim& claim, const Pair& along, const Value& start,
@@ -555,13 +576,15 @@ class FlightCode {
     int compares = is_.both(counts, is_.no(fresh));
     // A jump that leaves it bit by bit.
     if (!claim.over)
-      compares = is_.both(compares, is_.no(is_.is_equal(is_.minus(start.value, field[Flown::last]), 0)));
+      compares =
+          is_.both(compares, is_.no(is_.is_equal(is_.minus(start.value, field[Flown::last]), 0)));
     compare_at(start, compares, field);
     if (claim.over || along.first.degree() == 0) return;
     const Nodes b = bernstein(along.first.value);
     int falls = is_.number(1);
     for (std::size_t k = 1; k < b.size(); ++k)
-      falls = is_.both(falls, is_.is_positive(is_.minus(is_.minus(b[k - 1], b[k]), is_.part(2, end.error))));
+      falls = is_.both(
+          falls, is_.is_positive(is_.minus(is_.minus(b[k - 1], b[k]), is_.part(2, end.error))));
     const int scale = is_.abs(field[Flown::first]);
     const int size = is_.add(first_.at(along.first.size, length_), end.error);
     const int drowned = is_.is_positive(is_.minus(is_.part(pack_.accuracy, scale), size));
@@ -573,23 +596,30 @@ class FlightCode {
     using Flown = FlightSystem;
     const int above_high = is_.minus(at.value, field[Flown::high]);
     const int above_low = is_.minus(at.value, field[Flown::low]);
-    const int violates = is_.is_positive(is_.minus(above_high, is_.add(at.error, field[Flown::high_error])));
-    const int holds = is_.is_at_least_0(is_.minus(is_.add(above_low, is_.add(at.error, field[Flown::low_error]))));
+    const int violates =
+        is_.is_positive(is_.minus(above_high, is_.add(at.error, field[Flown::high_error])));
+    const int holds = is_.is_at_least_0(
+        is_.minus(is_.add(above_low, is_.add(at.error, field[Flown::low_error]))));
     const int size = is_.add(is_.abs(at.value), at.error);
     const int scale = is_.abs(field[Flown::first]);
-    const int least = is_.pick(violates, is_.number(claims::kFloorOfAccuracy * pack_.accuracy), is_.number(pack_.accuracy));
-    const int drowned = is_.both(is_.is_positive(scale), is_.is_at_least_0(is_.minus(is_.times(least, scale), size)));
+    const int least = is_.pick(violates, is_.number(claims::kFloorOfAccuracy * pack_.accuracy),
+                               is_.number(pack_.accuracy));
+    const int drowned = is_.both(is_.is_positive(scale),
+                                 is_.is_at_least_0(is_.minus(is_.times(least, scale), size)));
     require_true(is_.either(is_.no(compares), is_.either(holds, drowned)));
     const int sinks = is_.both(compares, is_.both(is_.no(holds), drowned));
-    field[Flown::floor] = is_.most(field[Flown::floor], is_.pick(sinks, is_.quotient(size, scale, 0), is_.number(0)));
+    field[Flown::floor] =
+        is_.most(field[Flown::floor], is_.pick(sinks, is_.quotient(size, scale, 0), is_.number(0)));
     keep_extremes(at, compares, field);
   }
 
   /// The value with the least upper bound so far, and that with the least lower one.
   void keep_extremes(const Value& at, int counts, Fields& field) {
     using Flown = FlightSystem;
-    const int lower = is_.minus(is_.minus(field[Flown::low], field[Flown::low_error]), is_.minus(at.value, at.error));
-    const int higher = is_.minus(is_.add(field[Flown::high], field[Flown::high_error]), is_.add(at.value, at.error));
+    const int lower = is_.minus(is_.minus(field[Flown::low], field[Flown::low_error]),
+                                is_.minus(at.value, at.error));
+    const int higher = is_.minus(is_.add(field[Flown::high], field[Flown::high_error]),
+                                 is_.add(at.value, at.error));
     const int is_low = is_.both(counts, is_.is_positive(lower));
     const int is_high = is_.both(counts, is_.is_positive(higher));
     field[Flown::low] = is_.pick(is_low, at.value, field[Flown::low]);
@@ -617,14 +647,16 @@ bool may_fly(const PackSystem& pack, const std::vector<claims::Claim>& claims) {
   const Dynamics& dynamics = pack.system->dynamics;
   const bool has_branches = std::any_of(pack.watches.begin(), pack.watches.end(),
                                         [](const Watch& one) { return !one.branches.empty(); });
-  const bool is_plain = std::all_of(pack.events.begin(), pack.events.end(), [](const PackEvent& one) {
-    return (one.when || one.crossing) && !one.only_if && !one.lost;
-  });
+  const bool is_plain = std::all_of(
+      pack.events.begin(), pack.events.end(),
+      [](const PackEvent& one) { return (one.when || one.crossing) && !one.only_if && !one.lost; });
   constexpr std::size_t most_events = 64;
-  return is_plain && !pack.events.empty() && pack.events.size() <= most_events && !has_branches && pack.kinks.empty() &&
-         pack.flats.empty() && pack.costs.empty() && dynamics.noise.empty() && !pack.system->pulses &&
+  return is_plain && !pack.events.empty() && pack.events.size() <= most_events && !has_branches &&
+         pack.kinks.empty() && pack.flats.empty() && pack.costs.empty() && dynamics.noise.empty() &&
+         !pack.system->pulses &&
          std::none_of(claims.begin(), claims.end(), [](const claims::Claim& one) {
-           return one.stated() && (one.after > 0 || one.tolerance > 0 || one.kind == ClaimKind::cost);
+           return one.stated() &&
+                  (one.after > 0 || one.tolerance > 0 || one.kind == ClaimKind::cost);
          });
 }
 

@@ -42,7 +42,7 @@ struct Watch {
     bool sign = false;   ///< it is sign(D), otherwise that of `where`
     bool strict = true;  ///< of `where`: D > 0, otherwise D >= 0
   };
-  bool moves = true;  ///< otherwise it is the same along a flow, and exact
+  bool moves = true;                  ///< otherwise it is the same along a flow, and exact
   const expr::Program* of = nullptr;  ///< of which it is an element
   std::size_t element_of = 0;
   std::vector<Branch> branches;

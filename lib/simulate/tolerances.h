@@ -7,9 +7,9 @@ namespace gainsmith::simulate {
 constexpr double kEarly = 0.1;  ///< of a step
 ///< | an event so early is found again on a shorter step, whose rounding is smaller
 ///< | EventRun.ZenoStopsAtItsAccumulation
-constexpr double kStepsAhead = 4;  ///< flows before
-        ///< | an exact flow is stepped by so much first
-        ///< | EventRun.ZenoStopsAtItsAccumulation
+constexpr double kStepsAhead = 4;     ///< flows before
+                                      ///< | an exact flow is stepped by so much first
+                                      ///< | EventRun.ZenoStopsAtItsAccumulation
 constexpr double kShorterStep = 1.5;  ///< times the length up to an event
 ///< | the length of that shorter step
 ///< | EventRun.ZenoStopsAtItsAccumulation

@@ -150,10 +150,13 @@ std::string falling(const std::string& flow, const std::string& event, const std
   return R"yaml(problem: p
 method:
   method: m
-  events: {e: {)yaml" + event + R"yaml(}}
-  plant: {state: {x: {shape: 2}}, flow: {x: ")yaml" + flow + R"yaml("}, at: {e: {x: "[0; -0.5*x(2)]"}}}
+  events: {e: {)yaml" +
+         event + R"yaml(}}
+  plant: {state: {x: {shape: 2}}, flow: {x: ")yaml" +
+         flow + R"yaml("}, at: {e: {x: "[0; -0.5*x(2)]"}}}
   claims: {low: {below: x(1), bound: 9}}
-campaign: {runs: 96, horizon: 1, initial: {x: {box: )yaml" + start + "}}}\n";
+campaign: {runs: 96, horizon: 1, initial: {x: {box: )yaml" +
+         start + "}}}\n";
 }
 
 TEST(FlightRuns, LeaveToStepsWhatIsUnusual) {
@@ -175,14 +178,17 @@ TEST(FlightRuns, LeaveToStepsWhatIsUnusual) {
   // It falls to the ground at the horizon.
   EXPECT_EQ(open(falling("[x(2); 0]", impact, "[[1, -1], [1, -1]]")), kRuns);
   // Two conditions come true at one time.
-  EXPECT_EQ(open(falling("[x(2); -1]", "when: x(1) <= 0 and x(2) <= -1", "[[0.5, 0], [0.5, 0]]")), kRuns);
+  EXPECT_EQ(open(falling("[x(2); -1]", "when: x(1) <= 0 and x(2) <= -1", "[[0.5, 0], [0.5, 0]]")),
+            kRuns);
 }
 
 TEST(FlightRuns, AreOfPolynomialsAlone) {
-  for (const char* flow : {"[x(2); -x(1)]", "[x(2); -9 - x(2)]", "[x(2); -9*sin(t)]", "[x(2); -9 + abs(x(1))]"})
+  for (const char* flow :
+       {"[x(2); -x(1)]", "[x(2); -9 - x(2)]", "[x(2); -9*sin(t)]", "[x(2); -9 + abs(x(1))]"})
     EXPECT_FALSE(Flown(falling(flow, "when: x(1) <= 0 and x(2) < 0", "[1, 2]")).flies()) << flow;
   EXPECT_FALSE(Flown(falling("[x(2); -9]", "when: norm(x) <= 0.5 and x(2) < 0", "[1, 2]")).flies());
-  EXPECT_TRUE(Flown(falling("[x(2); -9 + 3]", "when: x(1) <= x(2)/7 and x(2) < 0", "[1, 2]")).flies());
+  EXPECT_TRUE(
+      Flown(falling("[x(2); -9 + 3]", "when: x(1) <= x(2)/7 and x(2) < 0", "[1, 2]")).flies());
 }
 
 }  // namespace
