@@ -55,15 +55,17 @@ struct FlightSystem {
     high,
     high_error,
     floor,  ///< ClaimLane::floor
-    last,   ///< at the end of the flight
+    last,   ///< at the end of the flight; over jumps after the last
     last_error,
+    seen,  ///< 1 once the claim is made
     fields_of_claim
   };
+  /// Of each field its place among those of all claims; -1: the claim has none.
+  using Places = std::array<int, fields_of_claim>;
 
   std::size_t whole = 0, rows = 0, claims = 0;
   std::vector<std::size_t> crossings;  ///< the events with one
-  /// By claim: the place of a field among the fields of all claims; -1: it has none.
-  std::vector<std::array<int, fields_of_claim>> places;
+  std::vector<Places> places;          ///< by claim
   std::size_t fields_in_all = 0;
   std::optional<lanes::LaneCode> code;
 

@@ -1,0 +1,23 @@
+// When a flight ends, and by which event: the first root of a watch after which one is due.
+//
+// A watch has degree 2 at most. At each of its roots the conditions of all events are looked at, with
+// the sides of all watches just after it; what is not certain there is left open.
+#pragma once
+
+#include "packs/flight_graph.h"
+
+namespace gainsmith::packs {
+
+/// As nodes.
+struct FlightEnd {
+  int length = 0;
+  int other_length = 0;  ///< of the second run, from the start of the first on
+  int event = 0;         ///< -1: the horizon
+  Nodes sides;           ///< of the watches, just after the event
+};
+
+/// NoFormula (numbers/scalar_rules.h) where a watch has another degree, and where they have many
+/// roots.
+FlightEnd find_end(FlightGraph& graph);
+
+}  // namespace gainsmith::packs

@@ -1,0 +1,42 @@
+#include "packs/flight_graph.h"
+
+#include "hybrid/tolerances.h"
+#include "packs/pack_system.h"
+#include "packs/tolerances.h"
+
+namespace gainsmith::packs {
+
+FlightGraph::FlightGraph(const PackSystem& pack, FlightSystem& made)
+    : pack_(pack),
+      made_(made),
+      texts_(*pack.system, pack.costs),
+      is_(texts_.graph()),
+      first_(texts_, texts_.inputs(), true),
+      second_(texts_, second_inputs(), false),
+      ok_(is_.number(1)) {}
+
+Nodes FlightGraph::second_inputs() {
+  Nodes x;
+  for (std::size_t k = 0; k < pack_.whole; ++k)
+    x.push_back(input(pack_.whole + index(texts_.kept(static_cast<int>(k)))));
+  return x;
+}
+
+FlightPair FlightGraph::pair(const Series& first, const Series& second) {
+  FlightPair made{first, second.value};
+  const int shift = input(FlightSystem::shift);
+  for (std::size_t j = 0; j + 1 < made.second.size(); ++j)
+    made.second[j] =
+        is_.minus(second.value[j],
+                  is_.times(is_.part(static_cast<double>(j + 1), shift), second.value[j + 1]));
+  made.second.resize(made.first.value.size(), is_.number(0));
+  return made;
+}
+
+int FlightGraph::error_of(const FlightPair& one, std::size_t j) {
+  const int apart = is_.abs(is_.minus(one.first.value[j], one.second[j]));
+  return is_.add(is_.part(kErrorOfFlights, apart),
+                 is_.part(hybrid::kTermRounding, one.first.size[j]));
+}
+
+}  // namespace gainsmith::packs
