@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "packs/flight_runner.h"
 #include "packs/lane_set.h"
 
 namespace gainsmith::packs {
@@ -31,9 +30,7 @@ bool PackVerdict::violated() const {
   return std::any_of(claims.begin(), claims.end(), [](const Claim& one) { return one.violated; });
 }
 
-PackRunner::PackRunner(const PackSystem& system) : lanes_(std::make_unique<LaneSet>(system)) {
-  if (system.flights) flights_ = std::make_unique<FlightRunner>(system);
-}
+PackRunner::PackRunner(const PackSystem& system) : lanes_(std::make_unique<LaneSet>(system)) {}
 PackRunner::PackRunner(PackRunner&&) noexcept = default;
 PackRunner& PackRunner::operator=(PackRunner&&) noexcept = default;
 PackRunner::~PackRunner() = default;
@@ -41,9 +38,13 @@ PackRunner::~PackRunner() = default;
 std::vector<PackVerdict> PackRunner::run(std::uint64_t seed, std::uint64_t first,
                                          std::uint64_t last) {
   std::vector<PackVerdict> verdicts(static_cast<std::size_t>(last - first));
-  if (flights_) verdicts = flights_->run(seed, first, last);
-  lanes_->run(seed, first, verdicts);
+  decide(seed, first, verdicts);
   return verdicts;
+}
+
+void PackRunner::decide(std::uint64_t seed, std::uint64_t first,
+                        std::vector<PackVerdict>& verdicts) {
+  lanes_->run(seed, first, verdicts);
 }
 
 }  // namespace gainsmith::packs

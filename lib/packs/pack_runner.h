@@ -55,7 +55,6 @@ struct PackVerdict {
   bool violated() const;
 };
 
-class FlightRunner;
 class LaneSet;
 
 class PackRunner {
@@ -68,10 +67,11 @@ class PackRunner {
 
   /// Runs first, ..., last - 1. Stopped (base/stop.h) when it is asked to stop.
   std::vector<PackVerdict> run(std::uint64_t seed, std::uint64_t first, std::uint64_t last);
+  /// The same of those runs from `first` on whose verdicts are open.
+  void decide(std::uint64_t seed, std::uint64_t first, std::vector<PackVerdict>& verdicts);
 
  private:
-  std::unique_ptr<FlightRunner> flights_;  ///< none: no flow has a closed form
-  std::unique_ptr<LaneSet> lanes_;         ///< for what they leave open
+  std::unique_ptr<LaneSet> lanes_;
 };
 
 }  // namespace gainsmith::packs

@@ -390,7 +390,6 @@ std::unique_ptr<const PackSystem> make_pack_system(const hybrid::System& system,
     pack->events[e].jump.emplace(jump_code(*pack, e, false));
     if (system.dynamics.events[e].lost > 0) pack->events[e].lost.emplace(jump_code(*pack, e, true));
   }
-  pack->flights = make_flights(*pack, claims);
   return pack;
 }
 

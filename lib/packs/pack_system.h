@@ -22,7 +22,6 @@
 #include "hybrid/scenario.h"
 #include "hybrid/system.h"
 #include "lanes/machine.h"
-#include "packs/flight_system.h"
 #include "packs/pack_graph.h"
 
 namespace gainsmith::packs {
@@ -99,7 +98,6 @@ struct PackSystem {
   std::optional<lanes::LaneCode> point, coarse_point, between_points;
   /// Of claims, then of watches, over a step (step_polynomial.h).
   std::optional<lanes::LaneCode> polynomials;
-  std::optional<FlightSystem> flights;  ///< in closed form, where they have one
 
   /// Results of `step`.
   enum StepResult : std::size_t { end, error };

@@ -53,6 +53,7 @@ Packs make_packs(const Setup& setup, std::uint64_t runs) {
           : Eigen::VectorXd(Eigen::VectorXd::Constant(events.system.size, accuracy.absolute));
   made.any = packs::make_pack_system(events.system, events.scenario, events.claims,
                                      accuracy.relative, absolute);
+  if (made.any) made.flights = flights::make_flights(*made.any, events.claims);
   return made;
 }
 
@@ -60,6 +61,7 @@ PackJudge::PackJudge(const Setup& setup, const Packs* packs) : setup_(&setup) {
   if (packs == nullptr) return;
   if (packs->linear) linear_.emplace(*packs->linear);
   if (packs->any) packs_.emplace(*packs->any);
+  if (packs->flights) flights_.emplace(*packs->any, *packs->flights);
 }
 
 void PackJudge::begin(std::uint64_t seed, std::uint64_t first, std::uint64_t last) {
@@ -67,7 +69,10 @@ void PackJudge::begin(std::uint64_t seed, std::uint64_t first, std::uint64_t las
   first_ = first;
   verdicts_.clear();
   if (linear_) verdicts_ = linear_->run(seed, first, last);
-  if (packs_) verdicts_ = packs_->run(seed, first, last);
+  if (!packs_) return;
+  verdicts_.assign(static_cast<std::size_t>(last - first), {});
+  if (flights_) verdicts_ = flights_->run(seed, first, last);
+  packs_->decide(seed, first, verdicts_);
 }
 
 void PackJudge::begin_as(const PackJudge& prepared) {

@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include "flights/flight_runner.h"
 #include "packs/linear_runner.h"
 #include "packs/pack_runner.h"
 #include "verify/judge.h"
@@ -28,6 +29,7 @@ struct CampaignVerdictOnRun {
 struct Packs {
   std::unique_ptr<const linear::LinearSystem> linear;
   std::unique_ptr<const packs::PackSystem> any;
+  std::optional<flights::FlightSystem> flights;  ///< of `any`, where they have a closed form
 
   explicit operator bool() const { return linear || any; }
 };
@@ -66,7 +68,8 @@ class PackJudge {
   std::uint64_t seed_ = 0, first_ = 0;
   std::optional<packs::LinearRunner> linear_;
   std::optional<packs::PackRunner> packs_;
-  std::optional<Judge> judge_;  ///< made when it is asked for
+  std::optional<flights::FlightRunner> flights_;  ///< what they leave open is for packs_
+  std::optional<Judge> judge_;                    ///< made when it is asked for
   std::vector<packs::PackVerdict> verdicts_;
 };
 

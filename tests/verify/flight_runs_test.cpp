@@ -1,4 +1,4 @@
-#include "packs/flight_runner.h"
+#include "flights/flight_runner.h"
 
 #include <gtest/gtest.h>
 
@@ -23,9 +23,9 @@ struct Flown {
         setup(make_setup(instance, {})),
         packs(make_packs(*setup, kRuns)) {}
 
-  bool flies() const { return packs.any != nullptr && packs.any->flights.has_value(); }
+  bool flies() const { return packs.flights.has_value(); }
   std::vector<packs::PackVerdict> verdicts() const {
-    return packs::FlightRunner(*packs.any).run(11, 0, kRuns);
+    return flights::FlightRunner(*packs.any, *packs.flights).run(11, 0, kRuns);
   }
 
   model::Instance instance;

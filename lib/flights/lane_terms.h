@@ -3,7 +3,7 @@
 
 #include "numbers/scalar_graph.h"
 
-namespace gainsmith::packs {
+namespace gainsmith::flights {
 
 /// Operations on nodes. What is true is 1, what is false 0; a number that is none is not positive.
 /// A test that only picks takes no operation of its own.
@@ -53,4 +53,4 @@ class LaneTerms {
   numbers::ScalarGraph& graph_;
 };
 
-}  // namespace gainsmith::packs
+}  // namespace gainsmith::flights

@@ -12,7 +12,11 @@
 
 #include "packs/pack_graph.h"
 
-namespace gainsmith::packs {
+namespace gainsmith::flights {
+
+using packs::index;
+using packs::Nodes;
+using packs::PackGraph;
 
 struct Series {
   Nodes value;  ///< coefficients of 1, s, s^2, ...
@@ -62,4 +66,4 @@ class FlightSeries {
   std::map<int, Series> known_;
 };
 
-}  // namespace gainsmith::packs
+}  // namespace gainsmith::flights

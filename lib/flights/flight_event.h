@@ -4,9 +4,9 @@
 // the sides of all watches just after it; what is not certain there is left open.
 #pragma once
 
-#include "packs/flight_graph.h"
+#include "flights/flight_graph.h"
 
-namespace gainsmith::packs {
+namespace gainsmith::flights {
 
 /// As nodes.
 struct FlightEnd {
@@ -20,4 +20,4 @@ struct FlightEnd {
 /// roots.
 FlightEnd find_end(FlightGraph& graph);
 
-}  // namespace gainsmith::packs
+}  // namespace gainsmith::flights

@@ -1,10 +1,10 @@
-#include "packs/flight_graph.h"
+#include "flights/flight_graph.h"
 
+#include "flights/tolerances.h"
 #include "hybrid/tolerances.h"
 #include "packs/pack_system.h"
-#include "packs/tolerances.h"
 
-namespace gainsmith::packs {
+namespace gainsmith::flights {
 
 FlightGraph::FlightGraph(const PackSystem& pack, FlightSystem& made)
     : pack_(pack),
@@ -39,4 +39,4 @@ int FlightGraph::error_of(const FlightPair& one, std::size_t j) {
                  is_.part(hybrid::kTermRounding, one.first.size[j]));
 }
 
-}  // namespace gainsmith::packs
+}  // namespace gainsmith::flights

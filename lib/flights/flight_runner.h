@@ -6,17 +6,24 @@
 #include <cstdint>
 #include <vector>
 
+#include "flights/flight_system.h"
 #include "hybrid/zeno.h"
 #include "packs/claim_lane.h"
 #include "packs/lane_values.h"
 #include "packs/pack_runner.h"
 
-namespace gainsmith::packs {
+namespace gainsmith::flights {
+
+using packs::ClaimLane;
+using packs::LaneMask;
+using packs::LaneValues;
+using packs::PackVerdict;
+using packs::Why;
 
 class FlightRunner {
  public:
-  /// Of a system with flights, which must outlive it.
-  explicit FlightRunner(const PackSystem& pack);
+  /// One for each thread. Both must outlive it; the flights are those of the pack.
+  FlightRunner(const packs::PackSystem& pack, const FlightSystem& flights);
 
   /// Runs first, ..., last - 1; those that are open are left to steps.
   std::vector<PackVerdict> run(std::uint64_t seed, std::uint64_t first, std::uint64_t last);
@@ -73,4 +80,4 @@ class FlightRunner {
   std::vector<PackVerdict> verdicts_;
 };
 
-}  // namespace gainsmith::packs
+}  // namespace gainsmith::flights

@@ -1,21 +1,20 @@
-#include "packs/flight_runner.h"
+#include "flights/flight_runner.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "base/stop.h"
-#include "packs/tolerances.h"
 
-namespace gainsmith::packs {
+namespace gainsmith::flights {
 
 using lanes::kLanes;
 using model::ClaimKind;
 using Flown = FlightSystem;
 
-FlightRunner::FlightRunner(const PackSystem& pack)
+FlightRunner::FlightRunner(const PackSystem& pack, const FlightSystem& flights)
     : pack_(pack),
-      flights_(*pack.flights),
+      flights_(flights),
       horizon_(pack.scenario->horizon),
       code_(*flights_.code),
       begin_(*pack.start),
@@ -247,4 +246,4 @@ void FlightRunner::finish(std::size_t l) {
   busy_ &= ~(1U << l);
 }
 
-}  // namespace gainsmith::packs
+}  // namespace gainsmith::flights

@@ -2,11 +2,11 @@
 // runs as polynomials, and what has to be so.
 #pragma once
 
-#include "packs/flight_series.h"
-#include "packs/flight_system.h"
-#include "packs/lane_terms.h"
+#include "flights/flight_series.h"
+#include "flights/flight_system.h"
+#include "flights/lane_terms.h"
 
-namespace gainsmith::packs {
+namespace gainsmith::flights {
 
 /// A polynomial in both runs, of the time since the start of a flight of the first.
 struct FlightPair {
@@ -50,4 +50,4 @@ class FlightGraph {
   int ok_ = 0;
 };
 
-}  // namespace gainsmith::packs
+}  // namespace gainsmith::flights

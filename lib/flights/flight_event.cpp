@@ -1,13 +1,13 @@
-#include "packs/flight_event.h"
+#include "flights/flight_event.h"
 
 #include <algorithm>
 
+#include "flights/tolerances.h"
 #include "hybrid/tolerances.h"
 #include "numbers/scalar_rules.h"
 #include "packs/pack_system.h"
-#include "packs/tolerances.h"
 
-namespace gainsmith::packs {
+namespace gainsmith::flights {
 
 using model::Dynamics;
 
@@ -301,4 +301,4 @@ class EventFinder {
 
 FlightEnd find_end(FlightGraph& graph) { return EventFinder(graph).find(); }
 
-}  // namespace gainsmith::packs
+}  // namespace gainsmith::flights

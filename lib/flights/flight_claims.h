@@ -8,11 +8,9 @@
 #pragma once
 
 #include "claims/claims.h"
-#include "packs/flight_graph.h"
+#include "flights/flight_graph.h"
 
-namespace gainsmith::packs {
-
-struct PackClaim;
+namespace gainsmith::flights {
 
 /// Where the fields of a claim are kept; `next`: the first free place, and then the next one.
 FlightSystem::Places places_of(const PackClaim& claim, std::size_t& next);
@@ -22,4 +20,4 @@ FlightSystem::Places places_of(const PackClaim& claim, std::size_t& next);
 void add_claim(FlightGraph& graph, const claims::Claim& claim, std::size_t number, int length,
                Nodes& fields);
 
-}  // namespace gainsmith::packs
+}  // namespace gainsmith::flights

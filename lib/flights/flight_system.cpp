@@ -1,15 +1,15 @@
-#include "packs/flight_system.h"
+#include "flights/flight_system.h"
 
 #include <algorithm>
 
+#include "flights/flight_claims.h"
+#include "flights/flight_event.h"
+#include "flights/tolerances.h"
 #include "hybrid/tolerances.h"
 #include "numbers/scalar_rules.h"
-#include "packs/flight_claims.h"
-#include "packs/flight_event.h"
 #include "packs/pack_system.h"
-#include "packs/tolerances.h"
 
-namespace gainsmith::packs {
+namespace gainsmith::flights {
 
 using model::ClaimKind;
 
@@ -95,4 +95,4 @@ std::optional<FlightSystem> make_flights(const PackSystem& pack,
   return made;
 }
 
-}  // namespace gainsmith::packs
+}  // namespace gainsmith::flights

@@ -1,10 +1,10 @@
-#include "packs/flight_series.h"
+#include "flights/flight_series.h"
 
 #include <algorithm>
 
 #include "numbers/scalar_rules.h"
 
-namespace gainsmith::packs {
+namespace gainsmith::flights {
 
 using numbers::NoFormula;
 using numbers::ScalarGraph;
@@ -155,4 +155,4 @@ int FlightSeries::at(const Nodes& coefficients, int s) {
   return sum;
 }
 
-}  // namespace gainsmith::packs
+}  // namespace gainsmith::flights

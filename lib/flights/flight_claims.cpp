@@ -1,4 +1,4 @@
-#include "packs/flight_claims.h"
+#include "flights/flight_claims.h"
 
 #include <algorithm>
 #include <array>
@@ -7,11 +7,12 @@
 #include "base/unit_roundoff.h"
 #include "claims/tolerances.h"
 #include "expr/square_of_norm.h"
+#include "flights/tolerances.h"
 #include "hybrid/tolerances.h"
 #include "packs/pack_system.h"
 #include "packs/tolerances.h"
 
-namespace gainsmith::packs {
+namespace gainsmith::flights {
 
 using model::ClaimKind;
 using Flown = FlightSystem;
@@ -175,7 +176,7 @@ class ClaimCode {
     // How near it comes to its limit is to be known.
     const int peak = field_[Flown::peak];
     const int scale = is_.pick(is_.abs(limit), is_.abs(limit), is_.number(1));
-    const int near = is_.part(kScore, is_.add(scale, is_.abs(is_.minus(peak, limit))));
+    const int near = is_.part(packs::kScore, is_.add(scale, is_.abs(is_.minus(peak, limit))));
     graph_.require_true(is_.is_at_least_0(is_.minus(near, is_.minus(most, peak))));
   }
 
@@ -267,4 +268,4 @@ void add_claim(FlightGraph& graph, const claims::Claim& claim, std::size_t numbe
   ClaimCode(graph, claim, number, length).make(fields);
 }
 
-}  // namespace gainsmith::packs
+}  // namespace gainsmith::flights

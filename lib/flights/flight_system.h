@@ -21,10 +21,16 @@
 
 #include "claims/claims.h"
 #include "lanes/machine.h"
+#include "packs/pack_system.h"
 
-namespace gainsmith::packs {
+namespace gainsmith::flights {
 
-struct PackSystem;
+using packs::PackClaim;
+using packs::PackEvent;
+using packs::PackSystem;
+using packs::Watch;
+using packs::Watched;
+using packs::WatchedCondition;
 
 struct FlightSystem {
   enum Input : std::size_t {
@@ -86,4 +92,4 @@ struct FlightSystem {
 std::optional<FlightSystem> make_flights(const PackSystem& pack,
                                          const std::vector<claims::Claim>& claims);
 
-}  // namespace gainsmith::packs
+}  // namespace gainsmith::flights
