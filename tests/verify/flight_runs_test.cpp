@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <string>
 #include <vector>
 
 #include "bind/bind.h"
 #include "io/problem_text.h"
+#include "verify/pack_agreement.h"
 #include "verify/pack_cases.h"
 #include "verify/pack_judge.h"
 
@@ -126,35 +126,11 @@ class FlightRuns : public testing::TestWithParam<PackCase> {};
 TEST_P(FlightRuns, AgreeWithCarefulRuns) {
   const Flown one(GetParam().text);
   ASSERT_TRUE(one.flies());
-  const std::vector<packs::PackVerdict> verdicts = one.verdicts();
-  Judge judge(*one.setup);
-  std::size_t open = 0, held = 0, violated = 0;
-  for (std::uint64_t run = 0; run < kRuns; ++run) {
-    const packs::PackVerdict& flown = verdicts[run];
-    if (flown.open) {
-      ++open;
-      continue;
-    }
-    const RunVerdict careful = judge(11, run);
-    EXPECT_EQ(flown.happened, careful.happened) << "run " << run;
-    for (std::size_t c = 0; c < flown.claims.size(); ++c) {
-      const claims::Finding& finding = careful.findings[c];
-      ++(flown.claims[c].violated ? violated : held);
-      EXPECT_EQ(flown.claims[c].sampled, finding.sampled);
-      if (finding.undecided()) continue;
-      EXPECT_EQ(flown.claims[c].violated, finding.violated())
-          << "run " << run << ", claim " << c << ": " << finding.value << " and " << finding.bound
-          << " at t = " << finding.t << ", j = " << finding.j;
-      if (!finding.sampled || !std::isfinite(finding.score)) continue;
-      // Of a degree above 2 the largest value is bounded.
-      const bool is_bounded = one.setup->judged().judged[c].name == "weighted";
-      const double near = (is_bounded ? 2e-2 : 1e-6) * (1 + std::abs(finding.score));
-      EXPECT_NEAR(flown.claims[c].score, finding.score, near) << "run " << run << ", claim " << c;
-    }
-  }
-  EXPECT_GT(held, 0U);
-  EXPECT_GT(violated, 0U);
-  EXPECT_LE(open, kRuns / 5);
+  // Of a degree above 2 the largest value is bounded.
+  const auto near = [&](std::size_t c) {
+    return one.setup->judged().judged[c].name == "weighted" ? 2e-2 : 1e-6;
+  };
+  expect_agreement(*one.setup, 11, one.verdicts(), near, kRuns / 5);
 }
 
 INSTANTIATE_TEST_SUITE_P(Systems, FlightRuns, testing::ValuesIn(kFlightCases));

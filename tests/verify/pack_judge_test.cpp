@@ -12,6 +12,7 @@
 #include "bind/bind.h"
 #include "io/problem_text.h"
 #include "verify/campaign.h"
+#include "verify/pack_agreement.h"
 #include "verify/pack_cases.h"
 
 namespace gainsmith::verify {
@@ -29,35 +30,7 @@ TEST_P(PackRuns, AgreeWithCarefulRuns) {
   packs::PackRunner runner(*packs.any);
   constexpr std::uint64_t runs = 96;
   const std::vector<packs::PackVerdict> verdicts = runner.run(11, 0, runs);
-  Judge judge(*setup);
-  std::size_t open = 0, held = 0, violated = 0;
-  std::string reasons;
-  for (std::uint64_t run = 0; run < runs; ++run) {
-    const packs::PackVerdict& pack = verdicts[run];
-    if (pack.open) {
-      ++open;
-      reasons += packs::to_string(pack.why) + "; ";
-      continue;
-    }
-    const RunVerdict careful = judge(11, run);
-    EXPECT_EQ(pack.happened, careful.happened) << "run " << run;
-    for (std::size_t c = 0; c < pack.claims.size(); ++c) {
-      const claims::Finding& finding = careful.findings[c];
-      ++(pack.claims[c].violated ? violated : held);
-      EXPECT_EQ(pack.claims[c].sampled, finding.sampled);
-      if (finding.undecided()) continue;
-      EXPECT_EQ(pack.claims[c].violated, finding.violated())
-          << "run " << run << ", claim " << c << ": " << finding.value << " and " << finding.bound
-          << " at t = " << finding.t << ", j = " << finding.j;
-      if (!finding.sampled || !std::isfinite(finding.score)) continue;
-      EXPECT_NEAR(pack.claims[c].score, finding.score, 2e-2 * (1 + std::abs(finding.score)))
-          << "run " << run << ", claim " << c;
-    }
-  }
-  EXPECT_GT(held, 0U);
-  EXPECT_GT(violated, 0U);
-  // What is ordinary is decided.
-  EXPECT_LE(open, runs / 2) << reasons;
+  expect_agreement(*setup, 11, verdicts, [](std::size_t) { return 2e-2; }, runs / 2);
 }
 
 TEST_P(PackRuns, AreTheSameInAnyOrder) {
