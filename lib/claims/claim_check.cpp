@@ -230,6 +230,7 @@ Finding ClaimCheck::bounded(const Track& track, bool holds) const {
     if (std::isfinite(size)) largest = std::max(largest, size);
   std::optional<Finding> worst;
   double noise = 0;
+  bool leaves_bound = false;  // from a start that is the bound
   const auto rank = [](const Finding& one) {
     return std::tuple(one.violated(), one.undecided(), one.score);
   };
@@ -244,8 +245,11 @@ Finding ClaimCheck::bounded(const Track& track, bool holds) const {
     const bool zero = b.value == 0;
     const double size = zero ? sizes[k] : scale;
     const double error = zero ? 2 * value.bound : b.bound;
-    const Judgement judgement = above ? compare(b, eased(value, size, error), holds || is_bound)
-                                      : compare(value, eased(b, size, error), holds || is_bound);
+    const double beyond = above ? b.value - value.value : value.value - b.value;
+    leaves_bound = is_bound || (leaves_bound && is_own(track, k));
+    const bool is_equal = is_bound || (leaves_bound && beyond <= kGrown * value.bound);
+    const Judgement judgement = above ? compare(b, eased(value, size, error), holds || is_equal)
+                                      : compare(value, eased(b, size, error), holds || is_equal);
     Finding found = finding_at(track, k, above ? b : value, above ? value : b, scale, judgement);
     if (above) std::swap(found.value, found.bound);
     const double part = largest > 0 ? sizes[k] / largest : 1;

@@ -54,7 +54,10 @@ class EventFinder {
       const FlightPair& watch = watches_[w];
       const int value = watch.first.value[0];
       if (!pack_.watches[w].moves) {
-        graph_.require_true(is_.is_equal(is_.minus(value, watch.second[0]), 0));
+        const int other = watch.second[0];
+        const int same = is_.is_positive(is_.times(value, other));
+        graph_.require_true(
+            is_.either(same, is_.both(is_.is_equal(value, 0), is_.is_equal(other, 0))));
         rests_.push_back(value);
         sides_.push_back({is_.sign(value), is_.number(1)});
         near_0_.push_back(is_.number(0));
@@ -278,7 +281,10 @@ class EventFinder {
       if (event.when) add(truth(*event.when, sides), static_cast<double>(e));
       if (event.crossing && event.crossing->watch == one.watch) {
         const int is = wanted(e, sides[one.watch].sign);
+        const int is_second = is_.both(due.possible, is);
         add({is, is}, static_cast<double>(e));
+        // Whether it happens after the jump of another event is left to steps.
+        due.sure = is_.pick(is_second, is_.number(0), due.sure);
       }
     }
     for (const WatchedCondition& set : pack_.flow_sets)

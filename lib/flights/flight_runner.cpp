@@ -19,6 +19,7 @@ FlightRunner::FlightRunner(const PackSystem& pack, const FlightSystem& flights)
       code_(*flights_.code),
       begin_(*pack.start),
       since_(pack.events.size()),
+      set_by_jumps_(packs::set_by_jumps(*pack.system)),
       sizes_(static_cast<std::size_t>(pack.system->size)),
       zeno_(*pack.system, pack.scenario->horizon),
       scratch_(Eigen::VectorXd::Zero(pack.system->size)),
@@ -61,7 +62,7 @@ void FlightRunner::refill() {
 
 void FlightRunner::begin(std::size_t l, std::uint64_t run) {
   runs_[l] = run;
-  random_[l] = (run + 1) * 0x9e3779b97f4a7c15U;  // not 0
+  moves_[l] = packs::Moves(run);
   happened_[l] = 0;
   count_[l] = short_[l] = 0;
   t_[l] = 0;
@@ -94,16 +95,9 @@ void FlightRunner::set_limits(std::uint32_t fresh) {
 void FlightRunner::fly() {
   double* const rest = input(Flown::rest);
   for (std::size_t l = 0; l < kLanes; ++l) rest[l] = horizon_ - t_[l];
-  // One sign for each row, bit by bit of a random number (xorshift, Marsaglia 2003).
-  for (std::uint64_t& random : random_) {
-    random ^= random << 13;
-    random ^= random >> 7;
-    random ^= random << 17;
-  }
   for (std::size_t k = 0; k < flights_.rows; ++k) {
-    double* const sign = code_.input(flights_.sign_of_row(k));
-    for (std::size_t l = 0; l < kLanes; ++l)
-      sign[l] = 1 - 2 * static_cast<double>(random_[l] >> (k % 64) & 1U);
+    double* const move = code_.input(flights_.move_of_row(k));
+    for (std::size_t l = 0; l < kLanes; ++l) move[l] = moves_[l].next();
   }
   code_.run(busy_);
   std::uint32_t goes_on = 0;
@@ -209,6 +203,10 @@ void FlightRunner::jump(std::size_t event, std::uint32_t mask) {
   const LaneMask jumping(mask);
   for (const std::size_t first : {std::size_t{0}, pack_.whole}) {
     std::copy_n(code_.input(first), pack_.whole * kLanes, machine.input(0));
+    if (first != 0)
+      packs::move_elements(
+          set_by_jumps_, mask, [&](std::size_t l) -> packs::Moves& { return moves_[l]; },
+          machine.input(0));
     machine.run(mask);
     bad |= machine.faults();
     for (std::size_t k = 0; k < sizes_.rows(); ++k)

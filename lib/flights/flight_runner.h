@@ -10,6 +10,7 @@
 #include "hybrid/zeno.h"
 #include "packs/claim_lane.h"
 #include "packs/lane_values.h"
+#include "packs/moves.h"
 #include "packs/pack_runner.h"
 
 namespace gainsmith::flights {
@@ -64,7 +65,9 @@ class FlightRunner {
   std::uint64_t seed_ = 0, first_ = 0, next_ = 0, last_ = 0;
   std::uint32_t busy_ = 0;
   alignas(64) Row t_{};
-  std::array<std::uint64_t, lanes::kLanes> runs_{}, random_{}, happened_{};
+  std::array<std::uint64_t, lanes::kLanes> runs_{}, happened_{};
+  std::array<packs::Moves, lanes::kLanes> moves_;
+  std::vector<std::size_t> set_by_jumps_;  ///< elements
   std::array<std::size_t, lanes::kLanes> count_{},
       short_{};  ///< of flights; of short ones in a row
   /// The last flights of all lanes, by number modulo `kept`.

@@ -4,10 +4,10 @@
 
 #include "flights/flight_claims.h"
 #include "flights/flight_event.h"
-#include "flights/tolerances.h"
 #include "hybrid/tolerances.h"
 #include "numbers/scalar_rules.h"
 #include "packs/pack_system.h"
+#include "packs/tolerances.h"
 
 namespace gainsmith::flights {
 
@@ -24,10 +24,10 @@ void add_ends(FlightGraph& graph, const FlightEnd& end, std::vector<Nodes>& resu
     const std::size_t row = index(rows[k]);
     const FlightPair one = graph.pair(first.of_value(row), graph.second().of_value(row));
     const int size = first.at(one.first.size, end.length);
-    const int sign = graph.input(graph.made().sign_of_row(k));
+    const int move = graph.input(graph.made().move_of_row(k));
     results[FlightSystem::ends].push_back(first.at(one.first.value, end.length));
-    results[FlightSystem::other_ends].push_back(
-        is.add(first.at(one.second, end.other_length), is.part(kMoved, is.times(size, sign))));
+    results[FlightSystem::other_ends].push_back(is.add(
+        first.at(one.second, end.other_length), is.part(packs::kMoved, is.times(size, move))));
   }
   for (std::size_t k = 0; k < graph.pack().whole; ++k) {
     const int size = first.at(first.of_value(k).size, end.length);

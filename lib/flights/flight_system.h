@@ -4,13 +4,13 @@
 //
 //   x(s) = sum_j c_j s^j,   s* = the first root of a watch after which an event is due
 //
-// A run is made twice. The second is moved after each flight by kMoved of the size of all terms, up
-// or down at random, and has roots of its own. What both differ by, times kErrorOfFlights, and the
+// A run is made twice. The second is moved after each flight by up to kMoved of the size of all
+// terms, at random, and at jumps (packs/moves.h). It has roots of its own. What both differ by, times kErrorOfFlights, and the
 // rounding of terms is the error of a value. A flight is *ok* where all signs, the order of events and
 // the comparisons of claims are certain by that. Otherwise the run is left to steps (lane_set.h).
 //
 // Inputs, in this order: the values of the first run, then of the second; then as `Input` says; a
-// sign for each of the rows; of each claim its limit (ClaimLane) and its fields so far.
+// move in [-1, 1) for each of the rows; of each claim its limit (ClaimLane) and its fields so far.
 // Result 0: the fields of all claims; then as `Result` says.
 #pragma once
 
@@ -76,7 +76,7 @@ struct FlightSystem {
   std::optional<lanes::LaneCode> code;
 
   std::size_t at(Input input) const { return 2 * whole + input; }
-  std::size_t sign_of_row(std::size_t k) const { return 2 * whole + inputs + k; }
+  std::size_t move_of_row(std::size_t k) const { return 2 * whole + inputs + k; }
   std::size_t limit_of(std::size_t claim) const { return 2 * whole + inputs + rows + claim; }
   bool has(std::size_t claim, Field field) const { return places[claim][field] >= 0; }
   std::size_t field_of(std::size_t claim, Field field) const {

@@ -4,12 +4,10 @@
 namespace gainsmith::flights {
 
 // clang-format off
-constexpr double kMoved = 0x1p-48;  ///< of the size of all terms | the second run of flights in closed form is
-        ///< moved by it after each | FlightRuns.AgreeWithCarefulRuns
 constexpr double kErrorOfFlights = 8;  ///< differences of two runs | the error of a value of such flights |
-        ///< FlightRuns.AgreeWithCarefulRuns
+        ///< FlightRuns.KnowWhatJumpsAmplify
 constexpr double kApart = 1e-4;  ///< of the size of all terms | two runs of flights that differ by more are
-        ///< left to steps | FlightRuns.LeaveToStepsWhatIsUnusual
+        ///< left to steps | FlightRuns.KnowWhatJumpsAmplify
 constexpr double kTouches = 1e-12;  ///< of the terms of a discriminant | a quadratic that comes so near to 0
         ///< may touch it | FlightRuns.LeaveToStepsWhatIsUnusual
 // clang-format on

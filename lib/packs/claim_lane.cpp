@@ -29,6 +29,7 @@ void ClaimLane::begin(const PackClaim& claim, const PackSystem& pack, const Pack
   claim_ = &claim;
   accuracy_ = accuracy.relative * pack.accuracy;
   noise_ = pack.accuracy;
+  factor_ = pack.error_factor;
   sign_ = claim.kind == ClaimKind::above ? -1 : 1;
   limit_ = sign_ * limit;
   limit_error_ = hybrid::kTermRounding * terms;
@@ -65,7 +66,7 @@ ClaimLane::Known ClaimLane::known(const Reading& reading, bool jumped) {
   const double largest = *std::max_element(differences_.begin(), differences_.end());
   const bool is_count = claim_->rests && largest == 0 && is_exact_whole(reading.fine);
   const double error =
-      is_count ? 0 : kErrorOfPair * largest + rounding(reading.fine, reading.terms) + reading.late;
+      is_count ? 0 : factor_ * largest + rounding(reading.fine, reading.terms) + reading.late;
   if (!(error < kNever)) open_ = true;
   return {sign_ * reading.fine, error};
 }
@@ -165,13 +166,13 @@ void ClaimLane::compare_within(const StepSamples& samples, const StepPolynomial&
   // From a start that has been compared; noise drawn anew makes a start that has not.
   const bool is_known = score_of(along.coefficients().front()) <= score_;
   if (is_known && !breaks && along.falls(4 * along.error())) return;
-  const double highest = along.highest();
-  score_ = std::max(score_, score_of(highest));
+  const StepPolynomial::Highest highest = along.highest();
+  score_ = std::max(score_, score_of(highest.attained));
   // The careful run compares costs at samples alone.
-  if (highest - error > most && claim_->kind != ClaimKind::cost) violated_ = true;
+  if (highest.attained - error > most && claim_->kind != ClaimKind::cost) violated_ = true;
   // A violation at a point is certain without what lies between.
   const bool certain = violated_ || end.value - most > end.error + limit_error_;
-  if (highest + error > most && !certain) open_ = true;
+  if (highest.most + error > most && !certain) open_ = true;
 }
 
 void ClaimLane::finish(const Course& course) {

@@ -2,7 +2,7 @@
 //
 // The comparisons are those of claims/claim_check.h, over values at the ends and the middles of
 // steps and, between them, over the quintic through these. Twice the run is made: the error of a
-// value is kErrorOfPair times the largest difference of both over the last three ends of steps, and
+// value is PackSystem::error_factor times the largest difference of both over the last three ends of steps, and
 // what its terms round. What it leaves open is left to the careful run.
 #pragma once
 
@@ -75,7 +75,8 @@ class ClaimLane {
 
   const PackClaim* claim_ = nullptr;
   double accuracy_ = 0, noise_ = 0;
-  double sign_ = 1;  ///< -1: of `above`, which is `below` of what is negated
+  double factor_ = 0;  ///< PackSystem::error_factor
+  double sign_ = 1;    ///< -1: of `above`, which is `below` of what is negated
   double limit_ = 0;
   double limit_error_ = 0;
   std::array<double, 3> differences_{};

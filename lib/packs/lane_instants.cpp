@@ -125,8 +125,10 @@ bool LaneSet::find_due(std::size_t l) {
     if (event.crossing) {
       const std::int8_t side = side_of(*event.crossing, lane);
       if (side == 0) return open(Why::sign);
-      if (lane.signs[e] != 0 && side != lane.signs[e])
+      if (lane.signs[e] != 0 && side != lane.signs[e]) {
         lane.crossed[e] = static_cast<char>(is_wanted(e, side));
+        if (lane.crossed[e] != 0 && turns_back(event.crossing->watch, l)) return open(Why::order);
+      }
       lane.signs[e] = side;
       due = lane.crossed[e] != 0;
     } else if (event.when) {

@@ -91,6 +91,10 @@ void LaneSet::jump(std::size_t event, std::uint32_t mask, LaneMachine& machine) 
   std::uint32_t bad = 0;
   for (LaneValues* values : {&fine_, &coarse_}) {
     std::copy_n(values->row(0), pack_.whole * kLanes, machine.input(0));
+    if (values == &coarse_)
+      move_elements(
+          set_by_jumps_, mask, [&](std::size_t l) -> Moves& { return lanes_[l]->moves; },
+          machine.input(0));
     machine.run(mask);
     bad |= machine.faults();
     const LaneMask jumping(mask);

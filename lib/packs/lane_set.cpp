@@ -46,6 +46,7 @@ LaneSet::LaneSet(const PackSystem& pack)
     lost_.emplace_back();
     if (event.lost) lost_.back().emplace(*event.lost);
   }
+  set_by_jumps_ = set_by_jumps(*pack.system);
   find_clock_elements();
   is_crossing_.assign(pack.watches.size(), false);
   for (std::size_t e = 0; e < pack.events.size(); ++e) {

@@ -54,10 +54,10 @@ class LaneSet {
   void evaluate(lanes::LaneMachine& by, const LaneValues& values, LanePoint& seen,
                 std::uint32_t active);
   /// How far a watched difference may be from the true one.
-  static double error_of(std::size_t w, std::size_t l, const LanePoint& fine,
-                         const LanePoint& coarse) {
-    return kErrorOfPair * std::abs(fine.at(PackSystem::watch_values, w, l) -
-                                   coarse.at(PackSystem::watch_values, w, l)) +
+  double error_of(std::size_t w, std::size_t l, const LanePoint& fine,
+                  const LanePoint& coarse) const {
+    return pack_.error_factor * std::abs(fine.at(PackSystem::watch_values, w, l) -
+                                         coarse.at(PackSystem::watch_values, w, l)) +
            hybrid::kTermRounding * fine.at(PackSystem::watch_terms, w, l);
   }
   void evaluate_all(std::uint32_t mask);
@@ -89,6 +89,11 @@ class LaneSet {
     using Kind = model::Dynamics::EventKind;
     const Kind kind = pack_.system->dynamics.events[event].kind;
     return kind == Kind::crosses || (kind == Kind::rises) == (side > 0);
+  }
+  /// Whether the jump of another event has turned back what was just to cross 0.
+  bool turns_back(std::size_t w, std::size_t l) const {
+    const PackLane& lane = *lanes_[l];
+    return lane.has_jumped && lane.zero[w] > 0 && leaving_side(w, l) != lane.sides[w];
   }
   /// A crossing that starts or jumps lead to exactly 0 is on the side to which it moves; where that
   /// is a crossing, the careful run tells when it happens.
@@ -213,8 +218,9 @@ class LaneSet {
   LaneValues lengths_, errors_;
   LanePoint start_, coarse_start_;  ///< at the values now
   LanePoint middle_, end_, coarse_at_end_, quarter_, three_quarters_;
-  bool ends_in_zeno_ = false;      ///< whether events without a clock may accumulate
-  std::vector<bool> is_crossing_;  ///< by watch: of rises, falls, crosses
+  bool ends_in_zeno_ = false;              ///< whether events without a clock may accumulate
+  std::vector<bool> is_crossing_;          ///< by watch: of rises, falls, crosses
+  std::vector<std::size_t> set_by_jumps_;  ///< elements
   std::vector<std::size_t> times_;
   std::vector<std::vector<std::size_t>> since_, left_;  ///< by event: elements
   Eigen::VectorXd scratch_;

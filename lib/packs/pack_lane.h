@@ -7,6 +7,7 @@
 
 #include "hybrid/zeno.h"
 #include "packs/claim_lane.h"
+#include "packs/moves.h"
 #include "packs/pack_watch.h"
 
 namespace gainsmith::packs {
@@ -20,6 +21,7 @@ enum class Phase : std::uint8_t {
 struct PackLane {
   PackLane(const PackSystem& pack, std::uint64_t seed, std::uint64_t run)
       : run_number(run),
+        moves(run),
         clocks(*pack.system, *pack.scenario, seed, run),
         noise(*pack.system, *pack.scenario, seed, run),
         sides(pack.watches.size(), 0),
@@ -36,6 +38,7 @@ struct PackLane {
         largest(Eigen::VectorXd::Zero(pack.system->size)) {}
 
   std::uint64_t run_number = 0;
+  Moves moves;
   Phase phase = Phase::evaluate;
   bool fresh = true;  ///< at the start, of which no claim knows yet
   double t = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "claims/twin_parts.h"
 #include "expr/branches.h"
 #include "expr/square_of_norm.h"
 #include "hybrid/breaks.h"
@@ -363,6 +364,7 @@ std::unique_ptr<const PackSystem> make_pack_system(const hybrid::System& system,
   pack->system = &system;
   pack->scenario = &scenario;
   pack->accuracy = relative;
+  pack->error_factor = claims::error_factor(system);
   pack->whole = static_cast<std::size_t>(system.whole);
   for (const claims::Claim& claim : claims)
     if (const auto element = cost_element(claim, system); element && claim.stated())

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "claims/claims.h"
+#include "claims/tolerances.h"
 #include "hybrid/scenario.h"
 #include "hybrid/system.h"
 #include "lanes/machine.h"
@@ -83,6 +84,8 @@ struct PackSystem {
   const hybrid::System* system = nullptr;
   const hybrid::Scenario* scenario = nullptr;
   double accuracy = 0;    ///< relative, of the careful run
+  /// Times the difference of both runs: the error of a value (claims/twin_parts.h).
+  double error_factor = claims::kErrorOfDifference;
   std::size_t whole = 0;  ///< values
   std::vector<int> rows;  ///< that move
   std::vector<PackEvent> events;

@@ -24,14 +24,20 @@ void split(const Coefficients& b, Coefficients& left, Coefficients& right) {
   }
 }
 
-/// The largest coefficient once halves, and halves of halves, have no larger one inside than at
-/// their ends.
-double highest_of(const Coefficients& b, int depth) {
+/// Widens what the polynomial attains, at the ends of halves of halves, and what it is not above, their
+/// coefficients. Parts that cannot attain more are left out.
+void widen(const Coefficients& b, int depth, StepPolynomial::Highest& highest) {
+  highest.attained = std::max({highest.attained, b.front(), b.back()});
   const double largest = *std::max_element(b.begin(), b.end());
-  if (depth == 0 || largest <= std::max(b.front(), b.back())) return largest;
+  if (largest <= highest.attained) return;
+  if (depth == 0) {
+    highest.most = std::max(highest.most, largest);
+    return;
+  }
   Coefficients left, right;
   split(b, left, right);
-  return std::max(highest_of(left, depth - 1), highest_of(right, depth - 1));
+  widen(left, depth - 1, highest);
+  widen(right, depth - 1, highest);
 }
 
 /// The sum of all rises, of the coefficients of parts that are so short.
@@ -123,7 +129,12 @@ double StepPolynomial::operator()(double share) const {
 
 double StepPolynomial::largest() const { return *std::max_element(b_.begin(), b_.end()); }
 
-double StepPolynomial::highest() const { return highest_of(b_, 10); }
+StepPolynomial::Highest StepPolynomial::highest() const {
+  Highest highest{b_.front(), b_.front()};
+  widen(b_, 10, highest);
+  highest.most = std::max(highest.most, highest.attained);
+  return highest;
+}
 
 double StepPolynomial::rise() const { return rise_of(b_, 6); }
 

@@ -62,8 +62,11 @@ class StepPolynomial {
   const std::array<double, 6>& coefficients() const { return b_; }
   double operator()(double share) const;
   double largest() const;
-  /// The largest of its values, or hardly more.
-  double highest() const;
+  struct Highest {
+    double attained = 0;  ///< at some point; hardly less than the largest value
+    double most = 0;      ///< not below it, and hardly more
+  };
+  Highest highest() const;
   /// An estimate of how far it is from what it interpolates, with a margin: twice what it is off
   /// at the quarters of the step; at least what the quartic without the rate at the end would
   /// miss, times 0.15.

@@ -20,8 +20,8 @@ constexpr double kLastRelative = 1e-4;  ///< times the accuracy of the careful r
         ///< Systems/PackRuns.AgreeWithCarefulRuns
 constexpr double kLastAbsolute = 1e-8;  ///< times the accuracy of the careful run, absolute | the same |
         ///< Systems/PackRuns.AgreeWithCarefulRuns
-constexpr double kErrorOfPair = 4;  ///< differences of two runs | the error of a value |
-        ///< Systems/PackRuns.AgreeWithCarefulRuns
+constexpr double kMoved = 0x1p-48;  ///< relative | the second run is moved by up to it at jumps and, where
+        ///< flights are in closed form, after each | FlightRuns.KnowWhatJumpsAmplify
 constexpr double kFirstStep = 1e-3;  ///< of the horizon | the first step of a run |
         ///< Systems/PackRuns.AgreeWithCarefulRuns
 constexpr double kShortestStep = 1e-10;  ///< of the horizon | a run with a shorter step is left to the

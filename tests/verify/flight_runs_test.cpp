@@ -171,6 +171,37 @@ TEST(FlightRuns, LeaveToStepsWhatIsUnusual) {
             kRuns);
 }
 
+/// Both a and b fall by a tenth of the speed; each jump makes their difference, rounding, 21 times as large.
+TEST(FlightRuns, KnowWhatJumpsAmplify) {
+  const std::string difference = R"yaml(problem: p
+method:
+  method: m
+  events: {e: {when: c >= 1}}
+  plant:
+    state: {c: {shape: scalar, start: 0}, a: {shape: scalar, start: 0.1}, b: {shape: scalar, start: 0.1}, v: 1}
+    flow: {c: 1, a: 0.1*v, b: v/10}
+    at: {e: {c: 0, a: a + 10*(a - b), b: b - 10*(a - b), v: -0.9*v}}
+  claims: {low: {below: a - b, bound: 1e-9}}
+campaign: {runs: 96, horizon: 12.5, initial: {v: {box: [0.5, 1]}}}
+)yaml";
+  const std::string map = R"yaml(problem: p
+method:
+  method: m
+  events: {e: {when: c >= 1}}
+  plant: {state: {c: {shape: scalar, start: 0}, x: 1}, flow: {c: 1}, at: {e: {c: 0, x: 3*x - floor(3*x)}}}
+  claims: {low: {below: x, bound: 9}}
+campaign: {runs: 96, horizon: 60.5, initial: {x: {box: [0.1, 0.9]}}}
+)yaml";
+  for (const std::string& text : {difference, map}) {
+    const Flown one(text);
+    ASSERT_TRUE(one.flies());
+    for (const packs::PackVerdict& verdict : one.verdicts()) EXPECT_TRUE(verdict.open);
+  }
+  const Flown stepped(map);
+  for (const packs::PackVerdict& verdict : packs::PackRunner(*stepped.packs.any).run(11, 0, kRuns))
+    EXPECT_TRUE(verdict.open);
+}
+
 TEST(FlightRuns, AreOfPolynomialsAlone) {
   for (const char* flow :
        {"[x(2); -x(1)]", "[x(2); -9 - x(2)]", "[x(2); -9*sin(t)]", "[x(2); -9 + abs(x(1))]"})

@@ -30,7 +30,8 @@ TEST_P(PackRuns, AgreeWithCarefulRuns) {
   packs::PackRunner runner(*packs.any);
   constexpr std::uint64_t runs = 96;
   const std::vector<packs::PackVerdict> verdicts = runner.run(11, 0, runs);
-  expect_agreement(*setup, 11, verdicts, [](std::size_t) { return 2e-2; }, runs / 2);
+  expect_agreement(
+      *setup, 11, verdicts, [](std::size_t) { return 2e-2; }, runs / 2);
 }
 
 TEST_P(PackRuns, AreTheSameInAnyOrder) {
@@ -112,6 +113,53 @@ campaign: {horizon: 8, initial: {x: {box: [[-0.9, 0.05], [-0.9, 0.1]]}}, runs: )
     EXPECT_EQ(report.verdict, model::CampaignVerdict::held);
     EXPECT_EQ(std::accumulate(report.open.begin(), report.open.end(), std::uint64_t{0}), 0U);
   }
+}
+
+/// A peak between two points of a step that falls short of its bound by little.
+TEST(PackJudge, APeakThatFallsShortIsHeld) {
+  const std::string text = R"yaml(problem: p
+method:
+  method: m
+  plant: {state: {x: {shape: 2, start: "[0; 1]"}}, flow: {x: "[x(2); -RATE]"}}
+  claims: {apex: {below: x(1), bound: BOUND}}
+campaign: {runs: 60, horizon: 2, initial: {x: {box: [[0, 0.5], [0, 1]]}}}
+)yaml";
+  const auto with = [&](const std::string& rate, const std::string& bound) {
+    std::string made = text;
+    made.replace(made.find("RATE"), 4, rate);
+    made.replace(made.find("BOUND"), 5, bound);
+    const model::Instance instance = bind::bind(io::read_problem(made));
+    const auto setup = make_setup(instance, {});
+    std::size_t violated = 0;
+    for (const packs::PackVerdict& one :
+         packs::PackRunner(*make_packs(*setup, 60).any).run(1, 0, 60))
+      violated += !one.open && one.violated() ? 1 : 0;
+    return violated;
+  };
+  // Peaks v^2/2 of 1/8 to 1/2, and those of sines.
+  for (const char* bound : {"0.5", "0.500000000001", "0.50000001"}) EXPECT_EQ(with("1", bound), 0U);
+  for (const char* bound : {"1", "1.000000000001", "1.00000001"})
+    EXPECT_EQ(with("x(1)", bound), 0U);
+  EXPECT_GT(with("1", "0.3"), 0U);
+}
+
+/// At x(1) = 1 the first event turns back what the second waits for.
+TEST(PackJudge, ACrossingThatIsTurnedBackDoesNotHappen) {
+  const std::string text = R"yaml(problem: p
+method:
+  method: m
+  events: {wall: {when: x(1) >= 1 and q == 0}, beyond: {rises: x(1) - 1}}
+  plant:
+    mode: {q: 0}
+    state: {x: {shape: 2}}
+    flow: {x: "[x(2); -0.1*sin(x(1))]"}
+    at: {wall: {q: 1, x: "[x(1); -x(2)]"}}
+  claims: {never: {below: count(beyond), bound: 0}}
+campaign: {runs: 60, horizon: 3, initial: {x: {box: [[0, 0.5], [0.3, 1.9]]}}}
+)yaml";
+  const auto setup = make_setup(bind::bind(io::read_problem(text)), {});
+  for (const packs::PackVerdict& one : packs::PackRunner(*make_packs(*setup, 60).any).run(1, 0, 60))
+    EXPECT_TRUE(one.open || !one.violated());
 }
 
 /// The error of a dead-beat observer is 0 from its third sample on, up to rounding of either sign.

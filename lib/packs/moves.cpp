@@ -1,0 +1,22 @@
+#include "packs/moves.h"
+
+#include <set>
+
+namespace gainsmith::packs {
+
+std::vector<std::size_t> set_by_jumps(const hybrid::System& system) {
+  using model::Dynamics;
+  std::set<std::size_t> elements;
+  for (const Dynamics::Reaction& reaction : system.dynamics.reactions)
+    for (const Dynamics::Pass& pass : reaction.passes)
+      for (const Dynamics::Assignment& one : pass.map) {
+        const Dynamics::Variable& variable = system.dynamics.variables[one.variable];
+        if (variable.kind != Dynamics::VariableKind::state) continue;
+        const auto first = static_cast<std::size_t>(system.layout.slots[one.variable].offset);
+        for (int k = 0; k < variable.shape.size(); ++k)
+          elements.insert(first + static_cast<std::size_t>(k));
+      }
+  return {elements.begin(), elements.end()};
+}
+
+}  // namespace gainsmith::packs
