@@ -9,7 +9,6 @@
 namespace gainsmith::flights {
 
 using lanes::kLanes;
-using model::ClaimKind;
 using Flown = FlightSystem;
 
 FlightRunner::FlightRunner(const PackSystem& pack, const FlightSystem& flights)

@@ -64,7 +64,7 @@ class FlightRunner {
   std::vector<std::vector<std::size_t>> since_;  ///< by event: elements
   std::uint64_t seed_ = 0, first_ = 0, next_ = 0, last_ = 0;
   std::uint32_t busy_ = 0;
-  alignas(64) Row t_{};
+  Row t_{};
   std::array<std::uint64_t, lanes::kLanes> runs_{}, happened_{};
   std::array<packs::Moves, lanes::kLanes> moves_;
   std::vector<std::size_t> set_by_jumps_;  ///< elements

@@ -170,6 +170,7 @@ void add_near(const std::function<double(double)>& g, double from, double to,
               std::vector<double>& near) {
   const std::vector<double> times = ode::first_points(from, to);
   std::vector<double> sizes;
+  sizes.reserve(times.size());
   for (const double t : times) sizes.push_back(std::abs(g(t)));
   const auto least = std::min_element(sizes.begin(), sizes.end());
   if (!(*least <= kNearBreak * *std::max_element(sizes.begin(), sizes.end()))) return;

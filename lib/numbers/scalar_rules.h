@@ -24,7 +24,8 @@ class NodeRules {
   int number(double value) { return graph_.constant(value); }
   Nodes zeros(expr::Shape shape) { return Nodes(static_cast<std::size_t>(shape.size()), zero()); }
   static std::size_t at(expr::Shape shape, int row, int column) {
-    return static_cast<std::size_t>(column * shape.rows + row);
+    return static_cast<std::size_t>(column) * static_cast<std::size_t>(shape.rows) +
+           static_cast<std::size_t>(row);
   }
 
   /// What is linear in all operands: so values and slopes are. `nodes`: of each operand, its values

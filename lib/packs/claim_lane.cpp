@@ -120,7 +120,8 @@ void ClaimLane::compare(Known value, double terms, bool same, bool crowded) {
       floor_ = std::max(floor_, size / scale);
     } else if (violates) {
       violated_ = true;
-      score_ = std::max(score_, scale == 0 ? kNever : (value.value - high_.value) / scale);
+      const double part = (value.value - high_.value) / scale;
+      score_ = scale == 0 ? kNever : std::max(score_, part);
     } else if (!holds && !violated_) {
       open_ = true;
     }

@@ -4,8 +4,6 @@
 
 namespace gainsmith::packs {
 
-using model::Dynamics;
-
 bool LaneSet::settle(std::size_t l) {
   PackLane& lane = *lanes_[l];
   if (!find_sides(l)) return false;
@@ -51,7 +49,7 @@ bool LaneSet::find_sides(std::size_t l) {
 
 std::int8_t LaneSet::leaving_side(std::size_t w, std::size_t l) const {
   const std::int8_t side = sign_of(start_.at(PackSystem::watch_rates, w, l));
-  return side == sign_of(coarse_start_.at(PackSystem::watch_rates, w, l)) ? side : 0;
+  return side == sign_of(coarse_start_.at(PackSystem::watch_rates, w, l)) ? side : std::int8_t{0};
 }
 
 bool LaneSet::leave_zero(std::size_t w, std::size_t l) {

@@ -8,7 +8,6 @@
 namespace gainsmith::packs {
 
 using lanes::kLanes;
-using lanes::LaneMachine;
 using model::Dynamics;
 using VariableKind = Dynamics::VariableKind;
 

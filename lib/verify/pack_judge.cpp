@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "verify/tolerances.h"
+
 namespace gainsmith::verify {
 
 using claims::Judgement;
