@@ -11,7 +11,8 @@ std::vector<std::size_t> set_by_jumps(const hybrid::System& system) {
     for (const Dynamics::Pass& pass : reaction.passes)
       for (const Dynamics::Assignment& one : pass.map) {
         const Dynamics::Variable& variable = system.dynamics.variables[one.variable];
-        if (variable.kind != Dynamics::VariableKind::state) continue;
+        const bool flows = system.moves[one.variable] != hybrid::Moves::rests;
+        if (variable.kind != Dynamics::VariableKind::state || flows) continue;
         const auto first = static_cast<std::size_t>(system.layout.slots[one.variable].offset);
         for (int k = 0; k < variable.shape.size(); ++k)
           elements.insert(first + static_cast<std::size_t>(k));

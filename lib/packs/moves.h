@@ -30,7 +30,7 @@ class Moves {
   std::uint64_t state_;  ///< not 0
 };
 
-/// The elements of the states that jumps set.
+/// The elements of the states that jumps alone set: flows make the others differ.
 std::vector<std::size_t> set_by_jumps(const hybrid::System& system);
 
 /// Moves these elements of the values of some lanes by up to kMoved of their size; whole numbers are

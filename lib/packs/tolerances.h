@@ -20,7 +20,7 @@ constexpr double kLastRelative = 1e-4;  ///< times the accuracy of the careful r
         ///< Systems/PackRuns.AgreeWithCarefulRuns
 constexpr double kLastAbsolute = 1e-8;  ///< times the accuracy of the careful run, absolute | the same |
         ///< Systems/PackRuns.AgreeWithCarefulRuns
-constexpr double kMoved = 0x1p-48;  ///< relative | the second run is moved by up to it at jumps and, where
+constexpr double kMoved = 0x1p-50;  ///< relative | the second run is moved by up to it at jumps and, where
         ///< flights are in closed form, after each | FlightRuns.KnowWhatJumpsAmplify
 constexpr double kFirstStep = 1e-3;  ///< of the horizon | the first step of a run |
         ///< Systems/PackRuns.AgreeWithCarefulRuns
