@@ -260,11 +260,13 @@ class ConvexSearch {
   static void require_convex(Index i, const Place<W>& at, const MatrixOf<W>& curvature,
                              const Column<W>& sizes) {
     const MatrixOf<W> D = sizes.asDiagonal();
-    const MatrixOf<W> bent = times<W>(times<W>(D, curvature), D);
+    // By z alone: behind it are the columns of parameters.
+    const Index n = sizes.size();
+    const MatrixOf<W> bent = times<W>(times<W>(D, curvature.leftCols(n)), D);
     MatrixOf<W> V;
     const W least = symmetric_eigenvalues<W>(symmetric_part<W>(bent), V).minCoeff();
     const W size = projections::sizes<W>(bent).maxCoeff() +
-                   projections::sizes<W>(times<W>(at.slope.row(i), D)).maxCoeff();
+                   projections::sizes<W>(times<W>(at.slope.row(i).head(n), D)).maxCoeff();
     // Where the curvature jumps, at a where or the square of a max, differences are not symmetric.
     const W skew = projections::sizes<W>(bent - bent.transpose()).maxCoeff();
     if (least < -W(kConvex) * size - skew)

@@ -30,6 +30,7 @@ void ClaimLane::begin(const PackClaim& claim, const PackSystem& pack, const Pack
   accuracy_ = accuracy.relative * pack.accuracy;
   noise_ = pack.accuracy;
   factor_ = pack.error_factor;
+  always_ = claim.always;
   sign_ = claim.kind == ClaimKind::above ? -1 : 1;
   limit_ = sign_ * limit;
   limit_error_ = hybrid::kTermRounding * terms;

@@ -47,8 +47,8 @@ class ClaimLane {
   /// With what values are compared, with their sign.
   double limit() const { return limit_; }
 
-  bool open() const { return open_ && !claim_->always; }
-  bool violated() const { return violated_ && !claim_->always; }
+  bool open() const { return open_ && !always_; }
+  bool violated() const { return violated_ && !always_; }
   bool sampled() const { return sampled_; }
   double score() const { return score_; }
   double floor() const { return floor_; }
@@ -83,6 +83,7 @@ class ClaimLane {
   double least_ = 0, most_ = 0, size_ = 0;  ///< of the values so far
   bool seen_ = false;
   Known first_, last_, low_, high_;
+  bool always_ = false;  ///< PackClaim::always
   bool sampled_ = false, open_ = false, violated_ = false;
   double score_ = -std::numeric_limits<double>::infinity();
   double possible_score_ = -std::numeric_limits<double>::infinity();  ///< amid branches
