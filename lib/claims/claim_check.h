@@ -23,8 +23,8 @@
 //   held        value + its bound <= what it must not exceed - its bound, at every sample
 //   undecided   neither
 //
-// A start that is the bound, bit by bit, counts as equal to it. So do the first points after it that are
-// there for the sake of the value alone, as long as it does not seem to have grown by kGrown of its error.
+// A start that is the bound, bit by bit, counts as equal to it. So do the first points after it that
+// are there for the sake of the value alone, unless it seems to have grown by kGrown of its error.
 //
 // A claim with a tolerance d forgives excess as well, by d times the size of what must not be
 // exceeded: of b; of the least value so far; of v(0); of factor v(0). With b = 0 it is d times the

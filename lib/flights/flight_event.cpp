@@ -116,7 +116,7 @@ class EventFinder {
                                     is_.times(is_.abs(c[2]), graph_.error_of(watch, 0)))));
     const int margin = is_.add(error, is_.part(kTouches, size));
     const int has_roots = is_.is_positive(is_.minus(discriminant, margin));
-    // A touch is left open, unless all of it rests.
+    // What may touch 0 is left open. What starts at 0 has its other root far from that.
     graph_.require_true(is_.either(is_.either(has_roots, near_0_[w]),
                                    is_.is_positive(is_.minus(is_.minus(discriminant), margin))));
     const int q = is_.part(-0.5, is_.add(c[1], is_.times(is_.sign(c[1]), is_.root(discriminant))));

@@ -1,5 +1,5 @@
-// What the parts of the code of a flight (flight_system.h) have in common: the graph, the values of both
-// runs as polynomials, and what has to be so.
+// What the parts of the code of a flight (flight_system.h) have in common: the graph, the values of
+// both runs as polynomials, and what has to be so.
 #pragma once
 
 #include "flights/flight_series.h"

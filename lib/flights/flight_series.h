@@ -36,9 +36,8 @@ class FlightSeries {
 
   /// Of value k.
   const Series& of_value(std::size_t k) const { return values_[k]; }
-  /// Of a program.
-  Series of(const expr::Program& program) { return of_node(texts_.value(program, x_).value[0]); }
-  Series of(const expr::Program& program, std::size_t element) {
+  /// Of an element of a program.
+  Series of(const expr::Program& program, std::size_t element = 0) {
     return of_node(texts_.value(program, x_).value[element]);
   }
 

@@ -5,9 +5,10 @@
 //   x(s) = sum_j c_j s^j,   s* = the first root of a watch after which an event is due
 //
 // A run is made twice. The second is moved after each flight by up to kMoved of the size of all
-// terms, at random, and at jumps (packs/moves.h). It has roots of its own. What both differ by, times kErrorOfFlights, and the
-// rounding of terms is the error of a value. A flight is *ok* where all signs, the order of events and
-// the comparisons of claims are certain by that. Otherwise the run is left to steps (lane_set.h).
+// terms, at random, and at jumps (packs/moves.h). It has roots of its own. What both differ by, times
+// kErrorOfFlights, and the rounding of terms is the error of a value. A flight is *ok* where all signs,
+// the order of events and the comparisons of claims are certain by that. Otherwise the run is left to
+// steps (packs/lane_set.h).
 //
 // Inputs, in this order: the values of the first run, then of the second; then as `Input` says; a
 // move in [-1, 1) for each of the rows; of each claim its limit (ClaimLane) and its fields so far.

@@ -2,7 +2,8 @@
 //
 // The comparisons are those of claims/claim_check.h, over values at the ends and the middles of
 // steps and, between them, over the quintic through these. Twice the run is made: the error of a
-// value is PackSystem::error_factor times the largest difference of both over the last three ends of steps, and
+// value is PackSystem::error_factor times the largest difference of both over the last three ends of
+// steps, and
 // what its terms round. What it leaves open is left to the careful run.
 #pragma once
 

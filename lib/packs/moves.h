@@ -1,5 +1,5 @@
-// Moves of a second run in its last places: so two runs that round alike differ by what the rounding of
-// jumps, and what the dynamics make of it, may be (../simulate/last_places.h does so in careful runs).
+// Moves of a second run in its last places: two runs that round alike then differ by what jumps may
+// round, and by what the dynamics make of that. simulate/last_places.h does so in careful runs.
 #pragma once
 
 #include <bit>
@@ -14,7 +14,8 @@
 
 namespace gainsmith::packs {
 
-/// Random numbers in [-1, 1), a function of the run and of how many were drawn (xorshift, Marsaglia 2003).
+/// Random numbers in [-1, 1), a function of the run and of how many were drawn (xorshift, Marsaglia
+/// 2003).
 class Moves {
  public:
   explicit Moves(std::uint64_t run = 0) : state_((run + 1) * 0x9e3779b97f4a7c15U) {}

@@ -24,8 +24,8 @@ void split(const Coefficients& b, Coefficients& left, Coefficients& right) {
   }
 }
 
-/// Widens what the polynomial attains, at the ends of halves of halves, and what it is not above, their
-/// coefficients. Parts that cannot attain more are left out.
+/// Widens what the polynomial attains, at the ends of halves of halves, and what it is not above,
+/// their coefficients. Parts that cannot attain more are left out.
 void widen(const Coefficients& b, int depth, StepPolynomial::Highest& highest) {
   highest.attained = std::max({highest.attained, b.front(), b.back()});
   const double largest = *std::max_element(b.begin(), b.end());

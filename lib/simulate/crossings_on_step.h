@@ -31,7 +31,6 @@ class CrossingsOnStep {
   std::optional<double> hidden_turn(Eigen::Index element);
   /// Of an element that starts as noise: when it ceases to be.
   std::optional<double> leaves_zero(Eigen::Index element);
-  /// Elements x times.
   /// Of each element, what its terms may round to.
   const Eigen::VectorXd& noise() const { return noise_; }
 

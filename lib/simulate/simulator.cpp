@@ -215,7 +215,7 @@ class EventRun {
     starts_ = true;
     // A flow may end about as soon as the one before: then its steps are not too long for it.
     const double from = t_;
-    const double early = t_ + kStepsAhead * last_flow_;
+    const double early = t_ + kShorterStep * last_flow_;
     const bool is_split = system_.affine && t_ < early && early < stop;
     if (!is_split || go(early) == Went::on) go(stop);
     last_flow_ = t_ - from;

@@ -71,9 +71,9 @@ void PackJudge::begin(std::uint64_t seed, std::uint64_t first, std::uint64_t las
   first_ = first;
   verdicts_.clear();
   if (linear_) verdicts_ = linear_->run(seed, first, last);
-  if (!packs_) return;
-  verdicts_.assign(static_cast<std::size_t>(last - first), {});
-  if (flights_) verdicts_ = flights_->run(seed, first, last);
+  if (packs_ && !flights_) verdicts_ = packs_->run(seed, first, last);
+  if (!flights_) return;
+  verdicts_ = flights_->run(seed, first, last);
   packs_->decide(seed, first, verdicts_);
 }
 
