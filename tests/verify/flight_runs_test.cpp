@@ -182,7 +182,7 @@ method:
     flow: {c: 1, a: 0.1*v, b: v/10}
     at: {e: {c: 0, a: a + 10*(a - b), b: b - 10*(a - b), v: -0.9*v}}
   claims: {low: {below: a - b, bound: 1e-9}}
-campaign: {runs: 96, horizon: 12.5, initial: {v: {box: [0.5, 1]}}}
+campaign: {runs: 96, horizon: 8.5, initial: {v: {box: [0.5, 1]}}}
 )yaml";
   const std::string map = R"yaml(problem: p
 method:
