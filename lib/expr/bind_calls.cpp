@@ -244,6 +244,8 @@ Bound Binder::bind_composed(const Expression& expression, const Node& node, Comp
       return controllability(expression, node);
     case Composed::rank:
       return rank(expression, node);
+    case Composed::chol:
+      return cholesky(expression, node);
     case Composed::cond:
       return condition_number(expression, node);
     case Composed::c2d:

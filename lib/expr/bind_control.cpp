@@ -126,6 +126,29 @@ Bound Binder::condition_number(const Expression& expression, const Node& node) {
                "cond: a singular value is 0, so there is no finite quotient")};
 }
 
+/// Column by column, from the lower triangle: l = s/sqrt(s_1) of the first column s of what is left,
+/// S - l l' without its first row and column is left then.
+Bound Binder::cholesky(const Expression& expression, const Node& node) {
+  const Emitter make(*this, expression, node);
+  int left = square_argument(expression, node, node.text);
+  const int n = shape(left).rows;
+  if (n == 0) return {left};
+  const std::string fault = "chol: the matrix is not positive definite";
+  std::vector<int> columns;
+  for (int j = 0; j < n; ++j) {
+    const int size = n - j;
+    const int column = make.part(left, 0, size, 0, 1);
+    const int root = make(Op::sqrt, {make.element(column, 0)}, {}, fault);
+    const int l = make(Op::divide, {column, root}, {}, fault);
+    columns.push_back(j == 0 ? l : make.blocks({make.zeros({j, 1}), l}, 1));
+    if (size == 1) break;
+    const int rest = make.part(l, 1, size, 0, 1);
+    left =
+        make.subtract(make.part(left, 1, size, 1, size), make.multiply(rest, make.transpose(rest)));
+  }
+  return {make.blocks(std::move(columns), n)};
+}
+
 /// With the Frobenius norm c >= |M|: the singular values of M + c I and c I - M are eigenvalues,
 /// the largest of them the one wanted but for c.
 Bound Binder::extreme_eigenvalue(const Expression& expression, const Node& node, bool largest) {

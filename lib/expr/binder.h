@@ -187,6 +187,7 @@ class Binder {
   /// Of the instruction `at`, the first argument of f(M, tol).
   int known_rank(const Expression& expression, const Node& node, int at);
   Bound complement(const Expression& expression, const Node& node);
+  Bound cholesky(const Expression& expression, const Node& node);
   Bound condition_number(const Expression& expression, const Node& node);
   Bound extreme_eigenvalue(const Expression& expression, const Node& node, bool largest);
   Bound observability(const Expression& expression, const Node& node);

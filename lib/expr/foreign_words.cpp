@@ -77,8 +77,9 @@ constexpr auto kRows = std::to_array<Row>({
     {"logm", "there is no logarithm of a matrix; log(x) is element by element"},
     {"sqrtm", "there is no root of a matrix; sqrt(x) is element by element"},
     {"funm", "there is none; expm(M) is the matrix exponential"},
-    {"chol cholesky lu qr schur hess",
-     "there are no factorisations; orth, null, svd and complement "
+    {"cholesky", "write chol(M), the lower factor"},
+    {"lu ldl qr schur hess",
+     "there are no such factorisations; chol, orth, null, svd and complement "
      "give what is unique in them"},
     {"vec vectorize flatten ravel", "there is none; write [M(:, 1); M(:, 2); ...]"},
     {"reshape", "there is none; write a block of parts, such as [v(1:2), v(3:4)]"},

@@ -100,6 +100,23 @@ TEST_P(Control, EigenvaluesAreThoseOfEigen) {
   EXPECT_NEAR(found.col(1).sum(), 0, 1e-15);
 }
 
+/// Murray, "Differentiation of the Cholesky decomposition", 2016: dL = L*Phi(inv(L)*dM*inv(L)'), Phi
+/// the lower triangle with half of the diagonal.
+TEST_P(Control, CholeskyFactorsAreLowerAndHaveTheirDerivative) {
+  const Matrix L = world("chol(Q)");
+  EXPECT_TRUE(L.isLowerTriangular(0));
+  EXPECT_GT(L.diagonal().minCoeff(), 0);
+  expect_nothing("chol(Q)*chol(Q)' - Q", "Q");
+  // A symmetric direction: the argument is symmetric, and its lower triangle is read.
+  world.define("M(s)", "Q + s*(A + A')");
+  Matrix inner = world("inv(chol(Q))*(A + A')*inv(chol(Q))'");
+  const Matrix lower = inner.triangularView<Eigen::StrictlyLower>();
+  const Matrix slope = L * (lower + Matrix(inner.diagonal().asDiagonal()) / 2);
+  world.set("s", 0);
+  EXPECT_LE((world("jacobian(chol(M(s)), s)") - slope.reshaped()).cwiseAbs().maxCoeff(),
+            1e-11 * (1 + slope.cwiseAbs().maxCoeff()));
+}
+
 TEST_P(Control, DeterminantsMultiplyAndHaveTheirDerivative) {
   const double det = tests::determinant(world.values.at("A"));
   EXPECT_NEAR(world("det(A)")(0, 0), det, 1e-14 * (1 + std::abs(det)));
@@ -154,6 +171,14 @@ TEST_F(ControlWords, RanksSaySizes) {
   expect("rank(M, -1)", 9, "must not be negative");
   EXPECT_NEAR(world("cond([2, 0; 0, 1e-3])")(0, 0), 2000, 1e-9);
   expect("cond(zeros(2))", 1, "cond: a singular value is 0");
+}
+
+TEST_F(ControlWords, OnlyDefiniteMatricesHaveACholeskyFactor) {
+  for (const char* text : {"chol([1, 2; 2, 1])", "chol([1, 1; 1, 1])", "chol([0, 1; 1, 2])",
+                           "chol(zeros(3))", "chol(-1)"})
+    expect(text, 1, "chol: the matrix is not positive definite");
+  expect("chol([1, 2])", 6, "square");
+  EXPECT_EQ(world("chol([4, 2; 2, 10])"), (Matrix{{2, 0}, {1, 3}}));
 }
 
 /// X = 0 solves the equation too, but does not stabilise.

@@ -76,7 +76,7 @@ TEST_F(Messages, FunctionsOfOtherLanguagesLeadToTheirNamesHere) {
                                  "cross",
                                  "matmul",
                                  "matrix_rank",
-                                 "chol",
+                                 "cholesky",
                                  "fix",
                                  "rem",
                                  "saturate",
