@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "base/error.h"
+#include "base/visible.h"
 #include "gainsmith/commands.h"
 #include "gainsmith/terminal.h"
 
@@ -16,7 +17,7 @@ namespace app = gainsmith::app;
 using gainsmith::ExitCode;
 
 int report(ExitCode code, const std::string& message) {
-  app::say("gainsmith: " + message + "\n");
+  app::say("gainsmith: " + gainsmith::visible(message) + "\n");
   return static_cast<int>(code);
 }
 

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "base/error.h"
+#include "base/visible.h"
 
 namespace gainsmith::app {
 
@@ -26,6 +27,12 @@ bool is_hidden(const fs::path& path) { return path.filename().string().starts_wi
 bool is_problem(const fs::path& path) {
   const fs::path ending = path.extension();
   return (ending == ".yaml" || ending == ".yml") && !is_hidden(path) && !is_folder(path);
+}
+
+/// The path without its ending; a name that would mean a folder, as "..." of "...yaml", keeps it.
+fs::path without_ending(fs::path path) {
+  const fs::path stem = path.stem();
+  return stem == "." || stem == ".." ? path : path.replace_extension();
 }
 
 /// One path for all paths to a file; of one that does not exist its own.
@@ -57,8 +64,8 @@ std::vector<ProblemFile> files_below(const fs::path& folder) {
   for (; entry != fs::recursive_directory_iterator(); entry.increment(error), require(error)) {
     if (is_folder(entry->path()) && is_hidden(entry->path())) entry.disable_recursion_pending();
     if (!is_problem(entry->path())) continue;
-    fs::path relative = entry->path().lexically_relative(folder);
-    files.push_back({entry->path(), relative.replace_extension().string()});
+    files.push_back(
+        {entry->path(), without_ending(entry->path().lexically_relative(folder)).string()});
   }
   require(error);
   std::sort(files.begin(), files.end(),
@@ -80,8 +87,8 @@ void tell_apart(const std::vector<ProblemFile*>& files) {
   const auto named = [&](std::size_t folders, bool ending) {
     std::vector<std::string> names;
     for (const ProblemFile* file : files) {
-      fs::path path = identity(file->path);
-      names.push_back(end_of(ending ? path : path.replace_extension(), folders));
+      const fs::path path = identity(file->path);
+      names.push_back(end_of(ending ? path : without_ending(path), folders));
     }
     return names;
   };
@@ -103,6 +110,8 @@ std::vector<ProblemFile> problem_files(const std::vector<std::string>& paths) {
   std::vector<ProblemFile> files;
   std::set<std::string> known;
   const auto add = [&](ProblemFile file) {
+    if (control_character(file.name) != std::string::npos)
+      throw InputError({file.path.string()}, "the name of the file has control characters");
     if (known.insert(identity(file.path).string()).second) files.push_back(std::move(file));
   };
   for (const fs::path path : paths) {
@@ -111,7 +120,7 @@ std::vector<ProblemFile> problem_files(const std::vector<std::string>& paths) {
     } else if (is_folder(path)) {
       for (ProblemFile& file : files_below(path)) add(std::move(file));
     } else {
-      add({path, path.stem().string()});
+      add({path, without_ending(path).filename().string()});
     }
   }
   // A new name may be that of another file.

@@ -2,10 +2,12 @@
 
 #include <utility>
 
+#include "base/visible.h"
+
 namespace gainsmith {
 
 std::string to_string(const Place& place) {
-  std::string text = place.file;
+  std::string text = visible(place.file, "");
   if (place.line > 0) text += ":" + std::to_string(place.line);
   if (place.line > 0 && place.column > 0) text += ":" + std::to_string(place.column);
   return text;
@@ -21,6 +23,8 @@ std::string with_place(const Place& place, const std::string& message) {
 }  // namespace
 
 InputError::InputError(Place place, const std::string& message)
-    : std::runtime_error(with_place(place, message)), place_(std::move(place)), message_(message) {}
+    : std::runtime_error(with_place(place, visible(message))),
+      place_(std::move(place)),
+      message_(visible(message)) {}
 
 }  // namespace gainsmith

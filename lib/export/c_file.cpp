@@ -36,13 +36,6 @@ std::vector<std::string> flat_elements(const std::string& name, expr::Shape shap
   });
 }
 
-/// Without what would end a comment.
-std::string harmless(std::string text) {
-  for (const auto& [from, to] : {std::pair("*/", "* /"), std::pair("/*", "/ *")})
-    for (std::size_t k = 0; (k = text.find(from, k)) != std::string::npos;) text.replace(k, 2, to);
-  return text;
-}
-
 /// A function that returns a number, or writes a matrix to `out`.
 std::string function(const std::string& comment, const std::string& name,
                      const std::string& parameters, expr::Shape shape, const Code& made,
@@ -109,7 +102,7 @@ class CObserver : public ObserverWriter {
     std::string text = fmt::format("/* The observer {}. */\ntypedef struct {{\n", observer_.name);
     for (std::size_t k = 0; k < fields_.size(); ++k) {
       const State& state = observer_.states[k];
-      const std::string unit = state.unit.empty() ? "" : " /* " + harmless(state.unit) + " */";
+      const std::string unit = state.unit.empty() ? "" : " /* " + state.unit + " */";
       text += fmt::format("  {} {}{};{}\n", type(), fields_[k], extent(state.shape), unit);
     }
     return text + "} " + state_type() + ";\n\n";
@@ -174,7 +167,7 @@ class CObserver : public ObserverWriter {
     return fmt::format(
         "/* The rate of the states between events.{} */\n"
         "static inline void {}rate(const {} *state{}, {} *rate)\n{{\n{}{}}}\n\n",
-        harmless(units_text(inputs)), prefix_, state_type(), parameters(inputs), state_type(),
+        units_text(inputs), prefix_, state_type(), parameters(inputs), state_type(),
         unread_of(inputs, body), body);
   }
 
@@ -220,8 +213,8 @@ class CObserver : public ObserverWriter {
     std::string text = fmt::format(
         "/* The exact flow over the time dt >= 0{}: x' = M x + rest, by Taylor's series over\n"
         "   steps with |M| step <= 1.{} */\nstatic inline void {}flow({} *state{}, {} dt)\n{{\n",
-        inputs.empty() ? "" : " while the inputs are held", harmless(units_text(inputs, "dt")),
-        prefix_, state_type(), parameters(inputs), type());
+        inputs.empty() ? "" : " while the inputs are held", units_text(inputs, "dt"), prefix_,
+        state_type(), parameters(inputs), type());
     text += matrix("M", observer_.linear->M);
     text += fmt::format(
         "  const int steps = 1 + (int)({} * dt);\n  const {} step = dt / ({})steps;\n"
@@ -258,8 +251,8 @@ class CObserver : public ObserverWriter {
         "{}flow_period({} "
         "*state{})\n{{\n",
         jump->event, model::printed(*jump->period),
-        content_.time_unit.empty() ? "" : " " + harmless(content_.time_unit),
-        harmless(units_text(inputs)), prefix_, state_type(), parameters(inputs));
+        content_.time_unit.empty() ? "" : " " + content_.time_unit, units_text(inputs), prefix_,
+        state_type(), parameters(inputs));
     const bool moved = !nonzero_elements(made).empty();
     text += matrix("Phi", Phi);
     if (moved) text += matrix("Psi", Psi);
@@ -300,7 +293,7 @@ class CObserver : public ObserverWriter {
     return fmt::format(
         "/* What happens at the event {}.{} */\nstatic inline void {}({} "
         "*state{})\n{{\n{}{}}}\n\n",
-        jump.event, harmless(units_text(inputs)), name, state_type(), parameters(inputs),
+        jump.event, units_text(inputs), name, state_type(), parameters(inputs),
         unread_of(inputs, body), body);
   }
 
@@ -309,7 +302,7 @@ class CObserver : public ObserverWriter {
     const auto inputs = inputs_read({output.value});
     std::string comment = output.name + (output.unit.empty() ? "" : " [" + output.unit + "]");
     if (const std::string units = units_text(inputs); !units.empty()) comment += "." + units;
-    return function(harmless(comment), taken_(prefix_ + output.name),
+    return function(comment, taken_(prefix_ + output.name),
                     "const " + state_type() + " *state" + parameters(inputs), output.value.shape(),
                     made, dialect_,
                     [&](const std::string& body) { return unread_of(inputs, body); });
@@ -352,7 +345,7 @@ std::string function_text(const Content& content, const GainFunction& gain, cons
 std::string commented(const std::vector<std::string>& lines) {
   std::string text;
   for (const std::string& line : lines) text += (text.empty() ? "" : "\n   ") + line;
-  return "/* " + harmless(text) + " */\n";
+  return "/* " + text + " */\n";
 }
 
 }  // namespace
@@ -397,7 +390,7 @@ std::string c_file(Content& content, const std::string& name) {
   lines.emplace_back(
       "C99; no memory is allocated. Maps hold the numbers of the problem: export again after a "
       "change.");
-  for (const std::string& note : content.notes) lines.push_back("Note: " + note);
+  for (const std::string& note : content.notes) lines.push_back(comment_text("Note: " + note));
   const std::string code = constants + helper_text(remarks.helpers, dialect) + maps;
   return commented(lines) + fmt::format("#ifndef {0}\n#define {0}\n\n{1}{2}#endif\n", guard,
                                         remarks.library ? "#include <math.h>\n\n" : "", code);

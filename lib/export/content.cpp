@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/hash.h"
+#include "export/shared_text.h"
 #include "expr/substitute.h"
 #include "model/dynamics_programs.h"
 #include "model/estimate_name.h"
@@ -31,13 +32,6 @@ std::string signal_name(const std::string& component, const std::string& name) {
 
 bool is_own(Kind kind) { return kind == Kind::state || kind == Kind::mode; }
 
-/// A formula on one line.
-std::string flat(std::string text) {
-  for (char& c : text)
-    if (c == '\n') c = ' ';
-  return text;
-}
-
 /// "rad, rad/s" of the first of the names that has units for such a shape; empty: none has.
 std::string unit_text(const Units& units, const std::vector<std::string>& names,
                       expr::Shape shape) {
@@ -48,7 +42,7 @@ std::string unit_text(const Units& units, const std::vector<std::string>& names,
     if (each.size() != 1 && each.size() != static_cast<std::size_t>(shape.size())) continue;
     std::string list;
     for (const std::string& unit : each) list += (list.empty() ? "" : ", ") + unit;
-    return flat(list);
+    return comment_text(list);
   }
   return "";
 }
@@ -238,7 +232,7 @@ class Collector {
 
   void add_jump(const Dynamics::Reaction& reaction) {
     const Dynamics::Event& event = dynamics_.events[reaction.event];
-    Jump jump{own_name(observer_.name, event.name), {}, period_of(event)};
+    Jump jump{comment_text(own_name(observer_.name, event.name)), {}, period_of(event)};
     for (const Dynamics::Pass& pass : reaction.passes) {
       if (pass.repeats) throw LeftOut{"it is a loop"};
       jump.passes.emplace_back();
@@ -329,8 +323,8 @@ Content content_of(const model::Gains& gains, const model::Design& design,
       continue;
     }
     const expr::Body& body = stated.bodies.body(gain.name, {});
-    content.functions.push_back(
-        {gain.name, body.variable, stated.bodies.link(body.program), flat(function->formula)});
+    content.functions.push_back({gain.name, body.variable, stated.bodies.link(body.program),
+                                 comment_text(function->formula)});
   }
   if (!texts) return content;
   content.time_unit = unit_text(units, {"t"}, {1, 1});

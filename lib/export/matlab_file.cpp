@@ -186,7 +186,7 @@ std::string matlab_file(Content& content, const std::string& name) {
   }
   content.notes.insert(content.notes.end(), remarks.notes.begin(), remarks.notes.end());
   std::vector<std::string> lines = head_lines(content, name);
-  for (const std::string& note : content.notes) lines.push_back("Note: " + note);
+  for (const std::string& note : content.notes) lines.push_back(comment_text("Note: " + note));
   return fmt::format("function s = {}()\n{}{}end\n\n{}{}", Identifiers(Language::matlab)(name),
                      lines_text(lines, "% "), main, functions,
                      helper_text(remarks.helpers, kMatlab));

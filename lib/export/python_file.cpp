@@ -194,7 +194,7 @@ std::string python_file(Content& content, const std::string& name) {
   }
   content.notes.insert(content.notes.end(), remarks.notes.begin(), remarks.notes.end());
   std::vector<std::string> lines = head_lines(content, name);
-  for (const std::string& note : content.notes) lines.push_back("Note: " + note);
+  for (const std::string& note : content.notes) lines.push_back(comment_text("Note: " + note));
   std::string help = helper_text(remarks.helpers, kPython);
   if (!help.empty()) help = "\n\n" + help.substr(0, help.size() - 1);
   return lines_text(lines, "# ") +

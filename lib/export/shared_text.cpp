@@ -6,9 +6,21 @@
 #include <utility>
 
 #include "base/number.h"
+#include "base/visible.h"
 #include "expr/rewrite.h"
 
 namespace gainsmith::exports {
+
+std::string comment_text(const std::string& text) {
+  std::string line;
+  for (const char c : visible(text))
+    line += c == '"' ? '\'' : c == '\\' ? '/' : c == '\n' || c == '\t' ? ' ' : c;
+  // Python reads an encoding from its first lines: PEP 263.
+  for (const std::string_view pair : {"*/", "/*", "g:", "g="})
+    for (std::size_t k = 0; (k = line.find(pair, k)) != std::string::npos; ++k)
+      if (pair[0] != 'g' || line.substr(0, k).ends_with("codin")) line.insert(k + 1, " ");
+  return line;
+}
 
 std::vector<std::string> head_lines(const Content& content, const std::string& name) {
   std::vector<std::string> lines = {
@@ -25,6 +37,7 @@ std::vector<std::string> head_lines(const Content& content, const std::string& n
     lines.push_back("  " + margin.name + " " + brief(margin.reached, 3) +
                     (margin.worst_point.empty() ? "" : " at " + margin.worst_point) +
                     (margin.holds ? "" : ", not shown"));
+  for (std::string& line : lines) line = comment_text(line);
   return lines;
 }
 

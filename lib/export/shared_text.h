@@ -11,6 +11,10 @@
 
 namespace gainsmith::exports {
 
+/// On one line, without what ends or continues a comment or a text, or says how a file is encoded,
+/// in any of the languages.
+std::string comment_text(const std::string& text);
+
 /// What is said at the head of a file: lines without the signs of a comment.
 std::vector<std::string> head_lines(const Content& content, const std::string& name);
 

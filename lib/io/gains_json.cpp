@@ -198,7 +198,7 @@ model::GainFunction gain_function_of(const std::string& name, const JsonReader& 
 }
 
 model::Margin margin_of(const JsonReader& reader) {
-  return {reader.at("name").text(),
+  return {reader.at("name").text(""),
           reader.at("strict").truth(),
           reader.at("reached").number(),
           reader.at("required").number(),
@@ -263,7 +263,7 @@ model::StatedMatrix stated_matrix_of(const std::string& key, const JsonReader& r
 
 model::StatedFile stated_file_of(const JsonReader& reader) {
   model::StatedFile file{reader.at("file").text(), reader.at("sha256").text(), "", {}};
-  if (reader.has("text")) file.text = reader.at("text").text();
+  if (reader.has("text")) file.text = reader.at("text").source();
   if (reader.has("matrix")) file.matrices.push_back(stated_matrix_of("", reader.at("matrix")));
   if (reader.has("matrices"))
     for (const auto& [key, item] : reader.at("matrices").members())
@@ -272,10 +272,10 @@ model::StatedFile stated_file_of(const JsonReader& reader) {
 }
 
 model::Statement statement_of(const JsonReader& reader) {
-  model::Statement statement{reader.at("method").text(),
-                             reader.at("method_text").text(),
+  model::Statement statement{reader.at("method").text(""),
+                             reader.at("method_text").source(),
                              reader.at("problem_file").text(),
-                             reader.at("problem_text").text(),
+                             reader.at("problem_text").source(),
                              reader.at("sha256").text(),
                              {},
                              {}};
@@ -354,7 +354,7 @@ model::Gains parse_gains(const std::string& text, const std::string& file) {
   model::Gains gains;
   gains.file = file;
   gains.version = version_of(reader.at("gainsmith"));
-  gains.problem_name = reader.at("problem").text();
+  gains.problem_name = reader.at("problem").text("");
   gains.verdict = verdict_of(reader.at("verdict"));
   if (reader.has("objective")) gains.objective = reader.at("objective").number();
   if (reader.has("objective_lower_bound"))

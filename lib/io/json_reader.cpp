@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/nearest.h"
 #include "base/version.h"
+#include "base/visible.h"
 #include "io/json_place.h"
 
 namespace gainsmith::io {
@@ -91,7 +92,13 @@ bool JsonReader::has(const std::string& key) const {
   return value_.is_object() && value_.contains(key);
 }
 
-std::string JsonReader::text() const {
+std::string JsonReader::text(std::string_view allowed) const {
+  if (control_character(source(), allowed) != std::string::npos)
+    fail("control characters are no part of this: '" + visible(source(), allowed) + "'");
+  return source();
+}
+
+std::string JsonReader::source() const {
   if (!value_.is_string()) fail("expected a text");
   return value_.get<std::string>();
 }
@@ -141,6 +148,8 @@ std::vector<std::pair<std::string, JsonReader>> JsonReader::members() const {
   std::vector<std::pair<std::string, JsonReader>> result;
   for (const auto& item : value_.items()) {
     (*asked_)[&value_].insert(item.key());
+    if (control_character(item.key()) != std::string::npos)
+      fail("control characters are no part of a name: '" + visible(item.key(), "") + "'");
     result.emplace_back(item.key(), below(item.key(), item.value()));
   }
   return result;

@@ -36,7 +36,10 @@ class JsonReader {
   bool is_list() const { return value_.is_array(); }
   bool is_text() const { return value_.is_string(); }
 
-  std::string text() const;
+  /// Without control characters other than those of `allowed`: of a name none.
+  std::string text(std::string_view allowed = "\n\t") const;
+  /// The text of a file as it is.
+  std::string source() const;
   double number() const;
   /// The decimal of a number.
   std::string decimal() const;

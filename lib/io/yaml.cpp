@@ -13,6 +13,7 @@
 #include "base/nearest.h"
 #include "base/number.h"
 #include "base/stop.h"
+#include "base/visible.h"
 #include "expr/parser.h"
 #include "io/sources.h"
 #include "io/yaml_error.h"
@@ -67,6 +68,15 @@ void refuse_non_text(const std::string& text, const std::string& file) {
     if (length == 0) refuse(at, "this is no UTF-8 text");
     at += length;
   }
+}
+
+/// Names become lines of other files and of a terminal.
+void refuse_control(const std::string& text, std::string_view allowed, const std::string& what,
+                    const Place& place) {
+  if (control_character(text, allowed) != std::string::npos)
+    throw InputError(place, what + ": control characters are no part of a " +
+                                (allowed.empty() ? "name: '" : "text: '") + visible(text, allowed) +
+                                "'");
 }
 
 std::string without_byte_order_mark(std::string text) {
@@ -147,6 +157,7 @@ YamlFile::YamlFile(std::string text, std::string file, Sources* sources)
     : sources_(sources), root_(add(std::move(text), file, "")) {}
 
 YAML::Node YamlFile::add(std::string text, const std::string& file, const std::string& name) {
+  refuse_control(file, "", "the name of the file", {file});
   text = without_byte_order_mark(std::move(text));
   refuse_non_text(text, file);
   // A value that is left out at the end of a file is placed before the next one.
@@ -279,6 +290,12 @@ std::string YamlFile::string(const YAML::Node& node, const std::string& what) co
                                                   : "nothing";
     throw InputError(place(node), what + ": expected a text, found " + found);
   }
+  refuse_control(node.Scalar(), "\n\t", what, place(node));
+  return node.Scalar();
+}
+
+std::string YamlFile::name(const YAML::Node& node, const std::string& what) const {
+  refuse_control(string(node, what), "", what, place(node));
   return node.Scalar();
 }
 
@@ -379,7 +396,7 @@ YamlMap::YamlMap(const YamlFile& file, const YAML::Node& node, std::string what)
                                   : node.IsNull()   ? "nothing"
                                                     : "'" + shortened(node.Scalar()) + "'"));
   for (const auto& entry : node) {
-    const std::string key = file.string(entry.first, what_ + ": a key");
+    const std::string key = file.name(entry.first, what_ + ": a key");
     const Place place = file.place(entry.first);
     for (const YamlItem& earlier : items_)
       if (earlier.key == key)

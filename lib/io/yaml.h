@@ -23,7 +23,7 @@ class Sources;
 class YamlFile {
  public:
   /// InputError with the place for bytes that are no text in UTF-8, a YAML error, an empty file or
-  /// several documents. `sources`: of a problem, which may name files; it must outlive this.
+  /// several documents, and for a name of the file with control characters. `sources`: of a problem, which may name files; it must outlive this.
   YamlFile(std::string text, std::string file, Sources* sources = nullptr);
 
   const YAML::Node& root() const { return root_; }
@@ -48,6 +48,8 @@ class YamlFile {
   expr::Text scalar(const YAML::Node& node, const std::string& what) const;
   expr::Expression expression(const YAML::Node& node, const std::string& what) const;
   std::string string(const YAML::Node& node, const std::string& what) const;
+  /// A text on one line.
+  std::string name(const YAML::Node& node, const std::string& what) const;
   /// A number written as such (not an expression).
   double number(const YAML::Node& node, const std::string& what) const;
   /// A number above 0.

@@ -2,9 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-
+#include <cstdlib>
 #include <ostream>
 #include <regex>
+#include <set>
 
 #include "end_to_end/program.h"
 
@@ -183,6 +184,168 @@ TEST(BadInputTest, AnOutputThatCannotBeWrittenLeavesNothing) {
   const Outcome outcome = gainsmith({"synth", problem(kGood), "-o", file + "/gains.json"});
   EXPECT_EQ(outcome.exit, 2);
   EXPECT_EQ(folder.names().size(), 1U);
+}
+
+/// Names are texts that another program could obey: a terminal, a compiler, a browser.
+TEST(HostileNames, ControlCharactersAreRefusedAtTheirPlace) {
+  const std::string base =
+      "problem: p\nmethod:\n  data: {A: n x n}\n  unknowns: {P: symmetric n}\n"
+      "  require: {decay: He(P*A) < 0}\n  gains: {L: P}\n"
+      "  plant: {state: {x: {shape: n, start: [1, 1]}}, flow: {x: A*x}}\n"
+      "  claims: {small: {below: norm(x), bound: 9}}\n"
+      "data: {A: [[-1, 0], [0, -2]]}\nreport: {trace: trace(P)}\nunits: {x: m}\n"
+      "campaign: {runs: 4, horizon: 1}\n";
+  const Folder folder;
+  ASSERT_EQ(gainsmith({"run", folder.file("good.yaml", base), "-o", folder.path("good")}).exit, 0);
+  for (const char* word :
+       {"problem: p", "decay", "small", "trace: ", "L: P", "x: m", "x: {shape"}) {
+    for (const std::string hostile : {"\\n", "\\r", "\\e[2J", "\\x9b2J", "\\u2028", "\\u202e"}) {
+      SCOPED_TRACE(word + hostile);
+      std::string text = base;
+      const std::size_t at = text.find(word);
+      const std::string part = word;
+      const std::size_t colon = part.find(':');
+      // The problem's name is a value, the others are keys.
+      const std::string key = colon == std::string::npos ? part : part.substr(0, colon);
+      text = part == "problem: p" ? with(text, "problem: p", "problem: \"p" + hostile + "\"")
+                                  : text.replace(at, key.size(), "\"" + key + hostile + "\"");
+      const Outcome outcome = gainsmith({"check", folder.file("bad.yaml", text)});
+      EXPECT_EQ(outcome.exit, 2);
+      EXPECT_TRUE(std::regex_search(outcome.err,
+                                    std::regex("bad.yaml:[0-9]+:[0-9]+: .*control characters")))
+          << outcome.err;
+      for (const char* byte : {"\x1b", "\r", "\xc2\x9b", "\xe2\x80"})
+        EXPECT_EQ((outcome.out + outcome.err).find(byte), std::string::npos) << outcome.err;
+    }
+  }
+}
+
+TEST(HostileNames, GainFilesFromStrangersAreNoPrograms) {
+  const Folder folder;
+  const std::string path = folder.path("gains.json");
+  ASSERT_EQ(gainsmith({"synth", problem(kGood), "-o", path}).exit, 0);
+  const auto good = nlohmann::ordered_json::parse(text_of(path));
+  const auto refused = [&](const nlohmann::ordered_json& document) {
+    for (const char* target : {"python", "c", "matlab", "latex", "csv"}) {
+      const Outcome outcome = gainsmith({"export", folder.file("evil.json", document.dump()),
+                                         "--to", target, "-o", folder.path("evil")});
+      EXPECT_EQ(outcome.exit, 2) << target;
+      EXPECT_EQ((outcome.out + outcome.err).find("\x1b"), std::string::npos) << outcome.err;
+    }
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"evil.json", "gains.json"}));
+  };
+  auto document = good;
+  document["problem"] = "p\nimport os";
+  refused(document);
+  document = good;
+  document["margins"][0]["name"] = "p\nimport os";
+  refused(document);
+  document = good;
+  document["solver"]["message"] = "\x1b[2J";
+  refused(document);
+  document = good;
+  document["gains"]["../../x"] = 1;
+  refused(document);
+  document = good;
+  document["gains"]["L\n}"] = 1;
+  refused(document);
+}
+
+/// What is printable is a name: files that are made of it stay what they are.
+TEST(HostileNames, PrintableOnesStayTexts) {
+  const std::string names[] = {"*/ EVIL /*",
+                               R"(\"\"\" EVIL)",
+                               "%} EVIL",
+                               "</script><script>EVIL</script>",
+                               R"(\\end{verbatim} EVIL)",
+                               R"(EVIL\\)",
+                               "coding: utf-7 +AAo-EVIL",
+                               "$(EVIL)",
+                               "';EVIL;'",
+                               "<!--EVIL",
+                               "]]>EVIL"};
+  const Folder folder;
+  for (const std::string& name : names) {
+    SCOPED_TRACE(name);
+    const std::string quoted = "\"" + name + "\"";
+    const std::string file = folder.file(
+        "p.yaml",
+        "problem: " + quoted +
+            "\nmethod:\n  data: {A: n x n, C: p x n, L: n x p}\n"
+            "  unknowns: {P: symmetric n}\n  require: {" +
+            quoted +
+            ": He(P*(A - L*C)) < 0, b: P > I}\n"
+            "  gains: {L: L}\n  events: {" +
+            quoted +
+            ": {every: 0.1}}\n"
+            "  plant: {state: {x: {shape: n, start: [1, 1]}}, output: {y: C*x}, flow: {x: A*x}}\n"
+            "  observer: {state: {xh: {shape: n, start: 0}}, flow: {xh: A*xh + L*(y - C*xh)}, at: "
+            "{" +
+            quoted +
+            ": {xh: xh/2}}}\n"
+            "  claims: {" +
+            quoted +
+            ": {below: norm(x), bound: 9}}\n"
+            "data: {A: [[-1, 0], [0, -2]], C: [[1, 0]], L: [[1], [0]]}\nreport: {" +
+            quoted +
+            ": trace(P)}\n"
+            "units: {xh: " +
+            quoted + ", y: " + quoted + "}\ncampaign: {runs: 4, horizon: 1}\n");
+    const std::string out = folder.path("out");
+    const Outcome run = gainsmith({"run", file, "-o", out});
+    ASSERT_EQ(run.exit, 0) << run.out << run.err;
+    ASSERT_EQ(gainsmith({"report", out, "-o", folder.path("page.html")}).exit, 0);
+    const std::string page = text_of(folder.path("page.html"));
+    EXPECT_FALSE(has(page, "<script>EVIL")) << "a script of a stranger";
+    EXPECT_FALSE(has(page, "<!--EVIL"));
+    const std::string gains = out + "/p/gains.json";
+    for (const std::string target : {"python", "c", "matlab", "latex", "json", "csv", "mat"}) {
+      const std::string to = folder.path("made." + target);
+      ASSERT_EQ(gainsmith({"export", gains, "--to", target, "-o", to}).exit, 0) << target;
+      if (target == "csv" || target == "mat") continue;
+      const std::string text = text_of(to);
+      EXPECT_FALSE(std::regex_search(text, std::regex("(^|\n)[^\n#%*/ '\"{]*EVIL"))) << text;
+      if (target == "python") {
+        EXPECT_EQ(std::system(
+                      ("python3 -c \"import ast, sys; ast.parse(open('" + to + "', 'rb').read())\"")
+                          .c_str()),
+                  0)
+            << text;
+      }
+    }
+  }
+}
+
+TEST(HostileNames, ResultsStayInTheirFolder) {
+  const Folder folder;
+  const std::string text =
+      "problem: p\nmethod:\n  plant: {state: {x: {shape: scalar, start: 1}}, flow: {x: -x}}\n"
+      "  claims: {small: {below: x, bound: 2}}\ncampaign: {runs: 4, horizon: 1}\n";
+  std::filesystem::create_directories(folder.path("deep/in"));
+  for (const std::string name : {"...yaml", "..yaml", "deep/...yaml"})
+    ASSERT_EQ(gainsmith({"run", folder.file(name, text), "-o", folder.path("deep/in/out")}).exit, 0)
+        << name;
+  const Outcome both = gainsmith({"run", folder.path("...yaml"), folder.path("deep/...yaml"), "-o",
+                                  folder.path("deep/in/out2")});
+  EXPECT_EQ(both.exit, 0) << both.err;
+  std::set<std::string> found;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path("")))
+    if (entry.path().filename() == "gains.json" || entry.path().filename() == "result.json")
+      found.insert(
+          entry.path().parent_path().parent_path().lexically_relative(folder.path("")).string());
+  for (const std::string& one : found) EXPECT_TRUE(one.starts_with("deep/in/out")) << one;
+  EXPECT_FALSE(found.empty());
+}
+
+TEST(HostileNames, FilesAreNamedSoThatATerminalSurvives) {
+  const Folder folder;
+  const std::string file = folder.file("a\x1b[2Jb.yaml", "problem: p\n");
+  for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{
+           {"run", folder.path(""), "-o", folder.path("out")}, {"check", file}, {"synth", file}}) {
+    const Outcome outcome = gainsmith(command);
+    EXPECT_EQ(outcome.exit, 2);
+    EXPECT_EQ((outcome.out + outcome.err).find("\x1b"), std::string::npos) << outcome.err;
+  }
 }
 
 }  // namespace

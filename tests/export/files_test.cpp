@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -108,6 +109,65 @@ TEST(ExportContent, LoopsAreLeftOutAndSaid) {
   EXPECT_TRUE(made.observers[0].jumps.empty());
   ASSERT_EQ(made.notes.size(), 1U);
   EXPECT_TRUE(has(made.notes[0], "loop")) << made.notes[0];
+}
+
+/// Texts of strangers stay in the comments that they are in.
+TEST(ExportFiles, HostileTextsStayInTheirComments) {
+  EXPECT_EQ(comment_text("a\nb\tc\x1b"), "a b c/x1b");
+  EXPECT_EQ(comment_text("*/*/ /*\"\\"), "* / * / / *'/");
+  EXPECT_EQ(comment_text("coding: utf-7, fileencoding=x, recoded"),
+            "coding : utf-7, fileencoding =x, recoded");
+  const std::string evil = "EVIL";
+  /// What is left of a text without comments to the ends of lines.
+  const auto without = [](const std::string& text, const std::string& sign) {
+    std::string rest;
+    for (std::size_t at = 0; at < text.size();) {
+      const std::size_t end = std::min(text.find_first_of("\n\r\v\f", at), text.size() - 1) + 1;
+      const std::string line = text.substr(at, end - at);
+      rest += line.substr(0, line.find(sign)) + "\n";
+      at = end;
+    }
+    return rest;
+  };
+  for (const std::string begin :
+       {"\n", "\r", "\r\n", "\v", "\f", "\xc2\x85", "\xe2\x80\xa8", "*/", "%}", "%{\n", "\"\"\"",
+        "\\", "\\end{verbatim}", "^^M", "</script>", "*\\\n/", "*?\?/\n/"}) {
+    SCOPED_TRACE(begin);
+    const std::string hostile = "x" + begin + evil;
+    Content made = content(problem("{every: 0.1}", kSampled));
+    made.problem = made.method = hostile;
+    made.notes = {hostile};
+    model::Margin margin;
+    margin.name = margin.worst_point = hostile;
+    made.margins = {margin};
+    const std::vector<GainMatrix> matrices = made.gains;
+    std::string c = c_file(made, "m");
+    for (std::size_t at; (at = c.find("/*")) != std::string::npos;)
+      c.erase(at, c.find("*/", at + 2) + 2 - at);
+    EXPECT_FALSE(has(c, evil)) << c;
+    EXPECT_FALSE(has(without(matlab_file(made, "m"), "%"), evil));
+    EXPECT_FALSE(has(without(python_file(made, "m"), "#"), evil));
+    EXPECT_FALSE(has(without(latex_file(made, matrices), "%"), evil));
+  }
+}
+
+/// Units stand in the comments and texts of each map.
+TEST(ExportFiles, HostileUnitsStayInTheirComments) {
+  for (const std::string unit : {R"(V*/ EVIL /*)", R"(V\"\"\" EVIL)", R"(V\nEVIL)", R"(V\\)"}) {
+    SCOPED_TRACE(unit);
+    std::string text = problem("{every: 0.1}", kSampled) + "units: {";
+    for (const char* name : {"xh: ", "y: ", "out: ", "t: "}) text += name + ("\"" + unit + "\", ");
+    Content made = content(text + "}\n");
+    std::string c = c_file(made, "m");
+    ASSERT_TRUE(has(c, "/* V"));
+    for (std::size_t at; (at = c.find("/*")) != std::string::npos;)
+      c.erase(at, c.find("*/", at + 2) + 2 - at);
+    EXPECT_FALSE(has(c, "EVIL")) << c;
+    for (const std::string& file : {python_file(made, "m"), matlab_file(made, "m")}) {
+      EXPECT_FALSE(has(file, "\nEVIL"));
+      EXPECT_FALSE(has(file, "V\"\"\""));
+    }
+  }
 }
 
 TEST(ExportFiles, AHeaderHasGainsAndMaps) {
