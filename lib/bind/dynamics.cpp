@@ -95,12 +95,12 @@ void DynamicsBinding::add_definitions(const model::Component& component) {
   }
 }
 
-/// The vertices of a list, or the members of the family that it names.
-std::vector<expr::Expression> DynamicsBinding::vertices_of(const model::UncertainText& text,
-                                                           expr::Shape shape) const {
+/// The values of a text, or the members of the family that it names as vertices.
+std::vector<expr::Expression> DynamicsBinding::values_of(const model::UncertainText& text,
+                                                         expr::Shape shape) const {
   std::vector<expr::Expression> vertices;
-  if (text.vertices.size() == 1) {
-    const expr::Expression& only = text.vertices.front().value;
+  if (text.kind == model::Dynamics::NoiseKind::vertices && text.values.size() == 1) {
+    const expr::Expression& only = text.values.front().value;
     const auto family = scope_->families.find(only.root->text);
     if (only.root->kind == expr::NodeKind::name && family != scope_->families.end()) {
       if (family->second.size() != 1)
@@ -114,7 +114,7 @@ std::vector<expr::Expression> DynamicsBinding::vertices_of(const model::Uncertai
       return vertices;
     }
   }
-  for (const model::Value& value : text.vertices)
+  for (const model::Value& value : text.values)
     vertices.push_back(oriented(value, is_proper_column(shape)));
   return vertices;
 }
@@ -124,14 +124,14 @@ model::Dynamics::Noise DynamicsBinding::varied_noise(const model::UncertainText&
                                                      expr::Shape shape) const {
   model::Dynamics::Noise noise;
   noise.name = "plant." + text.name;
-  noise.kind = model::Dynamics::NoiseKind::uniform;
+  noise.kind = text.kind;
   noise.shape = shape;
+  noise.covariance = text.covariance;
   noise.place = text.place;
-  if (text.corners) noise.kind = model::Dynamics::NoiseKind::corners;
-  if (!text.vertices.empty()) noise.kind = model::Dynamics::NoiseKind::vertices;
-  std::vector<expr::Expression> values = vertices_of(text, shape);
-  for (const model::Value& end : text.box) values.push_back(oriented(end, is_proper_column(shape)));
-  for (const expr::Expression& value : values) noise.values.push_back(constant(value, shape));
+  const std::optional<expr::Shape> fixed = noise.has_center() ? std::nullopt : std::optional(shape);
+  for (const expr::Expression& value : values_of(text, shape))
+    noise.values.push_back(constant(value, fixed));
+  if (noise.has_center()) check_spread(noise.values, noise.covariance, shape, text.name);
   return noise;
 }
 

@@ -37,8 +37,8 @@ class DynamicsBinding {
   void add_varied();
   std::string no_datum(const std::string& name) const;
   model::Dynamics::Noise varied_noise(const model::UncertainText& text, expr::Shape shape) const;
-  std::vector<expr::Expression> vertices_of(const model::UncertainText& text,
-                                            expr::Shape shape) const;
+  std::vector<expr::Expression> values_of(const model::UncertainText& text,
+                                          expr::Shape shape) const;
   void bind_starts();
   void bind_flow(const model::Component& component, std::size_t at);
   std::size_t state(const model::Component& component, std::size_t at, const model::Named& entry,

@@ -7,6 +7,7 @@
 #include "base/nearest.h"
 #include "base/number.h"
 #include "bind/dynamics_binding.h"
+#include "bind/formulas.h"
 #include "expr/compile.h"
 #include "expr/condition.h"
 
@@ -112,9 +113,10 @@ model::Formula DynamicsBinding::constant(const expr::Expression& text,
   model::Formula bound = formula(text, *scope_, shape);
   for (const expr::Input& input : bound.program.inputs)
     if (is_moving(input.name))
-      throw InputError(bound.place, "'" + input.name +
-                                        "' changes along a run; this is made of what data, parameters "
-                                        "and gains give");
+      throw InputError(bound.place,
+                       "'" + input.name +
+                           "' changes along a run; this is made of what data, parameters "
+                           "and gains give");
   return bound;
 }
 
@@ -304,11 +306,16 @@ void DynamicsBinding::bind_noise(const model::NoiseText& text) {
   model::Dynamics::Noise bound;
   bound.name = text.name;
   bound.kind = text.kind;
+  bound.covariance = text.covariance;
   bound.place = text.place;
   for (const expr::Expression& value : text.values)
     bound.values.push_back(constant(value, std::nullopt));
   bound.shape = bound.values.front().program.shape();
-  if (bound.values.back().program.shape() != bound.shape)
+  const expr::Shape last = bound.values.back().program.shape();
+  if (bound.has_center()) {
+    if (bound.shape.is_scalar()) bound.shape = text.covariance ? expr::Shape{last.rows, 1} : last;
+    check_spread(bound.values, text.covariance, bound.shape, "noise " + text.name);
+  } else if (last != bound.shape)
     throw InputError(bound.values.back().place,
                      "both ends of the noise " + text.name + " must have one shape");
   if (!text.event.empty()) bound.event = event(nullptr, text.event, text.place);

@@ -34,6 +34,19 @@ model::Formula value(const model::Value& value, const expr::Scope& scope,
   return result;
 }
 
+void check_spread(const std::vector<model::Formula>& values, bool covariance, expr::Shape of,
+                  const std::string& what) {
+  const expr::Shape center = values[0].program.shape(), spread = values[1].program.shape();
+  const bool fits = covariance ? of.cols == 1 && spread == expr::Shape{of.rows, of.rows}
+                               : spread == of || spread.is_scalar();
+  if (fits && (center == of || center.is_scalar())) return;
+  throw InputError(values[fits ? 0 : 1].place,
+                   what + " is " + to_string(of) + ": expected " +
+                       (fits || !covariance ? "a number or as many"
+                                            : "a covariance n x n of a column with n elements") +
+                       ", found " + to_string(fits ? center : spread));
+}
+
 model::Range range(const model::ScalarRange& range, const expr::Scope& scope) {
   return {range.name, scalar(range.low, scope), scalar(range.high, scope), range.place};
 }

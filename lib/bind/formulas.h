@@ -23,6 +23,9 @@ model::Formula scalar(const expr::Expression& expression, const expr::Scope& sco
 /// A value that may be a flat list, which is a column where a column is expected.
 model::Formula value(const model::Value& value, const expr::Scope& scope,
                      std::optional<expr::Shape> expected);
+/// InputError where a center and its deviation or covariance do not fit what has the shape.
+void check_spread(const std::vector<model::Formula>& values, bool covariance, expr::Shape of,
+                  const std::string& what);
 model::Range range(const model::ScalarRange& range, const expr::Scope& scope);
 
 }  // namespace gainsmith::bind

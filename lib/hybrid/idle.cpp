@@ -18,6 +18,9 @@ std::uint64_t values_of(const StartRule& rule) {
       return rule.values.size();
     case model::StartKind::box:
       return rule.values[0] == rule.values[1] ? 1 : 0;
+    case model::StartKind::normal:
+    case model::StartKind::lognormal:
+      return rule.values[1].isZero(0) ? 1 : 0;
     case model::StartKind::ellipsoid:
       break;
   }
@@ -27,7 +30,8 @@ std::uint64_t values_of(const StartRule& rule) {
 std::uint64_t values_of(const Dynamics::Noise& noise, const System::NoiseValues& rule) {
   switch (noise.kind) {
     case Dynamics::NoiseKind::normal:
-      return rule.values[0].isZero(0) ? 1 : 0;
+    case Dynamics::NoiseKind::lognormal:
+      return rule.values[1].isZero(0) ? 1 : 0;
     case Dynamics::NoiseKind::uniform:
       return rule.values[0] == rule.values[1] ? 1 : 0;
     case Dynamics::NoiseKind::vertices:

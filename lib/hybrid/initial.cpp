@@ -27,17 +27,56 @@ void read_ellipsoid(StartRule& rule, const std::string& state) {
   rule.values = {rule.values[0], std::sqrt(level) * factors.matrixU().solve(unit)};
 }
 
-Eigen::VectorXd draw_ellipsoid(const StartRule& rule, RandomStream& random) {
-  const Eigen::Index n = rule.values[0].size();
+numbers::Matrix spread_map(const numbers::Matrix& spread, bool covariance, Eigen::Index size,
+                           const std::string& what, const Place& place) {
+  if (!covariance) {
+    if (!(spread.array() >= 0).all() || !spread.allFinite())
+      throw InputError(place, "the deviation of " + what + " is negative or not finite");
+    if (spread.size() == 1) return spread(0, 0) * numbers::Matrix::Identity(size, size);
+    return spread.reshaped().asDiagonal();
+  }
+  numbers::Matrix M = numbers::Matrix::Zero(size, size);
+  for (Eigen::Index j = 0; j < size; ++j)
+    for (Eigen::Index i = j; i < size; ++i) {
+      double left = spread(i, j);
+      for (Eigen::Index k = 0; k < j; ++k) left -= M(i, k) * M(j, k);
+      if (i > j && M(j, j) > 0) M(i, j) = left / M(j, j);
+      if (i == j && left > kTermRounding * spread(j, j)) M(j, j) = std::sqrt(left);
+    }
+  const Eigen::VectorXd deviation = spread.diagonal().cwiseAbs().cwiseSqrt();
+  const double least = size > 0 ? kTermRounding * spread.cwiseAbs().maxCoeff() : 0;
+  const auto rounding = kMeantEqual * (deviation * deviation.transpose()).array() + least;
+  if (!((M * M.transpose() - spread).array().abs() <= rounding).all())
+    throw InputError(place,
+                     "the covariance of " + what + " is not symmetric and positive semidefinite");
+  return M;
+}
+
+Eigen::VectorXd draw_normal(Eigen::Index n, RandomStream& random) {
   Eigen::VectorXd z(n);
   for (Eigen::Index k = 0; k < n; ++k) {
     const double u = random.uniform();
     z(k) = std::sqrt(-2 * std::log1p(-u)) * std::cos(2 * std::numbers::pi * random.uniform());
   }
-  const double u = random.uniform();
-  const double length = z.norm();
-  if (length > 0) z *= std::pow(u, 1 / static_cast<double>(n)) / length;
-  return rule.values[0].col(0) + rule.values[1] * z;
+  return z;
+}
+
+numbers::Matrix around(const numbers::Matrix& center, const numbers::Matrix& M,
+                       const Eigen::VectorXd& z, bool is_lognormal) {
+  const numbers::Matrix away = (M * z).reshaped(center.rows(), center.cols());
+  if (is_lognormal) return center.cwiseProduct(numbers::Matrix(away.array().exp()));
+  return center + away;
+}
+
+numbers::Matrix draw_around(const StartRule& rule, RandomStream& random) {
+  const Eigen::Index n = rule.values[0].size();
+  Eigen::VectorXd z = draw_normal(n, random);
+  if (rule.kind == model::StartKind::ellipsoid) {
+    const double u = random.uniform();
+    const double length = z.norm();
+    if (length > 0) z *= std::pow(u, 1 / static_cast<double>(n)) / length;
+  }
+  return around(rule.values[0], rule.values[1], z, rule.kind == model::StartKind::lognormal);
 }
 
 }  // namespace gainsmith::hybrid

@@ -16,7 +16,7 @@ namespace gainsmith::hybrid {
 /// How one state starts, with its numbers.
 struct StartRule {
   model::StartKind kind = model::StartKind::box;
-  /// box: low, high; list: the elements; ellipsoid: its center and the map M of draw_ellipsoid.
+  /// box: low, high; list: the elements; others: the center and the map M of draw_around.
   std::vector<numbers::Matrix> values;
   expr::Program program;  ///< expression
   Place place;
@@ -27,8 +27,20 @@ struct StartRule {
 /// symmetric and positive definite, or r is negative. `state`: the name, for messages.
 void read_ellipsoid(StartRule& rule, const std::string& state);
 
-/// A point c + M b, with b uniform in the unit ball: b = u^(1/n) z/|z|, z normal. 2n + 1 draws: two
-/// an element of z, sqrt(-2 log(1 - u)) cos(2 pi v), and u.
-Eigen::VectorXd draw_ellipsoid(const StartRule& rule, RandomStream& random);
+/// M of what is drawn around a center: diagonal with the deviations, or of a covariance V the lower
+/// triangular M with M M' = V. V may be semidefinite: a column whose diagonal element would be 0
+/// but for rounding is 0. `size`: elements that are drawn, column by column. InputError for a
+/// deviation that is negative and for V that is not symmetric and positive semidefinite.
+numbers::Matrix spread_map(const numbers::Matrix& spread, bool covariance, Eigen::Index size,
+                           const std::string& what, const Place& place);
+
+/// n numbers of the standard normal distribution, two draws each: sqrt(-2 log(1 - u)) cos(2 pi v).
+Eigen::VectorXd draw_normal(Eigen::Index n, RandomStream& random);
+
+/// Around a center c. ellipsoid: c + M b, with b uniform in the unit ball: b = u^(1/n) z/|z|, z
+/// normal, one more draw; normal: c + M z; lognormal: c .* exp(M z).
+numbers::Matrix draw_around(const StartRule& rule, RandomStream& random);
+numbers::Matrix around(const numbers::Matrix& center, const numbers::Matrix& M,
+                       const Eigen::VectorXd& z, bool is_lognormal);
 
 }  // namespace gainsmith::hybrid

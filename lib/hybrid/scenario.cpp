@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "base/number.h"
 #include "hybrid/event_functions.h"
@@ -29,7 +28,8 @@ bool is_drawn(const Dynamics::Variable& variable) {
 void check_start(const model::Formula& formula, std::size_t variable, const System& system) {
   for (const expr::Input& input : formula.program.inputs) {
     const auto slot = system.slot(input.name);
-    if (slot && *slot >= variable)
+    if (slot && *slot >= variable &&
+        system.dynamics.variables[*slot].kind != Dynamics::VariableKind::noise)
       throw InputError(formula.place, "the initial value of " + system.layout.slots[variable].name +
                                           " uses " + input.name + ", which has no value yet");
     if (!slot && !system.constants.contains(input.name))
@@ -45,9 +45,12 @@ StartRule rule_of(const model::Design::Start& start, const System& system) {
     rule.program = start.values.front().program;
     return rule;
   }
+  const bool around = has_center(start.kind);
   for (const model::Formula& formula : start.values) {
     numbers::Matrix value = system.value(formula);
-    if (start.kind == StartKind::box && value.size() == 1)
+    if (around && !rule.values.empty())
+      value = spread_map(value, start.covariance, slot.shape.size(), slot.name, formula.place);
+    else if ((around || start.kind == StartKind::box) && value.size() == 1)
       value = numbers::Matrix::Constant(slot.shape.rows, slot.shape.cols, value(0, 0));
     rule.values.push_back(std::move(value));
   }
@@ -223,6 +226,9 @@ VectorXd draw_start(const System& system, const Scenario& scenario, std::uint64_
                     std::uint64_t run) {
   VectorXd values = VectorXd::Zero(system.whole);
   const GivenRun* given = scenario.given_for(run);
+  // Starts may use the first values of noise.
+  NoiseDraws noise(system, scenario, seed, run);
+  for (std::size_t k = 0; k < system.noise.size(); ++k) noise.draw(k, values);
   for (std::size_t i = 0; i < scenario.starts.size(); ++i) {
     if (!scenario.starts[i]) continue;
     const StartRule& rule = *scenario.starts[i];
@@ -234,12 +240,11 @@ VectorXd draw_start(const System& system, const Scenario& scenario, std::uint64_
       value = SystemFunction(rule.program, system)(values);
     } else if (rule.kind == StartKind::list) {
       value = rule.values[run % rule.values.size()];
-    } else if (rule.kind == StartKind::ellipsoid) {
-      RandomStream random = draw_stream(seed, run, Purpose::start, i);
-      value = draw_ellipsoid(rule, random);
     } else {
       RandomStream random = draw_stream(seed, run, Purpose::start, i);
-      value = box_value(rule, variable.structure == model::Structure::symmetric, random);
+      value = rule.kind == StartKind::box
+                  ? box_value(rule, variable.structure == model::Structure::symmetric, random)
+                  : draw_around(rule, random);
     }
     check_value(variable, rule.place, value);
     values.segment(system.layout.slots[i].offset, value.size()) = value.reshaped();
@@ -353,16 +358,13 @@ VectorXd NoiseDraws::next_value(std::size_t noise) {
   if (one.kind == Dynamics::NoiseKind::vertices || one.kind == Dynamics::NoiseKind::corners)
     return rule[run_ / system_->noise[noise].stride % rule.size()].reshaped();
   RandomStream& random = random_[noise];
+  if (one.has_center())
+    return around(rule[0], rule[1], draw_normal(one.shape.size(), random),
+                  one.kind == Dynamics::NoiseKind::lognormal)
+        .reshaped();
   VectorXd value(one.shape.size());
-  for (Eigen::Index k = 0; k < value.size(); ++k) {
-    const double u = random.uniform();
-    if (one.kind == Dynamics::NoiseKind::uniform) {
-      value(k) = rule[0](k) + (rule[1](k) - rule[0](k)) * u;
-    } else {
-      const double angle = 2 * std::numbers::pi * random.uniform();
-      value(k) = rule[0](k) * std::sqrt(-2 * std::log1p(-u)) * std::cos(angle);
-    }
-  }
+  for (Eigen::Index k = 0; k < value.size(); ++k)
+    value(k) = rule[0](k) + (rule[1](k) - rule[0](k)) * random.uniform();
   return value;
 }
 

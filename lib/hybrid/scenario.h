@@ -9,13 +9,13 @@
 //
 //   purpose  index     draws
 //   start    variable  one for each element of a box, column by column; of a symmetric state of its
-//                      lower triangle; of an ellipsoid those of initial.h
+//                      lower triangle; around a center those of initial.h
 //   first    event     one: the first time within the range of `first`
 //   length   event     one a length, of the laws that draw
 //   lost     event     draw k at occurrence k = 0, 1, ...
-//   noise    noise     two an element and drawing of normal noise, sqrt(-2 log(1 - u)) cos(2 pi v);
-//                      one of uniform noise; none of vertices and corners, where run k takes one
-//                      by its number
+//   noise    noise     those of initial.h of normal and lognormal noise; one an element and drawing
+//                      of uniform noise; none of vertices and corners, where run k takes one by its
+//                      number
 //   places   moved run signs of moves in the last places (simulate/last_places.h)
 #pragma once
 
@@ -117,8 +117,7 @@ class EventClocks {
 /// The noise of one run.
 class NoiseDraws {
  public:
-  NoiseDraws(const System& system, const Scenario& scenario, std::uint64_t seed,
-             std::uint64_t run);
+  NoiseDraws(const System& system, const Scenario& scenario, std::uint64_t seed, std::uint64_t run);
 
   /// The next value of a noise, written to its variables.
   void draw(std::size_t noise, Eigen::VectorXd& values);

@@ -8,6 +8,7 @@
 
 #include "base/number.h"
 #include "hybrid/affine.h"
+#include "hybrid/initial.h"
 #include "hybrid/pulses.h"
 #include "hybrid/tolerances.h"
 #include "model/dynamics_programs.h"
@@ -172,13 +173,13 @@ System::NoiseValues noise_values(const Dynamics::Noise& noise, const System& sys
   System::NoiseValues made;
   for (const model::Formula& formula : noise.values) {
     numbers::Matrix value = system.value(formula);
-    if (value.size() == 1)
+    if (noise.has_center() && !made.values.empty())
+      value = spread_map(value, noise.covariance, noise.shape.size(), noise.name, formula.place);
+    else if (value.size() == 1)
       value = numbers::Matrix::Constant(noise.shape.rows, noise.shape.cols, value(0, 0));
     made.values.push_back(std::move(value));
   }
   const auto& values = made.values;
-  if (noise.kind == NoiseKind::normal && (values.front().array() < 0).any())
-    throw InputError(noise.place, "the deviation of " + noise.name + " is negative");
   const bool box = noise.kind == NoiseKind::uniform || noise.kind == NoiseKind::corners;
   if (box && (values.front().array() > values.back().array()).any())
     throw InputError(noise.place, "the range of " + noise.name + " has low > high");

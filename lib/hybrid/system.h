@@ -37,8 +37,9 @@ struct System {
     std::optional<std::pair<double, double>> first;  ///< none: one length after the start
   };
 
-  /// Of one noise: normal: the deviation; uniform: low and high; vertices and corners: the list, of
-  /// which run k takes element k/stride modulo their number. All of its shape.
+  /// Of one noise: normal, lognormal: the center and the map of its spread (initial.h); uniform: low
+  /// and high; vertices and corners: the list, of which run k takes element k/stride modulo their
+  /// number. All but the map of its shape.
   struct NoiseValues {
     std::vector<numbers::Matrix> values;
     std::uint64_t stride = 1;

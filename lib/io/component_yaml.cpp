@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/nearest.h"
+#include "io/data_file_yaml.h"
 #include "io/declaration_yaml.h"
 #include "io/measured_yaml.h"
 #include "io/yaml_names.h"
@@ -253,6 +254,36 @@ Component component(const YamlFile& file, const YamlItem& item,
   if (const auto flow_set = map.find("while")) result.flow_sets = flow_sets(file, flow_set);
   map.finish();
   return result;
+}
+
+std::optional<Spread> spread(const YamlFile& file, YamlMap& map, const std::string& mean,
+                             const std::string& median, bool column) {
+  const auto normal = map.find("normal");
+  const auto lognormal = map.find("lognormal");
+  if (!normal && !lognormal) return std::nullopt;
+  const YamlItem& item = normal ? *normal : *lognormal;
+  if (normal && lognormal) throw InputError(item.place, "either normal or lognormal, not both");
+  const auto value = [&](const YamlItem& one) {
+    if (!column) return value_of(file, one);
+    return model::Value{one.key, matrix_of(file, one), false, file.place(one.value)};
+  };
+  const expr::Text otherwise = expr::Text::generated(normal ? mean : median, item.place);
+  Spread said{normal.has_value(), {{item.key, expr::parse(otherwise), false, item.place}}};
+  if (item.value.IsMap() && !names_file(item.value)) {
+    YamlMap own(file, item.value, item.key, normal ? keys::normal : keys::lognormal);
+    const auto center = own.find(normal ? "mean" : "median");
+    const auto deviation = own.find("deviation");
+    const auto covariance = own.find("covariance");
+    own.finish();
+    if (deviation.has_value() == covariance.has_value())
+      throw InputError(item.place, item.key + ": expected a deviation or {covariance: V}");
+    if (center) said.values.front() = value(*center);
+    said.values.push_back(value(deviation ? *deviation : *covariance));
+    said.covariance = covariance.has_value();
+  } else {
+    said.values.push_back(value(item));
+  }
+  return said;
 }
 
 }  // namespace gainsmith::io

@@ -26,4 +26,15 @@ std::vector<model::EventText> events(const YamlFile& file, const std::optional<Y
 /// One expression, or the two of a list [low, high].
 std::vector<expr::Expression> one_or_two(const YamlFile& file, const YamlItem& item);
 
+/// `normal` or `lognormal` of a mapping.
+struct Spread {
+  bool is_normal = true;
+  /// The center, `mean` or `median` where the text says none, then the deviation or covariance.
+  std::vector<model::Value> values;
+  bool covariance = false;
+};
+/// None: the mapping has neither. `column`: a flat list is one.
+std::optional<Spread> spread(const YamlFile& file, YamlMap& map, const std::string& mean,
+                             const std::string& median, bool column = false);
+
 }  // namespace gainsmith::io

@@ -82,11 +82,13 @@ constexpr std::array kEventRules = {Rule::exactly_one("when,rises,falls,crosses,
 constexpr std::array kLost = {Key{"probability", "number", "", kRequired},
                               Key{"in_a_row", "whole", "at most"}};
 
-constexpr std::array kNoise = {
-    Key{"normal", "matrix", "its deviation"}, Key{"uniform", "[matrix, matrix]", "[low, high]"},
-    Key{"sinusoid", "sinusoid"}, Key{"new at", "text", "the event that it is drawn at"},
-    Key{"every", "text", "how often it is drawn"}};
-constexpr std::array kNoiseRules = {Rule::exactly_one("normal,uniform,sinusoid"),
+constexpr std::array kNoise = {kNormalKey,
+                               kLognormalKey,
+                               Key{"uniform", "[matrix, matrix]", "[low, high]"},
+                               Key{"sinusoid", "sinusoid"},
+                               Key{"new at", "text", "the event that it is drawn at"},
+                               Key{"every", "text", "how often it is drawn"}};
+constexpr std::array kNoiseRules = {Rule::exactly_one("normal,lognormal,uniform,sinusoid"),
                                     Rule::at_most_one("new at,every"),
                                     Rule::excludes("sinusoid", "new at,every")};
 

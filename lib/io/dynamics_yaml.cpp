@@ -68,29 +68,31 @@ void read_sinusoid(const YamlFile& file, const YamlItem& item, model::NoiseText&
 model::NoiseText noise(const YamlFile& file, const YamlItem& item) {
   using Kind = model::Dynamics::NoiseKind;
   constexpr const char* kForms =
-      "expected {normal: deviation}, {uniform: [low, high]} or {sinusoid: {amplitude: ..., "
-      "frequency: ..., phase: ...}}";
+      "expected {normal: deviation}, {uniform: [low, high]}, {lognormal: deviation} or {sinusoid: "
+      "{amplitude: ..., frequency: ..., phase: ...}}";
   if (!item.value.IsMap()) throw InputError(item.place, "the noise '" + item.key + "': " + kForms);
   YamlMap map(file, item.value, item.key, keys::noise);
   model::NoiseText result;
   result.name = item.key;
   result.place = item.place;
-  const auto normal = map.find("normal");
+  const auto around = spread(file, map, "0", "1", true);
   const auto uniform = map.find("uniform");
   const auto sinusoid = map.find("sinusoid");
   const auto event = map.find("new at");
   const auto every = map.find("every");
   map.finish();
-  if (static_cast<int>(normal.has_value()) + static_cast<int>(uniform.has_value()) +
-          static_cast<int>(sinusoid.has_value()) !=
-      1)
+  if (around.has_value() + uniform.has_value() + sinusoid.has_value() != 1)
     throw InputError(item.place, std::string("noise: ") + kForms);
   if (sinusoid && (event || every))
     throw InputError((event ? event : every)->place, "noise: a sinusoid is drawn once a run");
   if (sinusoid) read_sinusoid(file, *sinusoid, result);
   if (event && every)
     throw InputError(every->place, "noise: drawn anew at an event or every so often, not both");
-  if (normal) result.values = {matrix_of(file, *normal)};
+  if (around) {
+    for (const model::Value& value : around->values) result.values.push_back(value.value);
+    result.kind = around->is_normal ? Kind::normal : Kind::lognormal;
+    result.covariance = around->covariance;
+  }
   if (uniform) {
     result.kind = Kind::uniform;
     result.values = one_or_two(file, *uniform);

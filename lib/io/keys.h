@@ -67,10 +67,16 @@ struct NamedForm {
   std::string_view form;
 };
 
+/// Of noise, starts and uncertain data.
+inline constexpr Key kNormalKey = {"normal", "matrix | normal", "its deviation, or more of it"};
+inline constexpr Key kLognormalKey = {"lognormal", "matrix | lognormal",
+                                      "the deviation of its logarithm, or more of it"};
+
 /// The levels of problem and method files.
 namespace keys {
 extern const Level problem, data, data_file, synthesis, way, campaign, law, accuracy, start,
-    ellipsoid, expectation, expected_value, expected_figure, limits, figure, moment, search, uncertain;
+    ellipsoid, normal, lognormal, expectation, expected_value, expected_figure, limits, figure,
+    moment, search, uncertain;
 extern const Level method, declaration, parameter, unknown, requirement, claim, cost;
 extern const Level component, map, loop, output, flow_set, state, log_plant, log, log_output,
     measured_input, measured_times, event, lost, noise, sinusoid, timer;

@@ -76,10 +76,16 @@ constexpr std::array kLawRules = {Rule::exactly_one("constant,list")};
 constexpr std::array kAccuracy = {
     Key{"relative", "number"}, Key{"absolute", "number | {number}", "for all states, or by name"}};
 
+constexpr Key kDeviation = {"deviation", "matrix", "element by element"};
+constexpr Key kCovariance = {"covariance", "matrix", "of a column"};
+constexpr std::array kNormal = {Key{"mean", "matrix"}, kDeviation, kCovariance};
+constexpr std::array kLognormal = {Key{"median", "matrix"}, kDeviation, kCovariance};
+constexpr std::array kSpreadRules = {Rule::exactly_one("deviation,covariance")};
+
 constexpr std::array kStart = {Key{"box", "[matrix, matrix]", "[low, high]"},
                                Key{"list", "[matrix]+", "one of these values"},
-                               Key{"ellipsoid", "ellipsoid"}};
-constexpr std::array kStartRules = {Rule::exactly_one("box,list,ellipsoid")};
+                               Key{"ellipsoid", "ellipsoid"}, kNormalKey, kLognormalKey};
+constexpr std::array kStartRules = {Rule::exactly_one("box,list,ellipsoid,normal,lognormal")};
 
 constexpr std::array kEllipsoid = {Key{"center", "matrix"},
                                    Key{"matrix", "matrix", "P of e'*P*e <= level", kRequired},
@@ -169,8 +175,8 @@ constexpr std::array kSearchRules = {Rule::some("largest,smallest,over"),
 constexpr std::array kUncertain = {
     Key{"box", "[matrix, matrix]", "[low, high]"},
     Key{"vertices", "text | data file | [matrix]+", "one of these values"},
-    Key{"sampling", "'uniform' | 'vertices'", "of the box"}};
-constexpr std::array kUncertainRules = {Rule::exactly_one("box,vertices"),
+    Key{"sampling", "'uniform' | 'vertices'", "of the box"}, kNormalKey, kLognormalKey};
+constexpr std::array kUncertainRules = {Rule::exactly_one("box,vertices,normal,lognormal"),
                                         Rule::needs("sampling", "box")};
 
 }  // namespace
@@ -187,6 +193,9 @@ const Level law = {"law", "A law of intervals", kLaw, kLawRules};
 const Level accuracy = {"accuracy", "Accuracy of the integration", kAccuracy};
 const Level start = {"start", "Where a state starts", kStart, kStartRules};
 const Level ellipsoid = {"ellipsoid", "Starts in an ellipsoid", kEllipsoid};
+const Level normal = {"normal", "A normal distribution", kNormal, kSpreadRules};
+const Level lognormal = {"lognormal", "Its logarithm is normal, with this deviation or covariance",
+                         kLognormal, kSpreadRules};
 const Level expectation = {"expectation", "What results are compared with", kExpectation};
 const Level expected_value = {"expected value", "A value with its tolerance, or bounds",
                               kExpectedValue, kExpectedValueRules};
@@ -209,6 +218,8 @@ constexpr std::array kProblemLevels = {&problem,
                                        &accuracy,
                                        &start,
                                        &ellipsoid,
+                                       &normal,
+                                       &lognormal,
                                        &expectation,
                                        &expected_value,
                                        &expected_figure,

@@ -133,13 +133,16 @@ model::InitialValue initial(const YamlFile& file, const YamlItem& item) {
   const auto box = map.find("box");
   const auto list = map.find("list");
   const auto ellipsoid = map.find("ellipsoid");
+  auto around = spread(file, map, "0", "1");
   map.finish();
-  if (static_cast<int>(box.has_value()) + static_cast<int>(list.has_value()) +
-          static_cast<int>(ellipsoid.has_value()) !=
-      1)
+  if (box.has_value() + list.has_value() + ellipsoid.has_value() + around.has_value() != 1)
     throw InputError(item.place, item.key +
-                                     ": expected a value, {box: [low, high]}, {list: [values]} or "
-                                     "{ellipsoid: {center: ..., matrix: ...}}");
+                                     ": expected a value, {box: [low, high]}, {list: [values]}, "
+                                     "{ellipsoid: {center: ..., matrix: ...}}, {normal: deviation} "
+                                     "or {lognormal: deviation}");
+  if (around)
+    return {item.key, around->is_normal ? Kind::normal : Kind::lognormal, std::move(around->values),
+            item.place, around->covariance};
   if (ellipsoid) {
     result.kind = Kind::ellipsoid;
     result.values = ellipsoid_of(file, *ellipsoid);
@@ -228,17 +231,20 @@ model::Campaign campaign(const YamlFile& file, const std::optional<YamlItem>& it
 /// "cf: {box: [0.08, 0.12]}", "cf: {box: [0.08, 0.12], sampling: vertices}", "A: {vertices: [A1,
 /// A2]}", or of a family "A: {vertices: As}".
 model::UncertainText uncertain(const YamlFile& file, const YamlItem& item) {
-  if (!item.value.IsMap())
-    throw InputError(file.place(item.value),
-                     item.key + ": expected {box: [low, high]} or {vertices: [values]}");
+  const std::string forms =
+      item.key +
+      ": expected {box: [low, high]}, {vertices: [values]}, {normal: deviation} or "
+      "{lognormal: deviation}";
+  if (!item.value.IsMap()) throw InputError(file.place(item.value), forms);
   YamlMap map(file, item.value, item.key, keys::uncertain);
   const auto box = map.find("box");
   const auto vertices = map.find("vertices");
   const auto sampling = map.find("sampling");
+  auto around = spread(file, map, item.key, item.key);
   map.finish();
-  if (box.has_value() == vertices.has_value())
-    throw InputError(item.place,
-                     item.key + ": expected {box: [low, high]} or {vertices: [values]}");
+  if (box.has_value() + vertices.has_value() + around.has_value() != 1)
+    throw InputError(item.place, forms);
+  using Kind = model::Dynamics::NoiseKind;
   model::UncertainText result;
   result.name = item.key;
   result.place = item.place;
@@ -248,24 +254,30 @@ model::UncertainText uncertain(const YamlFile& file, const YamlItem& item) {
   if (box && (!box->value.IsSequence() || box->value.size() != 2))
     throw InputError(box->place, "box: expected [low, high]");
   if (box)
-    for (const auto& end : box->value) result.box.push_back(value(end));
+    for (const auto& end : box->value) result.values.push_back(value(end));
   if (sampling) {
     const std::string word = file.string(sampling->value, "sampling");
     const Place place = file.place(sampling->value);
-    if (vertices) throw InputError(place, "sampling: of a box");
+    if (!box) throw InputError(place, "sampling: of a box");
     if (word != "uniform" && word != "vertices")
       throw InputError(place, "sampling: unknown word '" + word + "'" +
                                   suggestion(word, {"uniform", "vertices"}));
-    result.corners = word == "vertices";
+    if (word == "vertices") result.kind = Kind::corners;
+  }
+  if (around) {
+    result.kind = around->is_normal ? Kind::normal : Kind::lognormal;
+    result.values = std::move(around->values);
+    result.covariance = around->covariance;
   }
   if (!vertices) return result;
+  result.kind = Kind::vertices;
   if (!vertices->value.IsSequence()) {
-    result.vertices.push_back(value(vertices->value));
+    result.values.push_back(value(vertices->value));
     return result;
   }
   if (vertices->value.size() == 0)
     throw InputError(vertices->place, "vertices: expected a value at least");
-  for (const auto& entry : vertices->value) result.vertices.push_back(value(entry));
+  for (const auto& entry : vertices->value) result.values.push_back(value(entry));
   return result;
 }
 
@@ -340,7 +352,7 @@ model::Problem parse_problem(const std::string& text, const std::string& file,
   model::Problem problem;
   problem.file = file;
   problem.text = text;
-  problem.name = yaml.string(map.require("problem").value, "problem");
+  problem.name = yaml.name(map.require("problem").value, "problem");
   const YamlItem method = map.require("method");
   problem.method_place = method.place;
   problem.method = method_of(yaml, method, problem.name, library);

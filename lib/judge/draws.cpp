@@ -76,6 +76,9 @@ class Draws {
       return text(run_.start).reshaped();
     }
     if (start.kind == model::StartKind::ellipsoid) return in_ellipsoid(v, start);
+    const bool logarithmic = start.kind == model::StartKind::lognormal;
+    if (logarithmic || start.kind == model::StartKind::normal)
+      return around(start.values, start.covariance, logarithmic, shape, stream(of_start, v), 0);
     const numbers::Matrix low = texts_.constant(start.values[0]);
     const numbers::Matrix high = texts_.constant(start.values[1]);
     const auto at = [](const numbers::Matrix& end, Index i, Index j) {
@@ -99,16 +102,44 @@ class Draws {
     const double level = texts_.constant(start.values[2])(0, 0);
     const RandomStream random = stream(of_start, v);
     const Index n = Q.rows();
-    VectorXd b(n);
-    for (Index k = 0; k < n; ++k) {
-      const auto at = static_cast<std::uint64_t>(2 * k);
-      b(k) = normal(random.uniform_at(at), random.uniform_at(at + 1));
-    }
+    VectorXd b = normals(n, random, 0);
     const double u = random.uniform_at(static_cast<std::uint64_t>(2 * n));
     if (b.norm() > 0) b *= std::pow(u, 1.0 / static_cast<double>(n)) / b.norm();
     const numbers::Matrix L = numbers::Matrix((Q + Q.transpose()) / 2).llt().matrixL();
     return texts_.constant(start.values[0]).reshaped() +
            std::sqrt(level) * L.transpose().triangularView<Eigen::Upper>().solve(b);
+  }
+
+  /// From draw `at` on.
+  static VectorXd normals(Index n, const RandomStream& random, std::uint64_t at) {
+    VectorXd z(n);
+    for (Index k = 0; k < n; ++k, at += 2)
+      z(k) = std::sqrt(-2 * std::log(1 - random.uniform_at(at))) *
+             std::cos(2 * std::numbers::pi * random.uniform_at(at + 1));
+    return z;
+  }
+
+  /// M z, row by row of M.
+  VectorXd spread(const model::Formula& text, bool covariance, expr::Shape shape,
+                  const VectorXd& z) const {
+    if (!covariance) return filled(text, shape).reshaped().cwiseProduct(z);
+    const numbers::Matrix given = texts_.constant(text);
+    numbers::Matrix M = numbers::Matrix::Zero(given.rows(), given.cols());
+    for (Index i = 0; i < given.rows(); ++i)
+      for (Index j = 0; j <= i; ++j) {
+        double sum = given(i, j);
+        for (Index k = 0; k < j; ++k) sum -= M(i, k) * M(j, k);
+        if (i == j) M(i, i) = sum > hybrid::kTermRounding * given(i, i) ? std::sqrt(sum) : 0;
+        if (i != j && M(j, j) > 0) M(i, j) = sum / M(j, j);
+      }
+    return M * z;
+  }
+
+  VectorXd around(const std::vector<model::Formula>& values, bool covariance, bool logarithmic,
+                  expr::Shape shape, const RandomStream& random, std::uint64_t at) const {
+    const VectorXd center = filled(values[0], shape).reshaped();
+    const VectorXd away = spread(values[1], covariance, shape, normals(shape.size(), random, at));
+    return logarithmic ? VectorXd(center.array() * away.array().exp()) : VectorXd(center + away);
   }
 
   // --- Clocks. ---
@@ -279,31 +310,20 @@ class Draws {
     return value;
   }
 
-  static double normal(double u, double v) {
-    return std::sqrt(-2 * std::log(1 - u)) * std::cos(2 * std::numbers::pi * v);
-  }
-
   VectorXd noise_value(std::size_t noise, std::uint64_t drawing) const {
     const Dynamics::Noise& one = texts_.dynamics.noise[noise];
     if (is_taken(one)) return taken(noise);
     const RandomStream random = stream(of_noise, noise);
     const auto size = static_cast<std::uint64_t>(one.shape.size());
-    const bool is_normal = one.kind == Dynamics::NoiseKind::normal;
-    const numbers::Matrix first = texts_.constant(one.values[0]);
-    const auto at = [](const numbers::Matrix& end, Index k) {
-      return end.size() == 1 ? end(0, 0) : end(k);
-    };
-    VectorXd value(one.shape.size());
+    if (one.has_center())
+      return around(one.values, one.covariance, one.kind == Dynamics::NoiseKind::lognormal,
+                    one.shape, random, 2 * drawing * size);
+    const VectorXd low = filled(one.values[0], one.shape).reshaped();
+    const VectorXd high = filled(one.values[1], one.shape).reshaped();
+    VectorXd value = low;
     for (std::uint64_t k = 0; k < size; ++k) {
       const auto element = static_cast<Index>(k);
-      const std::uint64_t number = (drawing * size + k) * (is_normal ? 2 : 1);
-      const double u = random.uniform_at(number);
-      if (is_normal) {
-        value(element) = at(first, element) * normal(u, random.uniform_at(number + 1));
-      } else {
-        const double high = at(texts_.constant(one.values[1]), element);
-        value(element) = at(first, element) + (high - at(first, element)) * u;
-      }
+      value(element) += (high(element) - low(element)) * random.uniform_at(drawing * size + k);
     }
     return value;
   }

@@ -9,8 +9,10 @@
 //   first        low + (high - low) u
 //   length k     by law `run` modulo their number; those of an event count before those of all
 //   lost k       u < probability, and not more than `in_a_row` one after the other
-//   noise k      uniform: low + (high - low) u; normal: deviation sqrt(-2 log(1 - u)) cos(2 pi v)
-//                with two draws an element
+//   noise k      uniform: low + (high - low) u; normal: c + M z, lognormal: c .* exp(M z), with
+//                z = sqrt(-2 log(1 - u)) cos(2 pi v), two draws an element; M the deviations or the
+//                lower factor of the covariance, a column whose pivot is rounding being 0
+//   start        normal and lognormal: as noise 0
 //
 // Occurrences that `if` spends leave no jump: their lengths and drawings are passed over.
 #pragma once

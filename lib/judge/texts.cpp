@@ -217,7 +217,7 @@ NoiseRange Texts::noise_range(const Dynamics::Noise& one) const {
   };
   NoiseRange range;
   if (one.every) range.every = scalar(*one.every);
-  if (one.kind != Dynamics::NoiseKind::normal) {
+  if (!one.has_center()) {
     range.low = range.high = fitted(one.values[0]);
     for (const model::Formula& formula : one.values) {
       range.low = range.low.cwiseMin(fitted(formula));
@@ -225,9 +225,20 @@ NoiseRange Texts::noise_range(const Dynamics::Noise& one) const {
     }
     return range;
   }
-  // A draw from 53 random bits lies within 8.6 deviations.
-  range.high = 10 * fitted(one.values[0]).cwiseAbs();
-  range.low = -range.high;
+  // A draw from 53 random bits lies within 8.6 deviations, each of the independent parts of a sum.
+  numbers::Matrix reach = 10 * fitted(one.values[1]).cwiseAbs();
+  if (one.covariance)
+    reach = 10 * std::sqrt(static_cast<double>(one.shape.rows)) *
+            constant(one.values[1]).diagonal().cwiseAbs().cwiseSqrt();
+  const numbers::Matrix center = fitted(one.values[0]);
+  range.low = center - reach;
+  range.high = center + reach;
+  if (one.kind == Dynamics::NoiseKind::lognormal) {
+    const numbers::Matrix factor = reach.array().exp();
+    const numbers::Matrix ends[] = {center.cwiseProduct(factor), center.cwiseQuotient(factor)};
+    range.low = ends[0].cwiseMin(ends[1]);
+    range.high = ends[0].cwiseMax(ends[1]);
+  }
   return range;
 }
 

@@ -60,7 +60,7 @@ struct FlowSetText {
 };
 
 struct Component {
-  std::string name{};  ///< "plant", "observer" or that of one of several
+  std::string name{};                  ///< "plant", "observer" or that of one of several
   std::vector<expr::Index> indices{};  ///< of an observer: it is a family, "for: i in 1..N"
   std::vector<Declaration> states{};
   std::vector<Declaration> modes{};  ///< whole numbers that never flow
@@ -78,8 +78,9 @@ struct Component {
 struct NoiseText {
   std::string name;
   Dynamics::NoiseKind kind = Dynamics::NoiseKind::normal;
-  std::vector<expr::Expression> values;  ///< the deviation; or the ends
-  std::string event;                     ///< of `new at`
+  std::vector<expr::Expression> values;  ///< center and deviation or covariance; or the ends
+  bool covariance = false;
+  std::string event;  ///< of `new at`
   std::optional<expr::Expression> every;
   /// amplitude*sin(frequency*t + phase), each a value or the ends of a range from which it is drawn
   /// once a run; empty: it is no sinusoid.

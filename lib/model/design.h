@@ -190,10 +190,11 @@ struct Design {
   struct Start {
     std::size_t state = 0;
     StartKind kind = StartKind::expression;
-    /// One value; low and high, scalar or of the state's shape; the elements; or of an ellipsoid
-    /// center, matrix and level.
+    /// One value; low and high, scalar or of the state's shape; the elements; of an ellipsoid
+    /// center, matrix and level; center and deviation or covariance.
     std::vector<Formula> values;
     Place place;
+    bool covariance = false;
   };
 
   /// To what runs are integrated; what is not given is as usual.

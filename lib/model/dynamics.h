@@ -123,7 +123,8 @@ struct Dynamics {
   };
 
   enum class NoiseKind {
-    normal,
+    normal,     ///< center + z, z with the deviation or the covariance that is given
+    lognormal,  ///< center .* exp(z)
     uniform,
     vertices,  ///< nothing is drawn: with all noises of this kind and the next, run k takes element
                ///< k, modulo their number, of the product of their lists; the first turns fastest
@@ -133,12 +134,15 @@ struct Dynamics {
     std::string name;
     NoiseKind kind = NoiseKind::normal;
     expr::Shape shape;
-    /// normal: the deviation; uniform, corners: low, high; vertices: the list. Scalars or of its
-    /// shape, of constants.
+    /// normal, lognormal: the center and the deviation or covariance; uniform, corners: low, high;
+    /// vertices: the list. Scalars or of its shape, of constants; a covariance is of a column.
     std::vector<Formula> values;
+    bool covariance = false;
     std::optional<std::size_t> event;  ///< drawn anew at it, before its maps; none: see `every`
     std::optional<Formula> every;      ///< drawn anew after each such time; none: once a run
     Place place;
+
+    bool has_center() const { return kind == NoiseKind::normal || kind == NoiseKind::lognormal; }
   };
 
   /// A quantity of which a file says the values. It and, of lines, its rate change at the rows,

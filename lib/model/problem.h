@@ -40,9 +40,11 @@ struct SamplingLaw {
 struct InitialValue {
   std::string state;
   StartKind kind = StartKind::expression;
-  /// One expression; low and high; the elements; or center, matrix and level.
+  /// One expression; low and high; the elements; center, matrix and level; or center and deviation
+  /// or covariance.
   std::vector<Value> values;
   Place place;
+  bool covariance = false;
 };
 
 /// To what runs of dynamics with events are integrated.
@@ -115,9 +117,11 @@ struct Questions {
 /// Data of which the plant has another value than the observers, chosen once a run.
 struct UncertainText {
   std::string name;
-  std::vector<Value> box;       ///< low, high
-  bool corners = false;         ///< of the box, one after the other; otherwise drawn in it
-  std::vector<Value> vertices;  ///< one after the other; one that names a family: its members
+  Dynamics::NoiseKind kind = Dynamics::NoiseKind::uniform;
+  /// Low and high; center and deviation or covariance; vertices, one that names a family: its
+  /// members.
+  std::vector<Value> values;
+  bool covariance = false;
   Place place;
 };
 

@@ -68,8 +68,13 @@ enum class StartKind {
   box,         ///< uniform in [low, high], element by element; low and high scalar or of the
                ///< state's shape
   list,        ///< run i takes element i modulo their number
-  ellipsoid    ///< uniform in {x: (x - center)' matrix (x - center) <= level}; of a column
+  ellipsoid,   ///< uniform in {x: (x - center)' matrix (x - center) <= level}; of a column
+  normal,      ///< as noise, once
+  lognormal
 };
+inline bool has_center(StartKind kind) {
+  return kind == StartKind::normal || kind == StartKind::lognormal;
+}
 
 struct BoundOfGain {
   std::string gain;

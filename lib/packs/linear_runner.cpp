@@ -41,7 +41,7 @@ class LaneStarts {
         for (std::size_t l = 0; l < kLanes; ++l)
           out[l] = rule.values[runs[l] % rule.values.size()](element.element);
       } else if (k == 0 || model_->drawn[k - 1].variable != element.variable) {
-        draw_ellipsoid(seed, runs, k, first, machine);
+        draw_around(seed, runs, k, first, machine);
       }
     }
   }
@@ -63,13 +63,13 @@ class LaneStarts {
     }
   }
   /// All elements of the variable whose first one is number k.
-  void draw_ellipsoid(std::uint64_t seed, const LaneRuns& runs, std::size_t k, std::size_t first,
-                      LaneMachine& machine) {
+  void draw_around(std::uint64_t seed, const LaneRuns& runs, std::size_t k, std::size_t first,
+                   LaneMachine& machine) {
     const std::size_t variable = model_->drawn[k].variable;
     const hybrid::StartRule& rule = *model_->scenario->starts[variable];
     for (std::size_t l = 0; l < kLanes; ++l) {
       RandomStream random = hybrid::draw_stream(seed, runs[l], hybrid::Purpose::start, variable);
-      const Eigen::VectorXd point = hybrid::draw_ellipsoid(rule, random);
+      const numbers::Matrix point = hybrid::draw_around(rule, random);
       for (std::size_t e = k; e < model_->drawn.size() && model_->drawn[e].variable == variable;
            ++e)
         machine.input(first + e)[l] = point(model_->drawn[e].element);

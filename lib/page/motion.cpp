@@ -18,6 +18,15 @@ using report::escaped;
 
 std::string quoted(const std::string& name) { return text_element("b", name); }
 
+std::string drawn_text(NoiseKind kind, bool covariance) {
+  const std::string spread = covariance ? "covariance" : "standard deviation";
+  if (kind == NoiseKind::normal) return "normal: mean, " + spread;
+  if (kind == NoiseKind::lognormal) return "lognormal: median, " + spread + " of the logarithm";
+  if (kind == NoiseKind::uniform) return "uniform in this range";
+  return kind == NoiseKind::corners ? "the corners between these, in turn"
+                                    : "one of these, in turn";
+}
+
 class Motion {
  public:
   explicit Motion(const Notation& notation) : notation_(notation) {}
@@ -76,11 +85,13 @@ class Motion {
   }
 
   std::string noise(const model::NoiseText& one) const {
-    std::string how = one.kind == NoiseKind::normal ? "normal, of this standard deviation"
-                                                    : "uniform in this range";
+    std::string how = drawn_text(one.kind, one.covariance);
     if (!one.event.empty()) how += ", new at " + quoted(one.event);
     if (one.every) how += ", new every " + formula(of(*one.every));
-    std::string math = one.values.empty() ? "" : range_mathml(one.values, notation_);
+    std::string math = one.values.empty() ? ""
+                       : one.kind == NoiseKind::uniform
+                           ? range_mathml(one.values, notation_)
+                           : range_mathml(one.values, notation_, "(", ")");
     if (!one.sinusoid.empty()) {
       how = "a sinusoid";
       std::vector<std::string> parts;
@@ -145,6 +156,12 @@ class Motion {
       case StartKind::list:
         return formula_row("", equation(row(left), fenced(listed(values), "{", "}"), "∈"),
                            "in turn");
+      case StartKind::normal:
+      case StartKind::lognormal:
+        return formula_row(
+            "", equation(row(left), fenced(listed(values)), "∼"),
+            drawn_text(one.kind == StartKind::normal ? NoiseKind::normal : NoiseKind::lognormal,
+                       one.covariance));
       case StartKind::ellipsoid:
         return formula_row(
             "", equation(row(left), row("<mi>ellipsoid</mi>" + fenced(listed(values))), "∈"),
@@ -235,13 +252,10 @@ std::string dynamics(const model::Problem& problem, const Notation& notation) {
   for (const model::NoiseText& one : method.noise) noise += motion.noise(one);
   for (const model::UncertainText& one : problem.uncertain) {
     std::vector<std::string> values;
-    for (const auto* list : {&one.box, &one.vertices})
-      for (const model::Value& end : *list) values.push_back(value_mathml(end, notation));
+    for (const model::Value& end : one.values) values.push_back(value_mathml(end, notation));
     noise += formula_row(
         "", equation(name_mathml(one.name, notation), fenced(listed(values), "{", "}"), "∈"),
-        one.box.empty() ? "uncertain: one of these, in turn"
-        : one.corners   ? "uncertain: the corners between these, in turn"
-                        : "uncertain: between these, drawn once a run");
+        "uncertain: " + drawn_text(one.kind, one.covariance));
   }
   std::string signals;
   for (const model::Named& signal : method.signals)

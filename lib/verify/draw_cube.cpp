@@ -107,6 +107,15 @@ GivenRun DrawCube::walk(const Take& take) const {
   return run;
 }
 
+template <class NameOf>
+Matrix DrawCube::around(const std::vector<Matrix>& rule, bool is_lognormal, const Take& take,
+                        const NameOf& name) const {
+  Eigen::VectorXd z = Eigen::VectorXd::Zero(rule[0].size());
+  for (Index k = 0; k < z.size(); ++k)
+    if (!rule[1].col(k).isZero(0)) z(k) = take.between(-kReach, kReach, name(k));
+  return hybrid::around(rule[0], rule[1], z, is_lognormal);
+}
+
 void DrawCube::walk_starts(const Take& take, GivenRun& run) const {
   run.starts.resize(scenario_->starts.size());
   for (std::size_t v = 0; v < run.starts.size(); ++v) {
@@ -117,6 +126,8 @@ void DrawCube::walk_starts(const Take& take, GivenRun& run) const {
     if (rule->kind == model::StartKind::list) {
       if (rule->values.size() < 2) continue;
       value = rule->values[index_in(rule->values.size(), take.u(name(0)))];
+    } else if (has_center(rule->kind)) {
+      value = around(rule->values, rule->kind == model::StartKind::lognormal, take, name);
     } else if (rule->kind == model::StartKind::ellipsoid) {
       Eigen::VectorXd w(value.size());
       for (Index k = 0; k < w.size(); ++k) w(k) = 2 * take.u(name(k)) - 1;
@@ -174,16 +185,17 @@ void DrawCube::walk_noise(std::size_t noise, const Take& take, GivenRun& run) co
       run.noise[noise] = {rule.values[index_in(rule.values.size(), take.u(name(0, 0)))]};
     return;
   }
-  const bool normal = one.kind == Dynamics::NoiseKind::normal;
-  const Matrix low = normal ? Matrix(-kReach * rule.values[0]) : rule.values[0];
-  const Matrix high = normal ? Matrix(kReach * rule.values[0]) : rule.values[1];
-  if (low == high) return;
+  const Matrix &low = rule.values[0], &high = rule.values[1];
+  if (one.has_center() ? high.isZero(0) : low == high) return;
   const std::size_t number = rule.every  ? count(*rule.every)
                              : one.event ? count_of_event(*one.event)
                                          : 1;
   for (std::size_t k = 0; k < number; ++k) {
     Matrix value = low;
-    for (Index e = 0; e < value.size(); ++e)
+    if (one.has_center())
+      value = around(rule.values, one.kind == Dynamics::NoiseKind::lognormal, take,
+                     [&](Index e) { return name(k, e); });
+    for (Index e = 0; !one.has_center() && e < value.size(); ++e)
       if (low(e) != high(e)) value(e) = take.between(low(e), high(e), name(k, e));
     run.noise[noise].push_back(value);
   }

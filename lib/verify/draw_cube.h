@@ -2,11 +2,12 @@
 //
 //   start in a box           low + (high - low) u, an element
 //   start in an ellipsoid    c + M b, b = w |w|_max/|w|, w = 2u - 1: the cube onto the ball
+//   normal, lognormal start  c + M z, c .* exp(M z), z = kReach (2u - 1)
 //   start from a list        its element floor(number u)
 //   first time, length       low + (high - low) u, whatever the laws of the campaign
 //   loss                     u > 1/2, within `in_a_row`
-//   noise, uncertain data    normal: deviation kReach (2u - 1), an element; uniform: as lengths;
-//                            vertices and corners: that of number floor(number u)
+//   noise, uncertain data    normal, lognormal: as starts; uniform: as lengths; vertices and corners:
+//                            that of number floor(number u)
 //
 // What is drawn again and again repeats with a period, or has coordinates of its own.
 #pragma once
@@ -29,7 +30,8 @@ class DrawCube {
   /// d; 0: nothing is drawn.
   std::size_t size() const { return names_.size(); }
   hybrid::GivenRun at(const std::vector<double>& u) const;
-  /// The same with numbers of so many digits, within their ranges; all digits in an ellipsoid.
+  /// The same with numbers of so many digits, within their ranges; all digits in an ellipsoid and
+  /// around a center.
   hybrid::GivenRun rounded(const std::vector<double>& u, int digits) const;
 
   /// Where a search begins: starts away from the middle, which often is an equilibrium.
@@ -54,6 +56,10 @@ class DrawCube {
   };
 
   hybrid::GivenRun walk(const Take& take) const;
+  /// Around a center, with a name for each element.
+  template <class NameOf>
+  numbers::Matrix around(const std::vector<numbers::Matrix>& rule, bool is_lognormal,
+                         const Take& take, const NameOf& name) const;
   void walk_starts(const Take& take, hybrid::GivenRun& run) const;
   void walk_event(std::size_t event, const Take& take, hybrid::GivenRun& run) const;
   void walk_noise(std::size_t noise, const Take& take, hybrid::GivenRun& run) const;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "end_to_end/program.h"
@@ -112,6 +113,31 @@ TEST(FiguresOverRuns, TellCovariancesThatDoNotFit) {
   const std::string text = gainsmith({"verify", problem(kFilter), "--compare"}).out;
   EXPECT_TRUE(has(text, "bold: nees e at t = 10: too optimistic, mean 20.")) << text;
   EXPECT_TRUE(has(text, "of 100; 2 is expected")) << text;
+}
+
+/// W and V are covariances: with noise of their diagonals alone the optimal filter would not fit. The
+/// second W is singular.
+TEST(FiguresOverRuns, TellThatAKalmanFilterFitsItsNoise) {
+  const Folder folder;
+  for (const char* W : {"[[1, 0.9], [0.9, 1]]", "[[1, 1], [1, 1]]"})
+    for (const auto& [method, plant, rest] :
+         {std::tuple("kalman", "[[0, 1], [0, -1]]", "horizon: 4"),
+          std::tuple("discrete-kalman", "[[1, 0.1], [0, 0.9]]", "horizon: 60")}) {
+      SCOPED_TRACE(std::string(method) + W);
+      const bool discrete = std::string(method) == "discrete-kalman";
+      const std::string file = folder.file(
+          "p.yaml", "problem: p\nmethod: " + std::string(method) + "\ndata: {A: " + plant +
+                        ", C: [[1, 0], [1, 1]], W: " + W + ", V: [[0.1, 0.08], [0.08, 0.1]]}\n" +
+                        (discrete ? "" : "parameters: {hold: 0.02}\n") + "campaign: {runs: 120, " +
+                        rest + ", initial: {x: 0}}\ncompare: [{nees: e, covariance: P, at: {t: " +
+                        (discrete ? "59" : "4") + "}}]\n");
+      const std::string gains = folder.path("gains.json");
+      ASSERT_EQ(gainsmith({"synth", file, "-o", gains}).exit, 0);
+      const Outcome outcome = gainsmith({"verify", gains, "--compare", "--json"});
+      EXPECT_EQ(outcome.exit, 0) << outcome.out << outcome.err;
+      const Json fit = outcome.json()["figures"]["figures"][0]["consistency"];
+      EXPECT_EQ(fit["fit"], "consistent") << fit.dump(1);
+    }
 }
 
 /// P is negative in the runs with x(0) < 0 and zero where nothing is drawn.

@@ -147,6 +147,14 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{&kRun, "{every: [0.05, 0.2]}", "0.1", 5, 14, "expected {when: condition}"},
         Mistake{&kRun, "{normal: 0.03, new at: sample}", "0.03", 6, 14,
                 "the noise 'w': expected {normal: deviation}, {uniform: [low, high]}"},
+        Mistake{&kRun, "{normal: 0.03,", "{normal: {deviation: 0.03, covariance: 1},", 6, 18,
+                "normal: expected a deviation or {covariance: V}"},
+        Mistake{&kRun, "{normal: 0.03,", "{normal: {mean: [1, 2], covariance: \"[1, 2]\"},", 6, 51,
+                "expected a covariance n x n of a column with n elements, found 1 x 2"},
+        Mistake{&kRun, "runs: 5", "runs: 5, initial: {x: {normal: {median: 1, deviation: 2}}}", 14,
+                60, "unknown key 'median'"},
+        Mistake{&kRun, "runs: 5", "runs: 5, initial: {x: {lognormal: [1, 2, 3]}}", 14, 62,
+                "expected"},
         Mistake{&kRun, "new at", "new_at", 6, 32, "did you mean 'new at'?"},
         Mistake{&kRun, "y - C*xh", "x(1) - C*xh", 11, 68,
                 "which the observer does not know: it reads outputs"},
@@ -165,7 +173,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{&kDesign, "synthesis:", "negotiable: {gamma: [0, 1]}\nsynthesis:", 15, 14,
                 "no scalar datum or parameter 'gamma'; known: T, a, gain_bound"},
         Mistake{&kDesign, "synthesis:", "uncertain: {T: [0.9, 1.1]}\nsynthesis:", 15, 16,
-                "T: expected {box: [low, high]} or {vertices: [values]}"},
+                "T: expected {box: [low, high]}, {vertices: [values]}, {normal: deviation}"},
         Mistake{&kRun, "campaign:", "expect: {verdict: maybe}\ncampaign:", 14, 19,
                 "known: yes, no, undecided"}));
 

@@ -27,12 +27,12 @@ std::optional<std::uint64_t> runs_of(const EventProblem& problem) {
 TEST(DifferentRuns, AreOneWhereNothingIsDrawn) {
   EXPECT_EQ(runs_of(still()), 1U);
   EXPECT_EQ(runs_of(still().every("other", "1", "1", "0.5")), 1U);
-  EXPECT_EQ(runs_of(still().noise("w", NoiseKind::normal, {"0"})), 1U);
+  EXPECT_EQ(runs_of(still().noise("w", NoiseKind::normal, {"0", "0"})), 1U);
   EXPECT_EQ(runs_of(still().noise("w", NoiseKind::uniform, {"2", "2"})), 1U);
 }
 
 TEST(DifferentRuns, HaveNoNumberWhereSomethingIsDrawn) {
-  EXPECT_FALSE(runs_of(still().noise("w", NoiseKind::normal, {"0.1"})));
+  EXPECT_FALSE(runs_of(still().noise("w", NoiseKind::normal, {"0", "0.1"})));
   EXPECT_FALSE(runs_of(still().noise("w", NoiseKind::uniform, {"1", "2"})));
   EXPECT_FALSE(runs_of(still().every("other", "1", "2")));
   EXPECT_FALSE(runs_of(still().lost(0.1)));

@@ -170,7 +170,7 @@ TEST(JudgedSamples, NoiseLiesInItsRangeAndIsDrawnAtItsEvent) {
 TEST(JudgedNoise, ChangesAtItsTimesAlone) {
   DynamicsText text;
   text.state("x", 1, "w", "0")
-      .noise("w", model::Dynamics::NoiseKind::normal, {"1"})
+      .noise("w", model::Dynamics::NoiseKind::normal, {"0", "1"})
       .drawn_every("0.25");
   const model::Dynamics dynamics = text.dynamics();
   const auto judged = [&](double at, bool one_piece) {

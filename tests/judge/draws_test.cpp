@@ -28,18 +28,26 @@ DynamicsText sampled() {
   text.state("x", 2, "[x(2); -sin(x(1))]", "")
       .symmetric("P", 2, "-P")
       .state("z", 1, "", "x(1)")
+      .state("n", 2, "", "")
+      .state("m", 2, "", "")
       .every("sample", "0.1", "0.3")
       .lost(0.4, 2)
       .every("tick", "0.2")
       .first("0.05", "0.15")
       .every("maybe", "0.1", "0.4")
       .only_if("x(1) > 0")
-      .noise("w", model::Dynamics::NoiseKind::normal, {"0.1"})
+      .noise("w", model::Dynamics::NoiseKind::normal, {"0", "0.1"})
       .drawn_at("sample")
       .noise("v", model::Dynamics::NoiseKind::uniform, {"-1", "2"})
       .drawn_every("0.25")
       .noise("u", model::Dynamics::NoiseKind::uniform, {"0", "1"})
       .drawn_at("maybe")
+      .noise("g", model::Dynamics::NoiseKind::normal,
+             {"[1; 0; -1]", "[4, 1.9, 2; 1.9, 1, 1; 2, 1, 1]"})
+      .covariance()
+      .drawn_every("0.3")
+      .noise("l", model::Dynamics::NoiseKind::lognormal, {"[2; -3]", "[0.5; 0.1]"})
+      .drawn_at("sample")
       .observer("observer")
       .state("xh", 1, "v", "0")
       .reacts("sample", {{"xh", "xh + w"}})
@@ -65,6 +73,14 @@ struct Drawn {
     campaign.starts.push_back({static_cast<std::size_t>(slot("P")),
                                model::StartKind::box,
                                {number("0"), number("1")},
+                               {}});
+    campaign.starts.push_back({static_cast<std::size_t>(slot("n")),
+                               model::StartKind::normal,
+                               {number("3"), number("0.2")},
+                               {}});
+    campaign.starts.push_back({static_cast<std::size_t>(slot("m")),
+                               model::StartKind::lognormal,
+                               {number("3"), number("0.2")},
                                {}});
     const hybrid::System system = hybrid::make_system(dynamics, stated.values);
     const hybrid::Scenario scenario = hybrid::make_scenario(campaign, system);
@@ -124,9 +140,11 @@ TEST(JudgedDraws, AnotherSeedOrRunIsFound) {
 }
 
 TEST(JudgedDraws, AStartIsFound) {
-  Drawn drawn(0);
-  drawn.run.start(place_of(drawn.dynamics, "P") + 3) += 1e-6;
-  EXPECT_TRUE(has_fault(drawn.judged(), 0, "starts where it is not drawn: P"));
+  for (const std::string name : {"P", "n", "m"}) {
+    Drawn drawn(0);
+    drawn.run.start(place_of(drawn.dynamics, name) + 1) += 1e-6;
+    EXPECT_TRUE(has_fault(drawn.judged(), 0, "starts where it is not drawn: " + name));
+  }
 }
 
 TEST(JudgedDraws, ALossIsFound) {
@@ -140,9 +158,9 @@ TEST(JudgedDraws, ALossIsFound) {
 }
 
 TEST(JudgedDraws, NoiseOfAnEventIsFound) {
-  for (const std::string name : {"w", "u"}) {
+  for (const std::string name : {"w", "u", "l"}) {
     Drawn drawn(0);
-    const std::size_t at = drawn.jump(name == "w" ? "sample" : "maybe");
+    const std::size_t at = drawn.jump(name == "u" ? "maybe" : "sample");
     ASSERT_LT(at, drawn.run.parts.size());
     std::get<hybrid::JumpPoint>(drawn.run.parts[at]).before(place_of(drawn.dynamics, name)) += 1e-9;
     EXPECT_TRUE(has_fault(drawn.judged(), at, "noise that is not drawn so: " + name))

@@ -68,7 +68,7 @@ DynamicsText pendulum() {
   text.state("x", 2, "[x(2); -9.81*sin(x(1)) - 0.1*x(2)]", "[1; 0]")
       .every("sample", "0.05", "0.2")
       .lost(0.3, 2)
-      .noise("w", model::Dynamics::NoiseKind::normal, {"0.03"})
+      .noise("w", model::Dynamics::NoiseKind::normal, {"0", "0.03"})
       .drawn_at("sample")
       .observer("ekf")
       .state("xh", 2, "[xh(2); -9.81*sin(xh(1)) - 0.1*xh(2)]", "[0; 0]")

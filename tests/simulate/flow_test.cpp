@@ -66,7 +66,7 @@ TEST(EventFlow, StiffAndSwingingModesAreExactBetweenStepsToo) {
 
 TEST(EventFlow, NoiseThatIsHeldIsAnInputAndNoParameter) {
   EventProblem problem;
-  problem.noise("w", model::Dynamics::NoiseKind::normal, {"2"}, "", "0.5");
+  problem.noise("w", model::Dynamics::NoiseKind::normal, {"0", "2"}, "", "0.5");
   problem.noise("v", model::Dynamics::NoiseKind::uniform, {"-1", "3"}, "", "0.5");
   problem.state("x", {2, 1}, "[1; 0]").state("s", {1, 1}, "0.5").state("q", {1, 1}, "3");
   problem.flow("x", "[x(2) + w + s; v*x(1) - x(2)]").flow("s", "w").flow("q", "0");
@@ -149,7 +149,7 @@ TEST(EventFlow, WhatHasNoValueEndsTheFlow) {
 
 TEST(EventScenarioTest, DrawsStayInTheirRangeAndHaveTheirMoments) {
   EventProblem problem;
-  problem.noise("w", model::Dynamics::NoiseKind::normal, {"2"}, "", "1");
+  problem.noise("w", model::Dynamics::NoiseKind::normal, {"0", "2"}, "", "1");
   problem.noise("v", model::Dynamics::NoiseKind::uniform, {"-1", "3"}, "", "1");
   const hybrid::System system = problem.system();
   hybrid::NoiseDraws draws(system, {}, 7, 0);

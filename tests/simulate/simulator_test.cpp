@@ -288,7 +288,7 @@ TEST(EventRun, BothFlowsAgree) {
 TEST(EventRun, ARunIsAFunctionOfItsSeedAndNumber) {
   EventProblem problem;
   problem.state("x", {}, "1").flow("x", "-x^3 + w").every("tick", "0.1", "0.5");
-  problem.noise("w", model::Dynamics::NoiseKind::normal, {"0.3"}, "tick");
+  problem.noise("w", model::Dynamics::NoiseKind::normal, {"0", "0.3"}, "tick");
   problem.noise("v", model::Dynamics::NoiseKind::uniform, {"-1", "1"}, "", "0.25");
   problem.jump("tick", {{"x", "x + 0.1*w + 0.01*v"}});
   const hybrid::System system = problem.system();

@@ -347,6 +347,11 @@ DynamicsText& DynamicsText::noise(const std::string& name, Dynamics::NoiseKind k
   return add(std::move(variable), "", "");
 }
 
+DynamicsText& DynamicsText::covariance() {
+  unbound_.noise.back().covariance = true;
+  return *this;
+}
+
 DynamicsText& DynamicsText::drawn_at(const std::string& event) {
   unbound_.noise.back().event = event_of(event);
   return *this;

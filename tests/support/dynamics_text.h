@@ -59,9 +59,11 @@ class DynamicsText {
   DynamicsText& repeats(const std::string& event, const Pairs& map, const std::string& until,
                         const std::string& at_most, bool go_on = false);
 
-  /// normal: one value, the deviation; uniform: two, the ends.
+  /// normal, lognormal: the center and the deviation; uniform: the ends.
   DynamicsText& noise(const std::string& name, model::Dynamics::NoiseKind kind,
                       const std::vector<std::string>& values);
+  /// Of the last noise: its deviation is a covariance.
+  DynamicsText& covariance();
   /// Of the last noise: drawn anew at an event, or after each such time.
   DynamicsText& drawn_at(const std::string& event);
   DynamicsText& drawn_every(const std::string& length);

@@ -77,6 +77,133 @@ TEST(EventDraws, AnEllipsoidIsFilledEvenly) {
   EXPECT_LT((covariance - expected).cwiseAbs().maxCoeff(), 0.02 * expected.norm());
 }
 
+/// The first values of a noise in many runs.
+std::vector<VectorXd> first_values(const claims::RunSetup& setup, const std::string& name,
+                                   std::uint64_t runs) {
+  std::vector<VectorXd> values;
+  for (std::uint64_t run = 0; run < runs; ++run)
+    values.push_back(part(setup, start(setup, 5, run), name));
+  return values;
+}
+
+/// Mean and covariance of samples of a normal distribution. Those of N samples have the deviations
+/// sqrt(V_ii/N) and sqrt((V_ii V_jj + V_ij^2)/N) at most sqrt(2 V_ii V_jj/N): five of them, with a
+/// fixed seed.
+void expect_normal(const std::vector<VectorXd>& samples, const VectorXd& mean,
+                   const numbers::Matrix& V) {
+  const auto many = static_cast<double>(samples.size());
+  VectorXd sum = VectorXd::Zero(mean.size());
+  numbers::Matrix products = numbers::Matrix::Zero(mean.size(), mean.size());
+  for (const VectorXd& one : samples) {
+    sum += one - mean;
+    products += (one - mean) * (one - mean).transpose();
+  }
+  for (Eigen::Index i = 0; i < mean.size(); ++i) {
+    EXPECT_LE(std::abs(sum(i) / many), 5 * std::sqrt(V(i, i) / many)) << i;
+    for (Eigen::Index j = 0; j < mean.size(); ++j)
+      EXPECT_LE(std::abs(products(i, j) / many - V(i, j)),
+                5 * std::sqrt(2 * V(i, i) * V(j, j) / many))
+          << i << ", " << j;
+  }
+}
+
+constexpr std::uint64_t kMany = 20000;
+
+TEST(EventDraws, NoiseHasItsCovariance) {
+  // The second is of rank 2, and its third element is the sum of the others; units far apart.
+  for (const char* V :
+       {"[4, 1.9, 0; 1.9, 1, -0.1; 0, -0.1, 2]", "[1, 0.5, 1.5; 0.5, 1, 1.5; 1.5, 1.5, 3]",
+        "[1e12, 5e-1, 0; 5e-1, 1e-12, 0; 0, 0, 0]"}) {
+    SCOPED_TRACE(V);
+    const auto setup = setup_of(
+        "  noise: {w: {normal: {mean: [1, 0, 3], covariance: V}}}\n"
+        "  data: {V: {shape: 3 x 3, default: \"" +
+            std::string(V) +
+            "\"}}\n  plant: {state: {x: {shape: 3, start: 0}}, flow: {x: w}}\n"
+            "  claims: {k: {below: norm(x), bound: 1e99}}\n",
+        "campaign: {horizon: 1}\n");
+    const auto samples = first_values(*setup, "w", kMany);
+    expect_normal(samples, Eigen::Vector3d(1, 0, 3), setup->system.constants.at("V"));
+    const bool dependent = std::string(V).starts_with("[1,");
+    for (const VectorXd& one : samples)
+      EXPECT_TRUE(!dependent || std::abs(one(2) - 3 - (one(0) - 1 + one(1))) <= 1e-7) << one;
+  }
+}
+
+TEST(EventDraws, StartsAndUncertainDataAreNormalOrLognormal) {
+  const auto setup = setup_of(R"(  data: {P: 2 x 2, m: scalar, d: 2}
+  plant:
+    state: {x: {shape: 2}, z: {shape: 2 x 2}, s: {shape: 2}}
+    flow: {x: m*d}
+  claims: {k: {below: norm(x), bound: 1e99}}
+)",
+                              R"(data: {P: [[2, -1], [-1, 1]], m: 3, d: [1, -2]}
+uncertain: {m: {normal: 0.1}, d: {lognormal: {deviation: 0.5}}}
+campaign:
+  horizon: 1
+  initial:
+    x: {normal: {mean: [1, -1], covariance: P}}
+    z: {normal: {deviation: [[1, 2], [3, 0]]}}
+    s: {lognormal: {median: [1, 10], covariance: P/4}}
+)");
+  const numbers::Matrix P{{2, -1}, {-1, 1}};
+  const Eigen::Vector4d deviations(1, 3, 2, 0);
+  expect_normal(first_values(*setup, "x", kMany), Eigen::Vector2d(1, -1), P);
+  expect_normal(first_values(*setup, "z", kMany), Eigen::Vector4d::Zero(),
+                deviations.cwiseAbs2().asDiagonal());
+  expect_normal(first_values(*setup, "plant.m", kMany), VectorXd::Constant(1, 3),
+                numbers::Matrix::Constant(1, 1, 0.01));
+  const auto logarithms = [&](const std::string& name, const Eigen::Vector2d& median) {
+    auto samples = first_values(*setup, name, kMany);
+    for (VectorXd& one : samples) one = one.cwiseQuotient(median).array().log().matrix();
+    return samples;
+  };
+  expect_normal(logarithms("s", Eigen::Vector2d(1, 10)), Eigen::Vector2d::Zero(), P / 4);
+  expect_normal(logarithms("plant.d", Eigen::Vector2d(1, -2)), Eigen::Vector2d::Zero(),
+                numbers::Matrix::Identity(2, 2) / 4);
+}
+
+TEST(EventDraws, AStartUsesTheFirstValueOfNoise) {
+  const auto setup = setup_of(
+      R"(  events: {tick: {every: 0.1}}
+  noise: {w: {normal: 1, new at: tick}, u: {uniform: [2, 3]}}
+  data: {c: {shape: scalar, default: 4}}
+  plant: {state: {x: {shape: 2, start: "[w; u*c]"}, y: {shape: scalar, start: x(1)}}, flow: {x: "[0; u]"}}
+  claims: {k: {below: norm(x), bound: 1e99}}
+)",
+      "uncertain: {c: {normal: 1}}\ncampaign: {horizon: 1, initial: {y: x(1) + 2*u}}\n");
+  simulate::Simulator simulator(setup->system, setup->scenario);
+  for (std::uint64_t run = 0; run < 5; ++run) {
+    const hybrid::Trajectory made = simulator.run(3, run);
+    const auto at = [&](const std::string& name) { return part(*setup, made.start, name); };
+    EXPECT_EQ(at("x")(0), at("w")(0));
+    EXPECT_EQ(at("x")(1), at("u")(0) * at("plant.c")(0));
+    EXPECT_EQ(at("y")(0), at("x")(0) + 2 * at("u")(0));
+  }
+}
+
+TEST(EventDraws, ABadSpreadIsRefusedAtItsPlace) {
+  for (const auto& [spread, message] :
+       {std::pair("{normal: {covariance: \"[1, 2, 0; 2, 1, 0; 0, 0, 1]\"}}",
+                  "positive semidefinite"),
+        std::pair("{normal: {covariance: \"[0, 1e-3, 0; 1e-3, 1e9, 0; 0, 0, 1]\"}}",
+                  "positive semidefinite"),
+        std::pair("{normal: {covariance: \"[1, 0.5, 0; 0, 1, 0; 0, 0, 1]\"}}", "symmetric"),
+        std::pair("{lognormal: {covariance: -Q}}", "positive semidefinite"),
+        std::pair("{normal: {covariance: eye(2)}}", "expected a covariance n x n"),
+        std::pair("{normal: [1, -2, 3]}", "negative"), std::pair("{normal: [1, 2]}", "3 x 1"),
+        std::pair("{normal: {mean: [1, 2], deviation: 1}}", "3 x 1")}) {
+    SCOPED_TRACE(spread);
+    try {
+      setup_of(kPlant, "campaign: {horizon: 1, initial: {z: 0, x: " + std::string(spread) + "}}\n");
+      ADD_FAILURE();
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("p.yaml:"), std::string::npos) << error.what();
+    }
+  }
+}
+
 TEST(EventDraws, StatesOfAllComponentsTakeListsBoxesAndEllipsoids) {
   const auto setup =
       setup_of(kPlant,

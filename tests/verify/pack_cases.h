@@ -37,6 +37,23 @@ method:
     trace: {above: "P(1, 1)", bound: 1e-4}
 campaign: {runs: 96, horizon: 6, initial: {x: {box: [-1, 1]}}}
 )yaml"},
+    {"starts and noise around centers", R"yaml(problem: p
+method:
+  method: m
+  data: {V: 2 x 2, k: scalar}
+  events: {sample: {every: 0.2}}
+  noise: {d: {normal: {covariance: V}, every: 0.13}, w: {lognormal: 0.3, new at: sample}, c: {normal: 1}}
+  plant:
+    state: {x: {shape: 2}, z: {shape: 1, start: 1 + 0.2*c}}
+    flow: {x: "[x(2); -k*sin(x(1)) - 0.3*x(2)] + d", z: -z*w + 0.1*c}
+    at: {sample: {z: 0.9*z + 0.05*w}}
+  claims:
+    angle: {below: abs(x(1)), bound: 1.6}
+    rest: {below: z, bound: 1.25}
+data: {V: [[0.5, 0.4], [0.4, 0.5]], k: 2}
+uncertain: {k: {lognormal: 0.2}}
+campaign: {runs: 96, horizon: 3, initial: {x: {normal: {mean: [0.5, 0], covariance: V}}}}
+)yaml"},
     {"a thermostat with two modes", R"yaml(problem: p
 method:
   method: m

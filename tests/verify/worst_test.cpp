@@ -121,6 +121,35 @@ TEST(DrawCube, NormalNoiseReachesThreeDeviations) {
   EXPECT_EQ(cube.at(std::vector<double>(cube.size(), 0)).noise[w][0](0), -6);
 }
 
+/// Around a center: three deviations of each of the independent parts.
+TEST(DrawCube, CentersHaveThreeDeviationsAroundThem) {
+  const auto instance =
+      instance_of(R"(  data: {c: {shape: scalar, default: 1}}
+  noise: {w: {normal: {mean: [0, 1], covariance: "[1, 2; 2, 4]"}}}
+  plant: {state: {x: {shape: 2}}, flow: {x: w - c*x}}
+  claims: {b: {below: norm(x), bound: 1e9}}
+)",
+                  "uncertain: {c: {lognormal: 0.5}}\ncampaign: {horizon: 4, initial: "
+                  "{x: {normal: {mean: [5, 6], deviation: [0, 2]}}}}\n");
+  const auto setup = claims::make_run_setup(bind::run_texts(instance, {}));
+  const DrawCube cube(setup->system, setup->scenario, 1);
+  ASSERT_EQ(cube.size(), 3U) << "what does not vary has no coordinate";
+  const hybrid::GivenRun low = cube.at({0, 0, 0}), high = cube.at({1, 1, 1});
+  const std::size_t x = setup->system.slot("x").value();
+  EXPECT_EQ(*low.starts[x], (MatrixXd{{5}, {0}}));
+  EXPECT_EQ(*high.starts[x], (MatrixXd{{5}, {12}}));
+  const auto noise = [&](const hybrid::GivenRun& run, const std::string& name) {
+    const auto& all = setup->system.dynamics.noise;
+    for (std::size_t k = 0; k < all.size(); ++k)
+      if (all[k].name == name) return run.noise[k].at(0);
+    return MatrixXd();
+  };
+  EXPECT_EQ(noise(low, "w"), (MatrixXd{{-3}, {-5}}));
+  EXPECT_EQ(noise(high, "w"), (MatrixXd{{3}, {7}}));
+  EXPECT_NEAR(noise(low, "plant.c")(0), 0.5 * std::exp(-1.5) * 2, 1e-15);
+  EXPECT_NEAR(noise(high, "plant.c")(0), std::exp(1.5), 1e-14);
+}
+
 TEST(DrawCube, StartsFillTheEllipsoid) {
   const Drawn drawn;
   const DrawCube cube = drawn.cube(1);
