@@ -260,7 +260,7 @@ TEST(HostileNames, PrintableOnesStayTexts) {
                                R"(\\end{verbatim} EVIL)",
                                R"(EVIL\\)",
                                "coding: utf-7 +AAo-EVIL",
-                               "$(EVIL)",
+                               "`EVIL`",
                                "';EVIL;'",
                                "<!--EVIL",
                                "]]>EVIL"};

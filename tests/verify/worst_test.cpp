@@ -146,7 +146,7 @@ TEST(DrawCube, CentersHaveThreeDeviationsAroundThem) {
   };
   EXPECT_EQ(noise(low, "w"), (MatrixXd{{-3}, {-5}}));
   EXPECT_EQ(noise(high, "w"), (MatrixXd{{3}, {7}}));
-  EXPECT_NEAR(noise(low, "plant.c")(0), 0.5 * std::exp(-1.5) * 2, 1e-15);
+  EXPECT_NEAR(noise(low, "plant.c")(0), std::exp(-1.5), 1e-15);
   EXPECT_NEAR(noise(high, "plant.c")(0), std::exp(1.5), 1e-14);
 }
 
