@@ -328,7 +328,7 @@ def judge(problems, options):
 def options_of(parser, count, limit):
     """The options that the benches with one line a problem share."""
     parser.add_argument("program")
-    parser.add_argument("--count", type=int, default=count)
+    parser.add_argument("--count", "--cases", type=int, default=count)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--limit", type=int, default=limit, help="seconds of processor time for each problem")
     parser.add_argument("--family", help="this family alone")
