@@ -85,17 +85,14 @@ class Products {
   }
 
  private:
-  /// S of inv(S) with a symmetric unknown S, such as every 1 x 1 one, or S(t) of a function.
+  /// S of inv(S) with a square unknown S, or S(t) of a function.
   NodePtr inverted_by(const Node& node) const {
     if (node.kind != NodeKind::call || node.text != "inv" || node.children.size() != 1)
       return nullptr;
     const Node& argument = *node.children.front();
     for (const model::Design::Unknown& unknown : design_.unknowns) {
-      const bool symmetric = unknown.structure == model::Structure::symmetric ||
-                             unknown.structure == model::Structure::diagonal ||
-                             unknown.shape.is_scalar();
       const NodeKind kind = unknown.variable.empty() ? NodeKind::name : NodeKind::call;
-      if (unknown.name == argument.text && argument.kind == kind && symmetric)
+      if (unknown.name == argument.text && argument.kind == kind && unknown.shape.is_square())
         return node.children.front();
     }
     return nullptr;

@@ -103,6 +103,9 @@ class Compiler {
       return block_of(form, comparison.name, point, comparison.strict,
                       statement_.stated->that_place);
     } catch (const InputError&) {
+      if (const auto symmetric = symmetric_where(form, stated_equations()))
+        return block_of(*symmetric, comparison.name, point, comparison.strict,
+                        statement_.stated->that_place);
       const model::Design::Unknown* unknown = needs_symmetric(form, of_);
       if (unknown == nullptr) throw;
       const std::string size = unknown->declared.substr(0, unknown->declared.find(" x "));
@@ -111,6 +114,21 @@ class Compiler {
                                            "' is symmetric only where it is; declare " +
                                            unknown->name + ": symmetric " + size);
     }
+  }
+
+  /// Those of all requirements without variables.
+  std::vector<numbers::Vector> stated_equations() const {
+    std::vector<Block> blocks;
+    for (const Statement& statement : of_.statements)
+      for (std::size_t k = 0; statement.domain.empty() && k < statement.differences.size(); ++k)
+        try {
+          forall::MonomialTable none;
+          blocks.push_back(block_of(
+              evaluate_affine(statement.differences[k], of_.unknowns, none, of_.instance.values),
+              "", "", statement.stated->comparisons[k].strict, {}));
+        } catch (const InputError&) {  // no equation is wrong in itself
+        }
+    return equations_in(blocks, of_.unknowns.size());
   }
 
   const Inequalities& of_;

@@ -164,7 +164,7 @@ expr::Program chosen(const Inequalities& of, const expr::Program& program, const
       });
 }
 
-/// [ S , E/beta ; * , s I ] with S n x n, E n x k and the scalar s (0: s = 1).
+/// [ S , E/beta ; * , s I ] with S n x n, E n x k and the scalar s (0: s = 1); S + S' - s I for S.
 Block bound_block(const BoundedProduct& bound, double beta) {
   const int n = bound.s.shape.rows;
   const int k = bound.e.shape.cols;
@@ -177,7 +177,11 @@ Block bound_block(const BoundedProduct& bound, double beta) {
           place(static_cast<int>(it.row()), static_cast<int>(it.col()), it.value(),
                 elements[key.second]);
   };
-  add(bound.s, [](int i, int j, double value, Elements& out) { out.emplace_back(i, j, value); });
+  add(bound.s, [&](int i, int j, double value, Elements& out) {
+    out.emplace_back(i, j, value);
+    if (!bound.symmetric) out.emplace_back(j, i, value);
+  });
+  for (int i = 0; i < n && !bound.symmetric; ++i) elements[bound.scalar].emplace_back(i, i, -1.0);
   add(bound.e, [&](int i, int j, double value, Elements& out) {
     out.emplace_back(i, n + j, value / beta);
     out.emplace_back(n + j, i, value / beta);
@@ -190,7 +194,9 @@ Block bound_block(const BoundedProduct& bound, double beta) {
     whole.terms.emplace(std::pair(0, index), std::move(matrix));
   }
   const AffineForm matrices_of_e{bound.e.shape, {}, bound.e.products};
-  add_placed(whole, {bound.s.shape, {}, bound.s.products}, 0, 0);
+  const AffineForm matrices_of_s{bound.s.shape, {}, bound.s.products};
+  add_placed(whole, matrices_of_s, 0, 0);
+  if (!bound.symmetric) add_placed(whole, transposed(matrices_of_s), 0, 0);
   add_placed(whole, matrices_of_e, 0, n, 1 / beta);
   add_placed(whole, transposed(matrices_of_e), n, 0, 1 / beta);
   return block_of(whole, "bound on " + bound.what, "", false, {});
@@ -279,21 +285,23 @@ class Collector {
     for (const Part& part : parts) {
       BoundedProduct bound{
           (product.left ? inverse + "*" + text : text + "*" + inverse) + part.factor + where,
-          inverted.front().form, product.left ? part.form : transposed(part.form), 0};
+          product.left ? inverted.front().form : transposed(inverted.front().form),
+          product.left ? part.form : transposed(part.form)};
       if (bound.e.shape.size() == 0) continue;
+      bound.symmetric = is_same(bound.s, transposed(bound.s));
       if (!result_.units.empty()) bring_to_units(bound.s, bound.e, true, result_.units);
-      bound.scalar = scalar_of(unknown != nullptr ? name : name + where, bound.s);
+      bound.scalar = scalar_of(unknown != nullptr ? name : name + where, bound);
       add(std::move(bound));
     }
   }
 
   /// The scalar s of what S is called, made when it is first asked for.
-  int scalar_of(const std::string& name, const AffineForm& S) {
+  int scalar_of(const std::string& name, const BoundedProduct& bound) {
     const auto [found, fresh] =
         scalars_.try_emplace(name, of_.unknowns.size() + result_.scalars + 1);
     if (fresh) {
       ++result_.scalars;
-      result_.blocks.push_back(floor_block(S, found->second, name));
+      if (bound.symmetric) result_.blocks.push_back(floor_block(bound.s, found->second, name));
     }
     return found->second;
   }
@@ -344,7 +352,11 @@ std::vector<model::GainBound> reached_bounds(const GainBounds& bounds,
     model::GainBound record{bound.what, bounds.beta * bound.share,
                             std::numeric_limits<double>::infinity(), false, !bounds.units.empty()};
     // A coefficient of a function need not be definite: then the measure says nothing.
-    if (const numbers::Cholesky factor(s); factor) {
+    if (!bound.symmetric) {
+      const numbers::Inverse inverse = numbers::inverse(s);
+      if (inverse.condition > 0)
+        record.reached = (1 + 1e-12) * numbers::singular_values(inverse.matrix * e).maxCoeff();
+    } else if (const numbers::Cholesky factor(s); factor) {
       const double largest =
           numbers::symmetric_eigenvalues(e.transpose() * factor.solve(e)).maxCoeff();
       // With the rounding of these lines.

@@ -6,7 +6,10 @@
 //   S >= s I,   [ S , E/beta ; * , s I ] >= 0    <=>    E' inv(S) E <= beta^2 s I,
 //   s <= lambda_min(S).
 // With G = inv(S) E that is G' S G <= beta^2 lambda_min(S), so the largest singular value of G is
-// at most beta. It does not change when the unknowns are scaled together. A gain that is affine in
+// at most beta. It does not change when the unknowns are scaled together. Of an S that is not
+// symmetric S S' >= s (S + S') - s^2 I, so that
+//   [ S + S' - s I , E/beta ; * , s I ] >= 0   =>   E E' <= beta^2 S S'.
+// A gain that is affine in
 // the unknowns is bounded by its largest singular value: [ I , K/beta ; * , I ] >= 0, which has a
 // constant part.
 //
@@ -25,13 +28,15 @@
 
 namespace gainsmith::lmi {
 
-/// The bound on one product. `s` and `e` are forms in the unknowns; `e` is transposed for E*inv(S).
+/// The bound on one product. `s` and `e` are forms in the unknowns; both are transposed for
+/// E*inv(S).
 struct BoundedProduct {
   std::string what;  ///< "inv(P1)*Y"
   AffineForm s;      ///< n x n
   AffineForm e;      ///< n x k
   int scalar = 0;    ///< index of the scalar s among the variables; 0: S is the identity and s = 1
   double share = 1;  ///< of beta, that bounds it
+  bool symmetric = true;  ///< S is
 };
 
 struct GainBounds {
@@ -57,7 +62,7 @@ GainBounds gain_bounds(const Inequalities& inequalities, std::optional<double> b
 GainBounds gain_bounds(const Inequalities& inequalities, const Lmi& lmi);
 
 /// How far each bound is used at x: sqrt(lambda_max(E' inv(S) E) / lambda_min(S)), never less than
-/// the largest singular value of the gain; `active` here: above 99 % of the bound.
+/// the largest singular value of the gain, which it is where S is not symmetric; `active` here: above 99 % of the bound.
 std::vector<model::GainBound> reached_bounds(const GainBounds& bounds,
                                              const std::vector<double>& x);
 

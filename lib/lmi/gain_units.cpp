@@ -50,6 +50,13 @@ void bring_to_units(AffineForm& S, AffineForm& E, bool is_unknown, const std::ve
     // Half of it, rounded down, for S has T twice.
     if (own != kNone) T[r] = is_unknown ? -(own >> 1) : -own;
   }
+  Eigen::VectorXi V = T;
+  // Of an S that is not symmetric T as its first column is, and V then as its diagonal is.
+  if (is_unknown && !is_same(S, transposed(S)) && (of_S.col(0).array() != kNone).all() &&
+      (of_S.diagonal().array() != kNone).all()) {
+    T = -of_S.col(0);
+    V = -of_S.diagonal() - T;
+  }
   Eigen::VectorXi U = Eigen::VectorXi::Zero(of_E.cols());
   for (Eigen::Index c = 0; c < U.size(); ++c) {
     int largest = kNone;
@@ -57,7 +64,7 @@ void bring_to_units(AffineForm& S, AffineForm& E, bool is_unknown, const std::ve
       if (of_E(r, c) != kNone) largest = std::max(largest, T[r] + of_E(r, c));
     if (largest != kNone) U[c] = -largest;
   }
-  if (is_unknown) scale(S, T, T);
+  if (is_unknown) scale(S, T, V);
   scale(E, T, U);
 }
 

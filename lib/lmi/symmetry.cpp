@@ -1,5 +1,6 @@
 #include "lmi/symmetry.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -42,10 +43,24 @@ AffineForm with_symmetric(const AffineForm& form, const Unknowns& unknowns, cons
   return result;
 }
 
-bool is_symmetric(const AffineForm& form) {
-  constexpr double kAsymmetry = 1e-12;
+constexpr double kAsymmetry = 1e-12;  // of the largest element
+
+double size_of(const AffineForm& form) {
   double size = 0;
   for (const auto& [key, matrix] : form.terms) size = std::max(size, largest_element(matrix));
+  return size;
+}
+
+/// The element (row, column) as (e_0, e_1, ..., e_m).
+template <class Terms, class Index>
+numbers::Vector element_of(const Terms& terms, Index index, int row, int column, Eigen::Index m) {
+  numbers::Vector element = numbers::Vector::Zero(m + 1);
+  for (const auto& [key, matrix] : terms) element[index(key)] = matrix.coeff(row, column);
+  return element;
+}
+
+bool is_symmetric(const AffineForm& form) {
+  const double size = size_of(form);
   return std::all_of(form.terms.begin(), form.terms.end(), [&](const auto& term) {
     const Sparse mirrored = term.second.transpose();
     return largest_element(sum_of(term.second, mirrored, -1)) <= kAsymmetry * size;
@@ -53,6 +68,43 @@ bool is_symmetric(const AffineForm& form) {
 }
 
 }  // namespace
+
+std::vector<numbers::Vector> equations_in(const std::vector<Block>& blocks, int unknowns) {
+  std::vector<numbers::Vector> equations;
+  const auto index = [](int i) { return i; };
+  for (const Block& block : blocks)
+    for (int row = 0; row < block.size && !block.strict; ++row) {
+      if (!element_of(block.terms, index, row, row, unknowns).isZero(0)) continue;
+      for (int column = row + 1; column < block.size; ++column) {
+        auto element = element_of(block.terms, index, row, column, unknowns);
+        if (!element.isZero(0)) equations.push_back(std::move(element));
+      }
+    }
+  return equations;
+}
+
+std::optional<AffineForm> symmetric_where(const AffineForm& form,
+                                          const std::vector<numbers::Vector>& equations) {
+  if (equations.empty() || !form.shape.is_square()) return std::nullopt;
+  const AffineForm whole = expanded(form);
+  const Eigen::Index m = equations.front().size() - 1;
+  numbers::Matrix E(m + 1, std::ssize(equations));
+  for (Eigen::Index k = 0; k < E.cols(); ++k)
+    E.col(k) = equations[static_cast<std::size_t>(k)].normalized();
+  const Eigen::CompleteOrthogonalDecomposition<numbers::Matrix> span(E);
+  const auto index = [](const AffineForm::Key& key) { return key.second; };
+  for (int row = 0; row < form.shape.rows; ++row)
+    for (int column = 0; column < row; ++column) {
+      const numbers::Vector skew = element_of(whole.terms, index, row, column, m) -
+                                   element_of(whole.terms, index, column, row, m);
+      const numbers::Vector left = skew - E * span.solve(skew);
+      if (!(left.cwiseAbs().maxCoeff() <= kAsymmetry * size_of(whole))) return std::nullopt;
+    }
+  AffineForm result{form.shape, {}};
+  add_placed(result, whole, 0, 0, 0.5);
+  add_placed(result, transposed(whole), 0, 0, 0.5);
+  return result;
+}
 
 const model::Design::Unknown* needs_symmetric(const AffineForm& form, const Inequalities& of) {
   const AffineForm whole = expanded(form);

@@ -135,7 +135,7 @@ struct Design {
       /// The calls of unknown functions in `text`: first byte, length.
       std::vector<std::pair<std::size_t, std::size_t>> calls;
     };
-    std::string inverse;  ///< S as written: a symmetric unknown or a call of one, "P", "P(t)"
+    std::string inverse;  ///< S as written: a square unknown or a call of one, "P", "P(t)"
     Factor inverted;      ///< S
     bool left = true;     ///< inv(S) is left of E
     Factor all;           ///< the product of all factors beside the inverse

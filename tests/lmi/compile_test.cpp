@@ -236,6 +236,29 @@ TEST(CompileTest, AnUnknownThatMustBeSymmetricIsRefusedWhereItIsDeclared) {
   }
 }
 
+/// Wherever the equation stands; what it does not make symmetric is refused.
+TEST(CompileTest, EquationsMakeInequalitiesSymmetric) {
+  for (const char* require : {"    sym: A'*Y == Y'*A\n    it: A'*Y > 0\n",
+                              "    it: A'*Y > 0\n    sym: 3*Y'*A - 3*A'*Y == 0\n"}) {
+    const tests::YamlProblem yaml(requiring(require));
+    const Inequalities inequalities(yaml.instance);
+    std::vector<double> x(static_cast<std::size_t>(inequalities.unknowns.size()));
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] = 1 + static_cast<double>(i * i);
+    const numbers::Matrix M =
+        yaml.instance.values.at("A").transpose() * inequalities.unknowns.values(x).at("Y");
+    for (const Block& block : compile(inequalities).blocks)
+      if (block.name == "it") {
+        EXPECT_EQ(block.value(x), (M + M.transpose()) / 2) << require;
+      }
+  }
+  for (const char* require :
+       {"    sym: A*Y == Y'*A'\n    it: A'*Y > 0\n", "    sym: A'*Y <= Y'*A\n    it: A'*Y > 0\n"}) {
+    const tests::YamlProblem yaml(requiring(require));
+    const InputError error = tests::input_error([&] { compile(Inequalities(yaml.instance)); });
+    EXPECT_NE(error.message().find("not symmetric"), std::string::npos) << error.message();
+  }
+}
+
 /// Y*A is not symmetric for a symmetric Y either.
 TEST(CompileTest, NoUnknownIsAtFaultWhereSymmetryDoesNotHelp) {
   for (const char* require : {"    it: Y*A < 0\n", "    it: Y + P*A < 0\n"}) {

@@ -179,5 +179,45 @@ TEST(GainBoundsTest, BlocksSayTheSameAsTheMeasure) {
   EXPECT_LT(inside, 195);
 }
 
+/// Of an M that is not symmetric the block is sufficient, and the measure is the gain's norm; with
+/// M = m I, s = m it is necessary too.
+TEST(GainBoundsTest, InversesThatAreNotSymmetricAreBounded) {
+  const tests::YamlProblem yaml(
+      "problem: p\nmethod:\n  method: m\n  unknowns: {M: 3 x 3, Y: 3 x 2, Z: 2 x 3}\n"
+      "  require: {positive: He(M) > 0, y: \"[I, Y; *, I] > 0\", z: \"[I, Z; *, I] > 0\"}\n"
+      "  gains: {L: inv(M)*Y, K: Z*inv(M)}\n");
+  const Inequalities inequalities(yaml.instance);
+  const Unknowns& unknowns = inequalities.unknowns;
+  const double beta = 2;
+  const GainBounds bounds = gain_bounds(inequalities, beta);
+  EXPECT_EQ(names(bounds), (std::vector<std::string>{"inv(M)*Y", "Z*inv(M)"}));
+  ASSERT_EQ(bounds.blocks.size(), 2U);
+  std::mt19937 generator(4);
+  std::normal_distribution<double> number;
+  int inside = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    std::vector<double> x(static_cast<std::size_t>(unknowns.size()) + 1);
+    for (double& value : x) value = 0.5 * number(generator);
+    const bool multiple = trial % 2 == 0;
+    for (std::size_t k = 0; k < 9; ++k) x[k] = (multiple ? 0 : x[k]) + (k % 4 == 0 ? 1 : 0);
+    x.back() = 1;
+    const numbers::Values values = unknowns.values(x);
+    const numbers::Matrix inverse = tests::inverse(values.at("M"));
+    const numbers::Matrix gains[] = {tests::product({inverse, values.at("Y")}),
+                                     tests::product({values.at("Z"), inverse})};
+    const auto reached = reached_bounds(bounds, x);
+    for (std::size_t k = 0; k < 2; ++k) {
+      const double norm = tests::singular_values(gains[k])(0);
+      EXPECT_NEAR(reached[k].reached, norm, 1e-9 * norm);
+      const bool positive = tests::symmetric_eigenvalues(bounds.blocks[k].value(x))(0) > 0;
+      EXPECT_TRUE(!positive || norm <= beta) << norm;
+      EXPECT_TRUE(!multiple || positive == (norm < beta)) << norm;
+      inside += positive ? 1 : 0;
+    }
+  }
+  EXPECT_GT(inside, 20);
+  EXPECT_LT(inside, 780);
+}
+
 }  // namespace
 }  // namespace gainsmith::lmi
