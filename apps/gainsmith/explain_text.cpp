@@ -61,7 +61,7 @@ std::string negotiable_text(const design::Reach& reach) {
   if (!reach.feasible)
     return fmt::format("negotiable  {} does not help: nothing feasible was found in its range\n",
                        reach.name);
-  const std::string beyond = reach.beyond ? "; " + brief(*reach.beyond, 10) + " is excluded" +
+  const std::string beyond = reach.beyond ? "; " + brief(*reach.beyond, 10) + " is infeasible" +
                                                 model::limits_of(*reach.certificate)
                                           : "";
   return fmt::format("negotiable  {} (it is {}{})\n", reach_text(reach), brief(reach.value),
@@ -79,8 +79,7 @@ std::string conflict_statement(const design::Conflict& conflict) {
 }
 
 std::string certificate_brief(const model::CertificateRecord& certificate) {
-  if (certificate.exact) return "exact";
-  return "excludes every solution (relative error " + brief(certificate.backward_error, 2) + ")";
+  return certificate.exact ? "exact" : model::shown_by(certificate);
 }
 
 std::string conflict_text(const design::Conflict& conflict) {
@@ -266,6 +265,7 @@ io::Json conflict_json(const design::Conflict& conflict) {
           {"gain_bound", conflict.gain_bound},
           {"within_gain_bound", conflict.within_gain_bound},
           {"exact", conflict.certificate.exact},
+          {"shows", model::shown_by(conflict.certificate)},
           {"about", conflict.certificate.about},
           {"backward_error", conflict.certificate.backward_error}};
 }

@@ -199,7 +199,7 @@ Command scan_command() {
            .excludes({"--shard"}),
        Option("--json", options->json, "print the table as JSON").excludes({"--shard"})},
       "A point that the method's assumptions exclude is 'refused'.\n"
-      "Exit code: 0 some point is feasible, 1 all are excluded by certificates, 2 wrong input, 3 "
+      "Exit code: 0 some point is feasible, 1 all are infeasible by certificates, 2 wrong input, 3 "
       "otherwise\n"
       "and when interrupted. With --shard: 0 the part is whole, 3 interrupted.\n"
       "Examples:\n"

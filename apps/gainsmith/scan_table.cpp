@@ -93,7 +93,7 @@ std::string json(const std::vector<design::ScanRow>& rows, const ScanFacts& fact
 }
 
 /// Undecided when some point was not finished; yes when some point is feasible, no when every point
-/// is excluded.
+/// is infeasible.
 ExitCode exit_of_all(const std::vector<design::ScanRow>& rows) {
   const auto unfinished =
       std::count_if(rows.begin(), rows.end(), [](const auto& row) { return row.interrupted; });

@@ -23,7 +23,7 @@ std::string beyond_text(const model::Gains& gains) {
   const model::SearchRecord& search = *gains.search;
   std::string text;
   if (search.beyond) {
-    text += fmt::format("            {} is excluded", brief(*search.beyond, kDigits));
+    text += fmt::format("            {} is infeasible", brief(*search.beyond, kDigits));
     if (const auto& certificate = search.certificate)
       text += model::limits_of(*certificate) + " by a checked certificate";
     text += place_text(gains) + "\n";
@@ -40,7 +40,7 @@ std::string breaks_text(const model::SearchRecord& search) {
   for (const double value : search.breaks)
     values += (values.empty() ? "" : ", ") + brief(value, kDigits);
   return fmt::format(
-      "            NOT MONOTONE: excluded{} at {} as well; other boundaries may lie between "
+      "            NOT MONOTONE: infeasible{} at {} as well; other boundaries may lie between "
       "the values tried\n",
       search.certificate ? model::limits_of(*search.certificate) : "", values);
 }

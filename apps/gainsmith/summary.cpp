@@ -120,17 +120,17 @@ std::string certificate_text(const model::Gains& gains) {
                          : c.about == "hull"  ? "the hull"
                                               : "the vertex test";
   if (c.exact && c.multipliers.empty())
-    return fmt::format("certificate exact steps on {}, as above: no solution exists\n", of);
+    return fmt::format("certificate exact steps on {}, as above: {}\n", of, model::shown_by(c));
   if (c.exact)
     return fmt::format(
         "certificate multipliers Y > 0, checked in {} digits on {}: an exact certificate lies "
         "near\n"
-        "            them, so no solution exists\n",
-        c.digits, of);
+        "            them, so {}\n",
+        c.digits, of, model::shown_by(c));
   return fmt::format(
-      "certificate multipliers Y >= 0, checked in {} digits on {}: they exclude every\n"
-      "            solution (relative error {})\n",
-      c.digits, of, brief(c.backward_error, 2));
+      "certificate multipliers Y >= 0, checked in {} digits on {}:\n"
+      "            {}\n",
+      c.digits, of, model::shown_by(c));
 }
 
 /// Limits that somebody set are named; how else an iteration ended says nothing.

@@ -90,8 +90,8 @@ SdpSolution solve(const Sdp& program, const SdpOptions& options = {});
 
 // Gains.
 
-/// yes: every inequality holds at the matrices as written; no: a checked certificate excludes every
-/// solution (docs/conventions.md).
+/// yes: every inequality holds at the matrices as written; no: infeasible by a checked certificate
+/// (docs/conventions.md).
 enum class Verdict { yes, no, undecided };
 
 /// One inequality at the decimals of the gain file; `reached` is relative, from 0 to 1.

@@ -13,12 +13,12 @@ namespace gainsmith::design {
 
 namespace {
 
-/// A value that only the hull or the vertex test excludes counts as excluded; what the certificate
+/// A value that is infeasible for the hull or the vertex test only counts as infeasible; what the certificate
 /// is limited to is said.
 search::Answer answer_of(const model::Gains& gains) {
   if (gains.verdict == model::Verdict::yes) return search::Answer::yes;
-  const bool excluded = gains.verdict == model::Verdict::no || gains.certificate;
-  return excluded ? search::Answer::no : search::Answer::undecided;
+  const bool infeasible = gains.verdict == model::Verdict::no || gains.certificate;
+  return infeasible ? search::Answer::no : search::Answer::undecided;
 }
 
 /// The bracket in the words of the gain file.
@@ -58,12 +58,12 @@ std::string nothing_found(const search::Bisection& found, const BisectChoices& c
   });
   const std::string also = choices.also ? " or by violated claims" : "";
   if (all)
-    return text + "; each is excluded by a certificate" + limits + also +
+    return text + "; each is infeasible by a certificate" + limits + also +
            ", which says nothing of those between";
-  const std::string excluded = values_with(found, search::Answer::no);
+  const std::string infeasible = values_with(found, search::Answer::no);
   const std::string refused = values_with(found, search::Answer::refused);
-  if (!excluded.empty())
-    text += "; those at " + excluded + " are excluded by certificates" + limits + also;
+  if (!infeasible.empty())
+    text += "; those at " + infeasible + " are infeasible by certificates" + limits + also;
   if (!refused.empty()) text += "; those at " + refused + " are refused by the assumptions";
   return text;
 }

@@ -182,7 +182,8 @@ class Quotient {
     }
     if (best->verdict == model::Verdict::no) {
       best->verdict = model::Verdict::undecided;
-      best->solver.add_message("a value that the steps reached was excluded: too near to double");
+      best->solver.add_message(
+          "a value that the steps reached was found infeasible: too near to double");
     }
     if (best->verdict != model::Verdict::yes) return *best;
     std::optional<double> low;
@@ -206,7 +207,7 @@ class Quotient {
     if (!low) best->solver.status = "feasible";
     if (!low)
       best->solver.add_message("no value below " + brief(high, 10) +
-                               " is excluded by a certificate: a smaller one may be possible");
+                               " is infeasible by a certificate: a smaller one may be possible");
     return *best;
   }
 

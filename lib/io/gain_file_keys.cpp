@@ -53,8 +53,11 @@ constexpr std::array kKeysOfBound = {
     Key{"balanced_units", "truth", "of a bound that the problem does not state"}};
 
 constexpr std::array kKeysOfCertificate = {
-    Key{"exact", "truth", "no solution, shown", kRequired}, Key{"about", "text"},
-    Key{"backward_error", "number", "", kRequired}, Key{"digits", "whole", "", kRequired},
+    Key{"exact", "truth", "no solution exists, shown", kRequired},
+    Key{"shows", "text", "what it shows, in words"},
+    Key{"about", "text"},
+    Key{"backward_error", "number", "", kRequired},
+    Key{"digits", "whole", "", kRequired},
     Key{"multipliers", "{rows}", "", kRequired}};
 
 constexpr std::array kKeysOfRefinement = {
@@ -64,9 +67,9 @@ constexpr std::array kKeysOfRefinement = {
 constexpr std::array kKeysOfSearch = {
     Key{"figure", "text", "what was searched", kRequired},
     Key{"value", "number | nothing", "of the figure", kRequired},
-    Key{"beyond", "number | nothing", "the nearest value that is excluded", kRequired},
+    Key{"beyond", "number | nothing", "the nearest value that is infeasible", kRequired},
     Key{"open", "[number]", "undecided values", kRequired},
-    Key{"breaks", "[number]", "excluded values inside", kRequired},
+    Key{"breaks", "[number]", "infeasible values inside", kRequired},
     Key{"over", "[text]", "scalars that were optimised", kRequired},
     Key{"at_end", "[text]", "those at an end of their range"},
     Key{"evaluations", "whole", "", kRequired},

@@ -87,6 +87,7 @@ Json gain_function_json(const model::Gains& gains, const model::GainFunction& ga
 Json certificate_json(const model::Gains& gains, const std::string& key,
                       const model::CertificateRecord& certificate) {
   return {{"exact", certificate.exact},
+          {"shows", model::shown_by(certificate)},
           {"about", certificate.about},
           {"backward_error", certificate.backward_error},
           {"digits", certificate.digits},

@@ -29,6 +29,12 @@ std::string to_string(GainFunction::Kind kind) {
   return "?";
 }
 
+std::string shown_by(const CertificateRecord& certificate) {
+  if (certificate.exact) return "no solution exists";
+  return "no solution survives a relative change of " + brief(certificate.backward_error, 2) +
+         " of the coefficients";
+}
+
 std::string limits_of(const CertificateRecord& certificate) {
   if (certificate.is_about_problem()) return "";
   return certificate.about == "hull" ? " for the hull only" : " for the vertex test only";

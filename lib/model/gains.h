@@ -55,14 +55,18 @@ struct CertificateRecord {
   /// One multiplier matrix for each inequality and point, and for the bounds on gains that it
   /// needs: its name and the matrix.
   NamedMatrices multipliers;
-  /// What it excludes: the "problem", or a condition that is only sufficient for its inequalities:
+  /// What it is about: the "problem", or a condition that is only sufficient for its inequalities:
   /// their "hull", or the test at the "vertices" (docs/gain-file.md).
   std::string about = "problem";
 
   bool is_about_problem() const { return about == "problem"; }
 };
 
-/// What is added to "excluded": "", " for the hull only", " for the vertex test only".
+/// What it shows: "no solution exists"; of one that is not exact, "no solution survives a relative
+/// change of 1.2e-94 of the coefficients".
+std::string shown_by(const CertificateRecord& certificate);
+
+/// What is added to "infeasible": "", " for the hull only", " for the vertex test only".
 std::string limits_of(const CertificateRecord& certificate);
 
 /// The multiplier of an inequality at a point of its domain, or of a bound on gains, at a minimum:
@@ -102,9 +106,9 @@ struct SearchRecord {
   std::string figure;           ///< "largest T2", "objective", "trace(P1)", "margin"
   std::optional<double> value;  ///< of the figure; none when nothing feasible was found
   std::optional<double>
-      beyond;                  ///< the nearest value beyond it that a checked certificate excludes
+      beyond;  ///< the nearest value beyond it that is infeasible by a checked certificate
   std::vector<double> open;    ///< undecided or refused ones next to `value` and `beyond`, or empty
-  std::vector<double> breaks;  ///< excluded on the inner side of `value`
+  std::vector<double> breaks;  ///< infeasible, on the inner side of `value`
   std::optional<CertificateRecord> certificate;  ///< at `beyond`
   std::vector<std::string> over;                 ///< the scalars that were optimised outside
   std::vector<std::string> at_end;               ///< those of `over` found at an end of their range

@@ -47,15 +47,10 @@ std::string proof_of_no(const model::Gains& gains) {
            ": the inequalities themselves may have a solution. ";
   text += certificate.multipliers.empty()
               ? "It is a chain of exact steps on the decimals of the problem file."
-              : "It rests on multipliers for the inequalities below, which exclude every solution. "
-                "They "
-                "were checked in " +
+              : "It rests on multipliers for the inequalities below. They were checked in " +
                     std::to_string(certificate.digits) +
                     " digits on the decimals of the problem file, without the solver.";
-  return text + (certificate.exact
-                     ? " No solution exists."
-                     : " No solution survives a relative change of the coefficients by " +
-                           brief(certificate.backward_error, 2) + ".");
+  return text + " They show that " + model::shown_by(certificate) + ".";
 }
 
 std::string rests_on(const model::Gains& gains) {
@@ -249,7 +244,7 @@ std::string certificate_section(const Results& results, const Notation& notation
             "gainsmith explain says which of them conflict, and how far each would have to give.");
   if (gains.search && gains.search->certificate && gains.search->beyond)
     text += paragraph("Beyond the value found, at " + brief(*gains.search->beyond, 9) +
-                      ", a checked certificate excludes gains.") +
+                      ", the problem is infeasible by a checked certificate.") +
             certificate_part(results, notation, *gains.search->certificate);
   return section("Certificate", text);
 }

@@ -68,7 +68,7 @@ TEST(Bisect, WithoutAFeasibleValueNothingIsSaidOfThoseBetween) {
   EXPECT_FALSE(result.gains.certificate);
   EXPECT_FALSE(result.gains.search->value);
   EXPECT_NE(result.gains.solver.message.find("among the 9 values tried in [4, 10]; each is "
-                                             "excluded by a certificate"),
+                                             "infeasible by a certificate"),
             std::string::npos)
       << result.gains.solver.message;
 }
@@ -115,7 +115,7 @@ TEST(Bisect, AnEndThatOnlyTheHullProvesSaysSo) {
   EXPECT_EQ(found.gains.search->certificate.value().about, "hull");
   const BisectResult none =
       bisect(problem.instance, {}, {{"c", search::axis(3.5, 9)}, true, {1e-3}, {}}, {});
-  EXPECT_NE(none.gains.solver.message.find("excluded by a certificate for the hull only"),
+  EXPECT_NE(none.gains.solver.message.find("infeasible by a certificate for the hull only"),
             std::string::npos)
       << none.gains.solver.message;
 }

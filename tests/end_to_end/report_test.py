@@ -130,7 +130,7 @@ class Pages(unittest.TestCase):
     def test_a_no_shows_what_conflicts(self):
         text = text_of(run("report", self.at("out", "impossible")).stdout)
         self.assertIn("Inequalities in conflict", text)
-        self.assertIn("which exclude every solution", text)
+        self.assertIn("They show that no solution", text)
         self.assertNotIn("is a proof for the decimals", text)
 
     def test_a_gain_file_alone_has_the_picture_of_its_first_run(self):
