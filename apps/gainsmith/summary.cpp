@@ -218,6 +218,14 @@ std::string objective_text(const model::Gains& gains) {
   return gains.objective ? "objective   " + objective_line(gains) + "\n" : "";
 }
 
+/// What a yes is about where no decimals satisfy the equations.
+std::string solution_line(const model::Gains& gains) {
+  return gains.solution_within
+             ? "solution    within " + brief(*gains.solution_within, 2) +
+                   " of the unknowns as printed; no decimals satisfy the equations exactly\n"
+             : "";
+}
+
 std::string message_lines(const model::Gains& gains) {
   return gains.solver.message.empty() ? "" : "            " + gains.solver.message + "\n";
 }
@@ -241,8 +249,8 @@ std::string synthesis_summary(const model::Gains& gains) {
       fmt::format("problem     {}\nmethod      {}\nverdict     {} ({})\n", gains.problem_name,
                   gains.statement.method_name, to_string(gains.verdict), solver_line(gains));
   text += message_lines(gains);
-  text += objective_text(gains) + named_matrices("gains", gains.gains, gains) +
-          functions_text(gains) + report_text(gains) +
+  text += objective_text(gains) + solution_line(gains) +
+          named_matrices("gains", gains.gains, gains) + functions_text(gains) + report_text(gains) +
           named_matrices("parameters", gains.parameters, gains) + searched_text(gains) +
           search_text(gains);
   text += bounds_text(gains) + certificate_text(gains) + margins_text(gains) + margins_note(gains);

@@ -153,6 +153,7 @@ void accept_point(const Climb& climb, const Attempt& point, model::Gains& gains)
   const lmi::Lmi& lmi = climb.posed().lmi;
   const lmi::Unknowns& unknowns = climb.posed().inequalities.unknowns;
   gains.margins = point.margins.margins;
+  if (point.holds()) gains.solution_within = point.margins.solution_within;
   const numbers::Values values = unknowns.values(point.x);
   for (const lmi::Unknown& unknown : unknowns.list())
     gains.unknowns.emplace_back(unknown.name, values.at(unknown.name));

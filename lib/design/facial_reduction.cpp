@@ -217,25 +217,34 @@ class FacialReduction {
     if (want == Want::point_or_multipliers && !done_ && first) take_multipliers(left, *first);
   }
 
-  /// Decimals near a point of the face that the exact blocks take, and their margins.
+  /// Decimals near a point of the face that the exact blocks take, or nearest to one where there
+  /// are none, and their margins.
   struct Decimals {
     std::vector<double> x;
     verdict::Margins margins;
   };
 
   std::optional<Decimals> decimals(const std::vector<double>& y, int digits) const {
+    constexpr int kMostDigits = 16;  // of a decimal that is a double
     std::vector<double> units;
     for (int i = 1; i <= posed_.lmi.unknowns; ++i)
       units.push_back(result_.formulation.balance.unit(i));
     const std::vector<Rational> exact(y.begin(), y.end());
-    const auto x = verdict::printable_point(faces_, exact, units, digits);
-    if (!x) return std::nullopt;
-    std::vector<Rational> printed;
-    for (const double value : *x) printed.push_back(verdict::printed_fraction(value));
-    if (!verdict::satisfies(stated_, printed)) return std::nullopt;
+    auto x = verdict::printable_point(faces_, exact, units, digits);
+    std::vector<Rational> solution;
+    verdict::CheckOptions check;
+    if (x) {
+      for (const double value : *x) solution.push_back(verdict::printed_fraction(value));
+    } else if (digits == kMostDigits) {  // none in 16 digits: the solution that they are near to
+      solution = faces_.point(exact);
+      x.emplace();
+      for (const Rational& value : solution) x->push_back(nearest_double(value));
+      check.solution = &solution;
+    }
+    if (!x || !verdict::satisfies(stated_, solution)) return std::nullopt;
     return Decimals{
         *x, verdict::compute_margins(posed_.inequalities, posed_.lmi, result_.formulation.balance,
-                                     posed_.choices().margin, *x)};
+                                     posed_.choices().margin, *x, check)};
   }
 
   /// A point is one where everything holds, or one that shows what does not.

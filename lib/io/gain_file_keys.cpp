@@ -15,6 +15,7 @@ constexpr std::array kKeysOfDocument = {
     Key{"cause", "text", "why the solver stopped"},
     Key{"objective", "number", "the objective at the unknowns"},
     Key{"objective_lower_bound", "number", "a bound on the objective, without margins"},
+    Key{"solution_within", "number", "distance of the solution that holds from the unknowns"},
     Key{"gains", "{rows}", "the constant gains", kRequired},
     Key{"gain_functions", "{gain function}", "gains that are functions of a scalar"},
     Key{"unknowns", "{rows}", "the unknowns", kRequired},

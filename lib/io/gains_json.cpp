@@ -311,6 +311,7 @@ Json to_json(const model::Gains& gains) {
                    {"cause", gains.solver.cause}};
   if (gains.objective) document["objective"] = *gains.objective;
   if (gains.objective_lower_bound) document["objective_lower_bound"] = *gains.objective_lower_bound;
+  if (gains.solution_within) document["solution_within"] = *gains.solution_within;
   document["gains"] = matrices_json(gains, "gains", gains.gains);
   if (!gains.gain_functions.empty()) {
     document["gain_functions"] = Json::object();
@@ -360,6 +361,7 @@ model::Gains parse_gains(const std::string& text, const std::string& file) {
   if (reader.has("objective")) gains.objective = reader.at("objective").number();
   if (reader.has("objective_lower_bound"))
     gains.objective_lower_bound = reader.at("objective_lower_bound").number();
+  if (reader.has("solution_within")) gains.solution_within = reader.at("solution_within").number();
   gains.gains = matrices_of(reader.at("gains"), gains);
   if (reader.has("gain_functions"))
     for (const auto& [name, item] : reader.at("gain_functions").members())

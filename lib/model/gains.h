@@ -165,6 +165,9 @@ struct Gains {
   std::optional<double> objective;
   /// Gains beyond the gain bound were found, of this size, and none within it.
   std::optional<double> bound_only;
+  /// A yes is about a solution within this of the unknowns, element by element: no decimals satisfy
+  /// the equations. None: it is about the decimals.
+  std::optional<double> solution_within;
   std::optional<double> objective_lower_bound;  ///< of the problem without margins, by weak duality
   std::vector<Multiplier> multipliers;          ///< of a minimum; a gain file does not keep them
   NamedMatrices gains;                          ///< constant ones

@@ -26,9 +26,13 @@ std::string proof_of_yes(const model::Gains& gains) {
   if (gains.margins.empty())
     return "The problem has no inequalities: its gains are formulas, evaluated in double "
            "precision.";
-  return "This yes is a proof for the decimals of the unknowns in the gain file; the gains are "
-         "computed "
-         "from them. Every inequality was evaluated again from its text, with bounds for the "
+  const std::string about =
+      gains.solution_within
+          ? "a solution within " + brief(*gains.solution_within, 2) + " of the unknowns"
+          : "the decimals of the unknowns";
+  return "This yes is a proof for " + about +
+         " in the gain file; the gains are computed from the unknowns. Every inequality was "
+         "evaluated again from its text, with bounds for the "
          "errors "
          "of decimals, functions and sums, for all values of its variables. So it does not trust "
          "the "

@@ -10,6 +10,7 @@
 #include "lmi/correlation.h"
 #include "numbers/dense.h"
 #include "verdict/printed_check.h"
+#include "verdict/rational_blocks.h"
 
 namespace gainsmith::verdict {
 
@@ -49,6 +50,14 @@ double rounding_of(const lmi::Block& block, const numbers::Matrix& value,
   return count * std::numeric_limits<double>::epsilon() * relative.rowwise().sum().maxCoeff();
 }
 
+/// The largest difference of an element, rounded upward.
+double distance(const std::vector<double>& x, const std::vector<Rational>& solution) {
+  Rational largest = 0;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    largest = std::max<Rational>(largest, abs(Rational(printed_fraction(x[i]) - solution[i])));
+  return std::nextafter(nearest_double(largest), std::numeric_limits<double>::infinity());
+}
+
 }  // namespace
 
 bool all_hold(const Margins& margins) {
@@ -70,7 +79,8 @@ class Checker {
         x_(x),
         describe_(options.describe),
         values_(of.instance.values),
-        printed_(of, x, options.most_pieces) {
+        printed_(of, x, options.most_pieces, options.solution) {
+    if (options.solution != nullptr) result_.solution_within = distance(x, *options.solution);
     for (auto& [name, matrix] : of.unknowns.values(x)) values_[name] = matrix;
   }
 

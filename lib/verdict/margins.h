@@ -1,9 +1,11 @@
 // How far every inequality holds, recomputed in double from the matrices as they are written.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "base/rational.h"
 #include "forall/plan.h"
 #include "forall/proof.h"
 #include "lmi/balance.h"
@@ -25,6 +27,9 @@ struct Margins {
   /// What is not settled of inequalities that hold wherever they were checked: "contraction:
   /// too many pieces near tau in [0.2, 0.25]". Empty when there is nothing.
   std::string open;
+  /// What holds, holds at a solution within this of the decimals of x, element by element; none: at
+  /// the decimals themselves.
+  std::optional<double> solution_within;
 };
 
 /// How closely a point is checked.
@@ -33,6 +38,7 @@ struct CheckOptions {
   /// inequality holds its minima are not sought: its margin is then that of the imposed points.
   bool describe = true;
   std::size_t most_pieces = forall::ProofOptions{}.most_pieces;  ///< of one check
+  const std::vector<Rational>* solution = nullptr;               ///< printed_check.h
 };
 
 /// How far every inequality holds at x, as its unit-free margin (correlation.h), taken over
@@ -40,8 +46,8 @@ struct CheckOptions {
 ///  - the local minima over the whole domain of `forall`, from the text itself evaluated over
 ///    double (forall/worst.h, in the rows' units of `balance`),
 /// so that a mistake in compiling the blocks shows up as a margin that does not hold. Where none of
-/// these is certainly negative, the inequality is checked at the printed decimals of x
-/// (printed_check.h): it holds when that shows it.
+/// these is certainly negative, the inequality is checked at the printed decimals of x, or at the
+/// solution near them (printed_check.h): it holds when that shows it.
 Margins compute_margins(const lmi::Inequalities& inequalities, const lmi::Lmi& lmi,
                         const lmi::Balance& balance, double wished, const std::vector<double>& x,
                         const CheckOptions& options = {});

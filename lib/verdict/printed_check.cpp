@@ -49,6 +49,19 @@ forall::Domain stated_domain(const lmi::Statement& statement, const EnclosedValu
   return domain;
 }
 
+/// From more decimals than the digits have.
+template <class S>
+numbers::Ball<S> enclosed_fraction(const Rational& value) {
+  constexpr int kDigits = 2 * kWideDigits;
+  if (value == 0) return {S(0), 0};
+  const double size = std::abs(nearest_double(value));
+  if (!(size > 0)) return {S(0), std::numeric_limits<double>::min()};
+  const int decimals = kDigits - static_cast<int>(std::floor(std::log10(size)));
+  const Integer whole = nearest_integer(Rational(value * power_of_ten(decimals)));
+  const S mid = *parse_as<S>(whole.str() + "e" + std::to_string(-decimals));
+  return {mid, 2 * numbers::magnitude(mid) * numbers::unit_roundoff<S>()};
+}
+
 bool is_affine_in(const expr::Program& program, const std::string& name) {
   const auto degrees = numbers::degrees(program, [&](const std::string& it) { return it == name; });
   return degrees[static_cast<std::size_t>(program.result)] <= 1;
@@ -86,8 +99,22 @@ EnclosedValues<S> enclosed_values(const model::Instance& instance) {
 }
 
 PrintedCheck::PrintedCheck(const lmi::Inequalities& of, const std::vector<double>& x,
-                           std::size_t most_pieces)
-    : of_(of), x_(x), most_pieces_(most_pieces) {}
+                           std::size_t most_pieces, const std::vector<Rational>* solution)
+    : of_(of), x_(x), most_pieces_(most_pieces), solution_(solution) {}
+
+numbers::RationalValues PrintedCheck::unknowns() const {
+  numbers::RationalValues values;
+  for (const lmi::Unknown& unknown : of_.unknowns.list()) {
+    numbers::RationalMatrix& value = values[unknown.name];
+    value = numbers::RationalMatrix::Constant(unknown.shape.rows, unknown.shape.cols, Rational(0));
+    for (int k = 0; k < unknown.count; ++k) {
+      const auto i = static_cast<std::size_t>(unknown.first + k - 1);
+      for (const auto& [row, column] : unknown.places(k))
+        value(row, column) = solution_ != nullptr ? (*solution_)[i] : printed_fraction(x_[i]);
+    }
+  }
+  return values;
+}
 
 template <class S>
 DomainProof PrintedCheck::check_in(const lmi::Statement& statement, std::size_t comparison,
@@ -95,11 +122,13 @@ DomainProof PrintedCheck::check_in(const lmi::Statement& statement, std::size_t 
   try {
     if (!known) {
       known = enclosed_values<S>(of_.instance);
-      for (const auto& [name, matrix] : of_.unknowns.values(x_)) {
+      const numbers::Values printed = of_.unknowns.values(x_);
+      for (const auto& [name, matrix] : unknowns()) {
         Enclosed<S>& value = (*known)[name];
         value.resize(matrix.rows(), matrix.cols());
         for (Eigen::Index i = 0; i < matrix.size(); ++i)
-          value.set(i, enclosed_decimal<S>(matrix(i)).ball(0));
+          value.set(i, solution_ != nullptr ? enclosed_fraction<S>(matrix(i))
+                                            : enclosed_decimal<S>(printed.at(name)(i)).ball(0));
       }
     }
     forall::EnclosedElements<S> elements;
@@ -143,8 +172,7 @@ std::optional<bool> PrintedCheck::check_in_fractions(const lmi::Statement& state
   try {
     numbers::RationalValues values = rational_values(of_.instance);
     const numbers::RationalValues data = values;
-    for (const auto& [name, matrix] : of_.unknowns.values(x_))
-      values[name] = matrix.unaryExpr([](double x) { return printed_fraction(x); });
+    for (auto& [name, matrix] : unknowns()) values[name] = std::move(matrix);
     const auto holds_at = [&](const auto& self, std::size_t v) -> bool {
       if (v == domain.size()) {
         const auto value = numbers::rational_symmetric_part(

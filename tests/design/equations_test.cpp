@@ -120,5 +120,82 @@ TEST(Equations, StandInChainsAndHaveAnyShape) {
   EXPECT_NEAR(*gains.objective, 16, 1e-5);
 }
 
+/// The solution is 1/3, and 2/3 - 1/3 >= 1/3 holds there with equality.
+TEST(Equations, WithoutDecimalsHoldAtASolutionNearTheDecimals) {
+  const std::string unknown = "  unknowns: {x: scalar, g: scalar}\n";
+  const model::Gains one = solve(
+      unknown + "  require: {third: 3*x == 1, below: g >= x, two: 2/3 - x >= x}\n  minimize: g\n");
+  ASSERT_EQ(one.verdict, model::Verdict::yes);
+  EXPECT_NEAR(*one.objective, 1. / 3, 1e-8);
+  ASSERT_TRUE(one.solution_within);
+  // The decimals 0.33333333333333331 are that far.
+  EXPECT_GE(*one.solution_within, 2.2e-17);
+  EXPECT_LT(*one.solution_within, 1e-15);
+  // Less than equality is a no, however little.
+  EXPECT_EQ(solve(unknown + "  require: {third: 3*x == 1, g: g > 0, two: 2/3 - x > x}\n").verdict,
+            model::Verdict::no);
+  const model::Gains decimals =
+      solve(unknown + "  require: {quarter: 4*x == 1, below: g >= x}\n  minimize: g\n");
+  EXPECT_EQ(decimals.verdict, model::Verdict::yes);
+  EXPECT_FALSE(decimals.solution_within);
+}
+
+/// A X + X A' + B B' = 0 of companion matrices: X > 0; with a state that B does not reach X is
+/// singular.
+TEST(Equations, OfLyapunovHoldNearTheDecimals) {
+  const std::string method =
+      "  data: {A: n x n, B: n x 1}\n  unknowns: {X: symmetric n}\n"
+      "  require: {gramian: \"He(A*X) + B*B' == 0\", psd: X >= 0}\n  minimize: trace(X)\n";
+  for (const char* data :
+       {"{A: [[-1, 0.3], [0.2, -0.7]], B: [[1], [0.5]]}",
+        "{A: [[-0.7, 0.3], [0, -1.1]], B: [[1], [0]]}",
+        "{A: [[-0.7, 0.1, 1], [1, -1.1, 0], [0, 0, -3]], B: [[1], [0.3], [0]]}"}) {
+    const std::string text = "problem: p\nmethod:\n  method: m\n" + method + "data: " + data + "\n";
+    const tests::YamlProblem yaml(text);
+    const numbers::Matrix& A = yaml.instance.values.at("A");
+    const numbers::Matrix& B = yaml.instance.values.at("B");
+    const model::Gains gains = synthesize(yaml.instance, {});
+    ASSERT_EQ(gains.verdict, model::Verdict::yes) << data;
+    const numbers::Matrix& X = gains.unknowns.front().second;
+    EXPECT_LT((A * X + X * A.transpose() + B * B.transpose()).cwiseAbs().maxCoeff(), 1e-14) << data;
+    EXPECT_GT(numbers::smallest_eigenvalue(X), -1e-15) << data;
+    ASSERT_TRUE(gains.solution_within) << data;
+    EXPECT_LT(*gains.solution_within, 1e-15) << data;
+  }
+  // -A is not stable: X < 0.
+  EXPECT_EQ(solve(method, "data: {A: [[1, -0.3], [-0.2, 0.7]], B: [[1], [0.5]]}\n").verdict,
+            model::Verdict::no);
+}
+
+/// E'P is symmetric by the equation (descriptor systems); a stable and an unstable one of index 1.
+TEST(Equations, MakeInequalitiesSymmetric) {
+  const std::string method =
+      "  data: {E: n x n, A: n x n}\n  unknowns: {P: n x n}\n"
+      "  require: {sym: E'*P == P'*E, pos: E'*P >= 0, dec: He(P'*A) < 0}\n";
+  const std::string E = "data: {E: [[1, 0, 0], [0, 1, 0], [0, 0, 0]], A: ";
+  const model::Gains gains = solve(method, E + "[[0, 1, 0], [-2, -3, 1], [1, 0, -1]]}\n");
+  ASSERT_EQ(gains.verdict, model::Verdict::yes);
+  const numbers::Matrix& P = gains.unknowns.front().second;
+  EXPECT_EQ(P(0, 1), P(1, 0));
+  EXPECT_EQ(P(0, 2), 0);
+  EXPECT_GT(numbers::smallest_eigenvalue(P.topLeftCorner(2, 2)), 0);
+  EXPECT_EQ(solve(method, E + "[[0, 1, 0], [2, -3, 1], [1, 0, -1]]}\n").verdict,
+            model::Verdict::no);
+}
+
+/// Output feedback by M C = C W (Crusius and Trofino, 1999): W = I, M = I, N = [-1, 4] is a solution.
+TEST(Equations, GainsWithInversesThatAreNotSymmetricAreBounded) {
+  const model::Gains gains = solve(
+      "  data: {A: n x n, B: n x m, C: p x n}\n  unknowns: {W: symmetric n, M: p x p, N: m x p}\n"
+      "  require: {pos: W > 0, stab: He(A*W - B*N*C) < 0, eq: M*C == C*W}\n"
+      "  gains: {K: -N*inv(M)}\n",
+      "data: {A: [[-1, 1, 0], [0, -1, 1], [-1, -2, 1]], B: [[0], [0], [1]], C: [[1, 0, 0], [0, 0, "
+      "1]]}\n");
+  ASSERT_EQ(gains.verdict, model::Verdict::yes);
+  ASSERT_EQ(gains.bounds.size(), 1U);
+  EXPECT_NE(gains.bounds[0].what.find("N*inv(M)"), std::string::npos);
+  EXPECT_LT(gains.gains.front().second.norm(), 100);
+}
+
 }  // namespace
 }  // namespace gainsmith::design

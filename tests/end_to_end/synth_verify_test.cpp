@@ -68,6 +68,46 @@ TEST(SynthTest, AnInfeasibleProblemExitsWithOneAndItsCertificate) {
   EXPECT_FALSE(gains["certificate"]["multipliers"].empty());
 }
 
+/// A certificate says what it shows: an eigenvalue of A is irrational and positive, so its
+/// multipliers are in no digits exact; with a diagonal A they are.
+TEST(SynthTest, ANoSaysWhetherNoSolutionExistsOrNoneSurvivesASmallChange) {
+  const Folder folder;
+  const std::string text =
+      "problem: p\nmethod:\n  method: m\n  data: {A: n x n}\n  unknowns: {P: symmetric n}\n"
+      "  require: {positive: P > I, decrease: He(P*A) < 0}\ndata: {A: ";
+  for (const char* A : {"[[0, 1], [1, -1]]", "[[1, 0], [0, 2]]"}) {
+    const std::string path = folder.file("unstable.yaml", text + A + "}\n");
+    const Outcome said = gainsmith({"synth", path});
+    const Json certificate = gainsmith({"synth", path, "--json"}).json()["certificate"];
+    const bool exact = certificate["exact"];
+    const std::string shows = certificate["shows"];
+    EXPECT_EQ(shows.find("no solution exists") == 0, exact) << shows;
+    EXPECT_EQ(shows.find("no solution survives a relative change of ") == 0, !exact) << shows;
+    EXPECT_NE(said.out.find(shows), std::string::npos) << said.out;
+    EXPECT_EQ(said.out.find("exclude"), std::string::npos) << said.out;
+    EXPECT_EQ(gainsmith({"explain", path, "--json"}).json()["conflict"].contains("shows"), true);
+  }
+}
+
+/// No decimals are 1/3: a solution near the unknowns is, and that is said.
+TEST(SynthTest, AYesMayBeAboutASolutionNearTheDecimals) {
+  const Folder folder;
+  const std::string path =
+      folder.file("third.yaml",
+                  "problem: p\nmethod:\n  method: m\n  unknowns: {x: scalar}\n"
+                  "  require: {third: 3*x == 1, below: x < 1}\n  gains: {K: x}\n  minimize: x\n");
+  const std::string gains = folder.path("gains.json");
+  const Outcome said = gainsmith({"synth", path, "-o", gains});
+  ASSERT_EQ(said.exit, 0) << said.out;
+  EXPECT_NE(said.out.find("solution    within "), std::string::npos) << said.out;
+  const Json document = Json::parse(text_of(gains));
+  const double within = document["solution_within"];
+  EXPECT_LE(std::abs(std::fma(3, document["unknowns"]["x"].get<double>(), -1)), 3 * within);
+  EXPECT_LT(within, 1e-15);
+  // Another program may read the file.
+  EXPECT_EQ(gainsmith({"export", gains, "--to", "json"}).exit, 0);
+}
+
 TEST(SynthTest, WithoutUnknownsTheDataDecide) {
   const std::string text =
       "problem: p\nmethod:\n  method: m\n  data: {A: n x n}\n  require: {short: A'*A < I}\n";

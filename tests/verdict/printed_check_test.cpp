@@ -17,14 +17,19 @@ namespace {
 using Status = forall::DomainProof::Status;
 
 /// "all: require" at one unknown number x.
-forall::DomainProof checked(const std::string& require, double x, const std::string& more = "") {
+forall::DomainProof checked(const std::string& require, double x, const std::string& more = "",
+                            const Rational* solution = nullptr) {
   const tests::YamlProblem yaml(
       "problem: p\nmethod:\n  method: m\n  data: {a: {shape: scalar, default: 0.3}}\n  unknowns: "
       "{x: scalar}\n  require:\n    all: " +
       require + "\n" + more);
   const lmi::Inequalities of(yaml.instance);
   const std::vector<double> unknowns = {x};
-  return PrintedCheck(of, unknowns).check(0, 0);
+  std::vector<Rational> exactly;
+  if (solution != nullptr) exactly.push_back(*solution);
+  return PrintedCheck(of, unknowns, forall::ProofOptions{}.most_pieces,
+                      solution != nullptr ? &exactly : nullptr)
+      .check(0, 0);
 }
 
 TEST(PrintedCheckTest, ADoubleStandsForTheDecimalThatIsPrinted) {
@@ -92,6 +97,18 @@ TEST(PrintedCheckTest, WhatIsExactlySingularHoldsWhereItMay) {
             Status::holds);
   EXPECT_NE(checked("{forall: \"k in {0.1, 0.2}\", that: \"[k, x; *, k] > 0\"}", 0.1).status,
             Status::holds);
+}
+
+/// In fractions, and where the text has none in balls around them: 1/3 - 1e-40 is less than 1/3.
+TEST(PrintedCheckTest, ASolutionInFractionsStandsForTheDecimalsNearIt) {
+  const double near = 1. / 3;
+  const Rational third(1, 3), less = third - power_of_ten(-40);
+  EXPECT_EQ(checked("3*x == 1", near).status, Status::fails);
+  EXPECT_EQ(checked("3*x == 1", near, "", &third).status, Status::holds);
+  EXPECT_EQ(checked("3*x == 1", near, "", &less).status, Status::fails);
+  EXPECT_EQ(checked("exp(1)*(1 - 3*x) > 0", near, "", &less).status, Status::holds);
+  EXPECT_EQ(checked("exp(1)*(3*x - 1) > 0", near, "", &less).status, Status::fails);
+  EXPECT_EQ(checked("exp(1)*(1 - 3*x) > 0", near, "", &third).status, Status::open);
 }
 
 /// sqrt(2)^2 is 2, which no number of digits shows.
