@@ -20,6 +20,18 @@ std::string general(double value, int digits) {
   return {buffer.data(), end.ptr};
 }
 
+/// An exponent beyond 1000, of a number that is not 0. No double has it; a fraction of that size takes all memory, and
+/// where 100 digits have their smallest number this would be 0 there too.
+bool has_vast_exponent(std::string_view text) {
+  constexpr int kMostExponent = 1000;
+  const std::size_t e = text.find_first_of("eE");
+  if (text.substr(0, e).find_first_of("123456789") == text.npos || e == text.npos) return false;
+  text.remove_prefix(e + (text.substr(e + 1).starts_with('+') ? 2 : 1));
+  int exponent = 0;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), exponent);
+  return read.ec == std::errc::result_out_of_range || std::abs(exponent) > kMostExponent;
+}
+
 }  // namespace
 
 std::string decimal17(double value) { return general(value, 17); }
@@ -53,7 +65,7 @@ std::optional<double> parse_decimal(std::string_view text) {
     return std::nullopt;
   double value = 0;
   const auto end = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (end.ptr != text.data() + text.size()) return std::nullopt;
+  if (end.ptr != text.data() + text.size() || has_vast_exponent(text)) return std::nullopt;
   if (end.ec == std::errc::result_out_of_range) {
     // from_chars does not say whether the number is too large or too small; strtod does.
     value = std::strtod(std::string(text).c_str(), nullptr);

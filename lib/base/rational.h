@@ -18,7 +18,7 @@ using Integer =
 Rational power_of_ten(int exponent);
 
 /// The value of a decimal text. Texts and refusals are those of parse_decimal
-/// (number.h); also refused is an exponent beyond 1000, which no double has.
+/// (number.h), which leave no exponent that takes all memory.
 std::optional<Rational> parse_rational(std::string_view text);
 
 /// The whole number nearest to x, of two the larger one.

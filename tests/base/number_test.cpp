@@ -105,9 +105,20 @@ TEST(ParseDecimal, BeyondTheRangeIsEmptyAndBelowItIsZero) {
   EXPECT_EQ(parse_decimal("-1e309"), std::nullopt);
   EXPECT_EQ(parse_decimal("1e99999999999999999999"), std::nullopt);
   EXPECT_EQ(parse_decimal("1e-400"), 0.0);
-  EXPECT_EQ(parse_decimal("1e-99999999999999999999"), 0.0);
+  EXPECT_EQ(parse_decimal("1e-1000"), 0.0);
   EXPECT_EQ(parse_decimal("1" + std::string(400, '0')), std::nullopt);
   EXPECT_EQ(parse_decimal("0." + std::string(400, '0') + "1"), 0.0);
+}
+
+// Wider numbers would lose what double rounds to zero at another place each, 100 digits at 1e-323228497.
+TEST(ParseDecimal, RefusesExponentsBeyond1000) {
+  for (const char* text :
+       {"1e-1001", "-1e-2147483648", "1e-99999999999999999999", "0.1E-2000", "1e+1001"})
+    EXPECT_EQ(parse_decimal(text), std::nullopt) << text;
+  const std::string zeros(1100, '0');
+  EXPECT_EQ(parse_decimal("0." + zeros + "1e+1101"), std::nullopt);
+  for (const char* text : {"0e-1001", "-0.00e-99999999999999999999", "0e2147483648"})
+    EXPECT_EQ(parse_decimal(text), 0.0) << text;
 }
 
 TEST(ParseDecimal, RoundsToTheNearestDouble) {

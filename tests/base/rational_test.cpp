@@ -15,7 +15,8 @@ TEST(RationalTest, ReadsDecimals) {
   EXPECT_EQ(parse_rational("-2.50e-3"), Rational(-1, 400));
   EXPECT_EQ(parse_rational("+7E2"), Rational(700));
   EXPECT_EQ(parse_rational("08"), Rational(8));
-  EXPECT_EQ(parse_rational("0.000"), Rational(0));
+  for (const char* text : {"0.000", "0.0e-2147483648", "0e99999999999999999999"})
+    EXPECT_EQ(parse_rational(text), Rational(0)) << text;
   EXPECT_EQ(*parse_rational("1e-30") * Rational(power_of_ten(30)), Rational(1));
   for (const char* text : {"", "one", "1e400", "1,5", "0x10", "1e-2000"})
     EXPECT_FALSE(parse_rational(text)) << text;
