@@ -27,14 +27,16 @@ void CsvTable::read(FirstLine first) {
   std::size_t at = 0;
   int number = 1;
   while (at < text_.size()) {
-    const Line start{number, at};
-    const std::vector<Cell> cells = line(at, number);
+    Line start{number, at};
+    std::size_t begin = at;
+    const std::vector<Cell> cells = line(at, number, begin);
+    start.broken = begin != start.begin;
     if (cells.size() == 1 && cells[0].begin == cells[0].end && !cells[0].quoted) continue;
     const bool skipped = first == FirstLine::row && is_first && is_heading(cells);
     is_first = false;
     if (skipped) continue;
     if (names_.empty() && first == FirstLine::names) {
-      read_header(cells);
+      read_header(cells, start);
       continue;
     }
     while (lines_.empty() && first == FirstLine::row && names_.size() < cells.size())
@@ -53,8 +55,7 @@ void CsvTable::read(FirstLine first) {
   if (lines_.empty()) throw InputError({path_, 1, 1}, "there is no row below the column names");
 }
 
-std::vector<CsvTable::Cell> CsvTable::line(std::size_t& at, int& number) const {
-  const std::size_t begin = at;
+std::vector<CsvTable::Cell> CsvTable::line(std::size_t& at, int& number, std::size_t& begin) const {
   std::vector<Cell> cells;
   while (true) {
     cells.push_back(cell(at, number, begin));
@@ -68,7 +69,7 @@ std::vector<CsvTable::Cell> CsvTable::line(std::size_t& at, int& number) const {
 }
 
 /// Up to the comma or the end of the line, at which `at` is then.
-CsvTable::Cell CsvTable::cell(std::size_t& at, int& number, std::size_t line_begin) const {
+CsvTable::Cell CsvTable::cell(std::size_t& at, int& number, std::size_t& line_begin) const {
   const auto is_end = [&](char c) { return c == ',' || c == '\n' || c == '\r'; };
   while (at < text_.size() && is_blank_cell(text_[at])) ++at;
   Cell found{at, at, false};
@@ -76,7 +77,7 @@ CsvTable::Cell CsvTable::cell(std::size_t& at, int& number, std::size_t line_beg
     const Place open{path_, number, static_cast<int>(at - line_begin) + 1};
     found = {++at, at, true};
     while (at < text_.size() && !(text_[at] == '"' && text_.compare(at, 2, "\"\"") != 0)) {
-      if (text_[at] == '\n') ++number;
+      if (text_[at] == '\n') ++number, line_begin = at + 1;
       at += text_[at] == '"' ? 2U : 1U;
     }
     if (at >= text_.size()) throw InputError(open, "this quotation mark is not closed");
@@ -93,10 +94,10 @@ CsvTable::Cell CsvTable::cell(std::size_t& at, int& number, std::size_t line_beg
   return found;
 }
 
-void CsvTable::read_header(const std::vector<Cell>& cells) {
+void CsvTable::read_header(const std::vector<Cell>& cells, const Line& line) {
   for (const Cell& one : cells) {
     const std::string name = text(one);
-    const Place place{path_, 1, static_cast<int>(one.begin) + 1};
+    const Place place = this->place(line, one);
     if (parse_decimal(name))
       throw InputError(place, "expected a line of column names, found the number " + name);
     if (std::find(names_.begin(), names_.end(), name) != names_.end())
@@ -104,7 +105,8 @@ void CsvTable::read_header(const std::vector<Cell>& cells) {
     names_.push_back(name);
   }
   if (names_.size() == 1 && names_[0].find(';') != std::string::npos)
-    throw InputError({path_, 1, 1}, "the columns are separated by semicolons; expected commas");
+    throw InputError({path_, line.number, 1},
+                     "the columns are separated by semicolons; expected commas");
 }
 
 bool CsvTable::is_heading(const std::vector<Cell>& cells) const {
@@ -113,8 +115,8 @@ bool CsvTable::is_heading(const std::vector<Cell>& cells) const {
     std::string word = text(one);
     std::transform(word.begin(), word.end(), word.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    const bool named = !word.empty() && (word.front() == '_' ||
-                                         (word.front() >= 'a' && word.front() <= 'z'));
+    const bool named =
+        !word.empty() && (word.front() == '_' || (word.front() >= 'a' && word.front() <= 'z'));
     return named && std::find(kValues.begin(), kValues.end(), word) == kValues.end();
   });
 }
@@ -151,9 +153,17 @@ std::optional<double> CsvTable::number(std::size_t row, std::size_t column) cons
 }
 
 Place CsvTable::place(std::size_t row, std::size_t column) const {
-  const Cell& one = cell(row, column);
-  const std::size_t begin = one.begin - (one.quoted ? 1U : 0U);
-  return {path_, lines_[row].number, static_cast<int>(begin - lines_[row].begin) + 1};
+  return place(lines_[row], cell(row, column));
+}
+
+Place CsvTable::place(const Line& line, const Cell& cell) const {
+  const std::size_t at = cell.begin - (cell.quoted ? 1U : 0U);
+  Place place{path_, line.number, 0};
+  std::size_t begin = line.begin;
+  for (std::size_t k = begin; line.broken && k < at; ++k)
+    if (text_[k] == '\n') ++place.line, begin = k + 1;
+  place.column = static_cast<int>(at - begin) + 1;
+  return place;
 }
 
 }  // namespace gainsmith::io

@@ -43,13 +43,15 @@ class CsvTable {
   struct Line {
     int number = 0;
     std::size_t begin = 0;
+    bool broken = false;  ///< by the end of a line within quotation marks
   };
 
   void read(FirstLine first);
-  /// The cells of the line that begins at `at`, which is moved behind it.
-  std::vector<Cell> line(std::size_t& at, int& number) const;
-  Cell cell(std::size_t& at, int& number, std::size_t line_begin) const;
-  void read_header(const std::vector<Cell>& cells);
+  /// The cells of the line that begins at `at`, which is moved behind it; `number` and `begin`: of the line that `at` is in.
+  std::vector<Cell> line(std::size_t& at, int& number, std::size_t& begin) const;
+  Cell cell(std::size_t& at, int& number, std::size_t& line_begin) const;
+  void read_header(const std::vector<Cell>& cells, const Line& line);
+  Place place(const Line& line, const Cell& cell) const;
   bool is_heading(const std::vector<Cell>& cells) const;
   std::string text(const Cell& cell) const;
   const Cell& cell(std::size_t row, std::size_t column) const {

@@ -70,6 +70,7 @@ class Builder : public nlohmann::json_sax<Json> {
   bool number_integer(std::int64_t value) override { return add(value); }
   bool number_unsigned(std::uint64_t value) override { return add(value); }
   bool number_float(double value, const std::string& decimal) override {
+    if (!parse_decimal(decimal)) refuse_number(decimal, read_);
     return add(decimal == model::printed(value) ? Json(value) : decimal_json(decimal));
   }
   bool string(std::string& value) override { return add(std::move(value)); }
@@ -91,9 +92,7 @@ class Builder : public nlohmann::json_sax<Json> {
 
   bool parse_error(std::size_t byte, const std::string& token,
                    const Json::exception& error) override {
-    if (dynamic_cast<const Json::out_of_range*>(&error) != nullptr)
-      throw InputError(place_of(text_, file_, byte - token.size()),
-                       "the number " + token + " is beyond the range of double");
+    if (dynamic_cast<const Json::out_of_range*>(&error) != nullptr) refuse_number(token, byte);
     if (text_.find_first_not_of(" \t\r\n") == std::string::npos)
       throw InputError({file_}, "the file is empty; expected a JSON document");
     const std::string message = error.what();
@@ -104,6 +103,12 @@ class Builder : public nlohmann::json_sax<Json> {
   }
 
  private:
+  /// `end`: just behind it, or one further.
+  [[noreturn]] void refuse_number(const std::string& number, std::size_t end) const {
+    throw InputError(place_of(text_, file_, text_.rfind(number, end - number.size())),
+                     "the number " + number + " is beyond the range of double");
+  }
+
   bool add(Json value) {
     place(std::move(value));
     return true;
@@ -118,6 +123,8 @@ class Builder : public nlohmann::json_sax<Json> {
   }
 
   bool open(Json empty) {
+    if (open_.size() >= kDeepest)
+      throw InputError(place_of(text_, file_, read_ - 1), "lists or objects are nested too deeply");
     keys_.emplace_back();
     open_.push_back(&place(std::move(empty)));
     return true;
@@ -141,6 +148,8 @@ class Builder : public nlohmann::json_sax<Json> {
     parent.push_back(std::move(value));
     return parent.back();
   }
+
+  static constexpr std::size_t kDeepest = 500;  ///< as in YAML
 
   const std::string& text_;
   const std::string& file_;

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <functional>
 #include <iterator>
+#include <map>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -85,25 +87,66 @@ std::string without_byte_order_mark(std::string text) {
   return text;
 }
 
-/// Where documents start.
-class DocumentStarts : public YAML::EventHandler {
+/// Where documents start. Refuses aliases that what reads the nodes would never, or hardly, come to
+/// the end of: an alias is the whole list or mapping again.
+class Survey : public YAML::EventHandler {
  public:
-  std::vector<YAML::Mark> marks;
+  using Refuse = std::function<void(const YAML::Mark&, const std::string& message)>;
 
-  void OnDocumentStart(const YAML::Mark& mark) override { marks.push_back(mark); }
+  explicit Survey(Refuse refuse) : refuse_(std::move(refuse)) {}
+
+  std::vector<YAML::Mark> starts;
+
+  void OnDocumentStart(const YAML::Mark& mark) override { starts.push_back(mark); }
   void OnDocumentEnd() override {}
-  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
-  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
-  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t,
+  void OnNull(const YAML::Mark&, YAML::anchor_t anchor) override { leaf(anchor); }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    const std::size_t nodes = nodes_[anchor];
+    if (nodes == 0) refuse_(mark, "this alias is part of what it stands for");
+    if ((aliased_ += nodes) > kMostAliased)
+      refuse_(mark, "the aliases up to here stand for more than " + std::to_string(kMostAliased) +
+                        " values");
+    open_.back().nodes += nodes;
+  }
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t anchor,
                 const std::string&) override {
     check_stop();
+    leaf(anchor);
   }
-  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
-                       YAML::EmitterStyle::value) override {}
-  void OnSequenceEnd() override {}
-  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
-                  YAML::EmitterStyle::value) override {}
-  void OnMapEnd() override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t anchor,
+                       YAML::EmitterStyle::value) override {
+    open_.push_back({anchor});
+  }
+  void OnSequenceEnd() override { close(); }
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t anchor,
+                  YAML::EmitterStyle::value) override {
+    open_.push_back({anchor});
+  }
+  void OnMapEnd() override { close(); }
+
+ private:
+  struct Open {
+    YAML::anchor_t anchor = 0;
+    std::size_t nodes = 1;  ///< with those of aliases, so far
+  };
+
+  void leaf(YAML::anchor_t anchor) {
+    open_.push_back({anchor});
+    close();
+  }
+  void close() {
+    const Open node = open_.back();
+    open_.pop_back();
+    if (node.anchor != 0) nodes_[node.anchor] = node.nodes;
+    open_.back().nodes += node.nodes;
+  }
+
+  static constexpr std::size_t kMostAliased = 100'000;
+
+  Refuse refuse_;
+  std::vector<Open> open_ = {{}};                ///< the first holds the documents
+  std::map<YAML::anchor_t, std::size_t> nodes_;  ///< 0 of what is still open
+  std::size_t aliased_ = 0;
 };
 
 /// Walks along the text of a file, counting lines and characters.
@@ -176,12 +219,14 @@ YAML::Node YamlFile::add(std::string text, const std::string& file, const std::s
   // So its marks are those in the text of all.
   text.insert(0, first_line, '\n');
   // YAML::LoadAll never ends on some broken files, so at most two documents are inspected.
-  DocumentStarts starts;
+  Survey survey([&](const YAML::Mark& mark, const std::string& message) {
+    throw InputError(place(mark), "YAML: " + message);
+  });
   YAML::Node root;
   try {
     std::istringstream stream(text);
     YAML::Parser parser(stream);
-    while (starts.marks.size() < 2 && parser.HandleNextDocument(starts)) {
+    while (survey.starts.size() < 2 && parser.HandleNextDocument(survey)) {
     }
     root.reset(YAML::Load(text));
   } catch (const YAML::DeepRecursion& error) {
@@ -193,9 +238,9 @@ YAML::Node YamlFile::add(std::string text, const std::string& file, const std::s
         explained(text, {line, static_cast<std::size_t>(error.mark.column), error.msg});
     throw InputError(place(offset(cause.line, cause.column)), cause.message);
   }
-  if (starts.marks.size() > 1)
-    throw InputError(place(starts.marks[1]), "expected one YAML document, found a second one");
-  if (starts.marks.empty() || root.IsNull())
+  if (survey.starts.size() > 1)
+    throw InputError(place(survey.starts[1]), "expected one YAML document, found a second one");
+  if (survey.starts.empty() || root.IsNull())
     throw InputError({file}, "the file is empty; expected a mapping such as 'problem: NAME'");
   return root;
 }

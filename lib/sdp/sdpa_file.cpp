@@ -41,8 +41,9 @@ class Scanner {
   void next_line() {
     check_stop();
     const std::size_t end = text_.find('\n', position_);
-    position_ = end == std::string_view::npos ? text_.size() : end + 1;
-    line_start_ = position_;
+    position_ = std::min(end, text_.size());
+    if (at_end()) return;
+    line_start_ = ++position_;
     ++line_;
   }
 

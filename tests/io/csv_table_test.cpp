@@ -65,7 +65,11 @@ TEST(CsvTable, SaysWhereWhatIsWrongStands) {
         Case{"t,u\n1,2\n3\n", 3, 1, "the row has 1 cells, the first line 2"},
         Case{"t,u\n\n1,2,3\n", 3, 1, "the row has 3 cells"},
         Case{"t,u\n1,\"2\n", 2, 3, "not closed"},
-        Case{"t,u\n1,\"2\"x\n", 2, 6, "after a quoted cell"}}) {
+        Case{"t,u\n1,\"2\"x\n", 2, 6, "after a quoted cell"},
+        Case{"\n\n0,1\n1,2\n", 3, 1, "expected a line of column names"},
+        Case{"\nt,u,t\n1,2,3\n", 2, 5, "two columns 't'"},
+        Case{"t,\"a\nb\",t\n1,2,3\n", 2, 4, "two columns 't'"},
+        Case{"t,\"a\nb\"x\n", 2, 3, "after a quoted cell"}}) {
     const InputError error = input_error([&] { table(one.text); });
     EXPECT_EQ(error.place(), (Place{"log.csv", one.line, one.column})) << one.text;
     EXPECT_NE(error.message().find(one.message), std::string::npos) << error.message();

@@ -127,13 +127,22 @@ TEST(ParseJson, MistakesAreShownWhereTheyAre) {
   expect("{\"a\": 1}\n}", 2, 1, "syntax error");
   expect("{\n\"a\": 1e999}", 2, 6, "1e999 is beyond the range of double");
   expect("{\"a\": 1", 1, 8, "unexpected end of input");
+  expect("[0e-2000, 1,\n -1.5e-2147483648]", 2, 2,
+         "-1.5e-2147483648 is beyond the range of double");
+  expect("1e-2000", 1, 1, "1e-2000 is beyond the range of double");
   expect("{\"1e999\": [2,\n 1e999 ]}", 2, 2, "the number 1e999 is beyond the range of double");
 }
 
 TEST(ParseJson, DeepNestingDoesNotExhaustTheStack) {
-  const std::string open(100000, '[');
-  input_error([&] { parse_json(open, "f"); });
-  EXPECT_TRUE(parse_json(open + std::string(100000, ']'), "f").is_array());
+  const auto nested = [](std::size_t depth) {
+    return std::string(depth, '[') + std::string(depth, ']');
+  };
+  EXPECT_TRUE(parse_json(nested(500), "f").is_array());
+  for (const std::size_t depth : {501UL, 100'000UL}) {
+    const InputError error = input_error([&] { parse_json(nested(depth), "f"); });
+    EXPECT_EQ(error.place(), (Place{"f", 1, 501})) << depth;
+    EXPECT_NE(error.message().find("nested too deeply"), std::string::npos) << error.message();
+  }
 }
 
 }  // namespace

@@ -1,8 +1,10 @@
 #include "io/yaml.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "expr/compile.h"
@@ -87,6 +89,41 @@ TEST(Scalar, PropertiesAndAliasesPointToTheText) {
   const YamlFile file("a: &x u*v\nb: *x\n", "f");
   YamlMap map(file, file.root(), "m");
   EXPECT_EQ(file.scalar(map.require("b").value, "b").place(2), (Place{"f", 1, 9}));
+}
+
+/// Ten rows, each of ten aliases of the row before.
+std::string bomb(int rows) {
+  std::string text = "r0: &r0 [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]\n";
+  for (int k = 1; k < rows; ++k) {
+    text += fmt::format("r{0}: &r{0} [", k);
+    for (int i = 0; i < 10; ++i) text += fmt::format("{}*r{}", i > 0 ? ", " : "", k - 1);
+    text += "]\n";
+  }
+  return text;
+}
+
+TEST(Aliases, StandForUpTo100000Values) {
+  EXPECT_NO_THROW(YamlFile(bomb(4), "f"));
+  std::string many = "r: &r [1, 2, 3]\nall: [";
+  for (int k = 0; k < 10000; ++k) many += "*r, ";
+  EXPECT_NO_THROW(YamlFile(many + "0]\n", "f"));
+  // r1 to r4 stand for 11, 111, 1111, ... values in each of their places.
+  const InputError error = input_error([] { YamlFile(bomb(12), "f"); });
+  EXPECT_EQ(error.place().line, 5);
+  EXPECT_NE(error.message().find("stand for more than 100000 values"), std::string::npos);
+}
+
+TEST(Aliases, OfWhatTheyArePartOfAreRefused) {
+  for (const auto& [text, column] : {std::pair{"a: &a [*a]", 8},
+                                     {"a: &a {b: [1, *a]}", 15},
+                                     {"a: &a {<<: *a}", 12},
+                                     {"a: &a [1, &b [*b]]", 15},
+                                     {"a: &a {b: *a}", 11}}) {
+    const InputError error = input_error([&] { YamlFile(text, "f"); });
+    EXPECT_EQ(error.place(), (Place{"f", 1, column})) << text;
+    EXPECT_NE(error.message().find("part of what it stands for"), std::string::npos) << text;
+  }
+  EXPECT_NO_THROW(YamlFile("a: &a [1]\nb: &a [2]\nc: [*a, *a]\n", "f"));
 }
 
 TEST(Scalar, ColumnsCountCharactersNotBytes) {

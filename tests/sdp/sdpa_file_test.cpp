@@ -47,6 +47,7 @@ TEST(SdpaFile, NamesThePlaceOfEveryFault) {
   EXPECT_EQ(error_of(""), "f:1:1: expected the number of variables, found the end of the file");
   EXPECT_EQ(error_of("x\n"), "f:1:1: expected the number of variables, found 'x'");
   EXPECT_EQ(error_of("1\n1\n2\n"), "f:4:1: expected a cost, found the end of the file");
+  EXPECT_EQ(error_of("1\n1\n2"), "f:3:2: expected a cost, found the end of the file");
   EXPECT_EQ(error_of("1.5\n"), "f:1:1: the number of variables must be a whole number, not '1.5'");
   EXPECT_EQ(error_of("1\n1\n0\n1\n"), "f:3:1: a block has no rows");
   EXPECT_EQ(error_of("1\n1\n2\nnan\n"), "f:4:1: a cost is not finite");
