@@ -312,6 +312,97 @@ TEST_F(MatBytes, NoCutLeadsAstray) {
             std::string::npos);
 }
 
+/// A file of version 5 with one variable A, whose parts are given.
+class Version5 {
+ public:
+  explicit Version5(bool big_endian) : big_endian_(big_endian) {}
+
+  std::string part(std::uint32_t type, const std::string& bytes) const {
+    return word(type, 4) + word(static_cast<std::uint32_t>(bytes.size()), 4) + bytes +
+           std::string((8 - bytes.size() % 8) % 8, '\0');
+  }
+  /// Up to four bytes within their tag.
+  std::string small_part(std::uint32_t type, std::string bytes) const {
+    const auto size = static_cast<std::uint32_t>(bytes.size());
+    bytes.resize(4);
+    return word(size << 16U | type, 4) + bytes;
+  }
+  std::string words(const std::vector<std::uint64_t>& values, unsigned width) const {
+    std::string result;
+    for (const std::uint64_t value : values) result += word(value, width);
+    return result;
+  }
+  std::string doubles(const std::vector<double>& values) const {
+    std::string result;
+    for (const double value : values) result += word(std::bit_cast<std::uint64_t>(value), 8);
+    return result;
+  }
+  std::string file(std::uint32_t kind, std::uint32_t rows, std::uint32_t cols,
+                   const std::string& data) const {
+    const std::string variable = part(6, word(kind, 4) + word(0, 4)) +
+                                 part(5, word(rows, 4) + word(cols, 4)) + small_part(1, "A") + data;
+    return std::string(124, ' ') + word(0x0100, 2) + (big_endian_ ? "MI" : "IM") +
+           part(14, variable);
+  }
+
+ private:
+  std::string word(std::uint64_t value, unsigned width) const {
+    std::string bytes;
+    for (unsigned k = 0; k < width; ++k) bytes += static_cast<char>(value >> 8 * k);
+    return big_endian_ ? std::string(bytes.rbegin(), bytes.rend()) : bytes;
+  }
+
+  bool big_endian_;
+};
+
+Texts elements_of(const std::string& bytes) {
+  return mat_matrix(bytes, "f.mat", "A", kHere).matrix.elements;
+}
+
+constexpr std::uint32_t kSparse = 5, kDouble = 6, kInt16 = 10;                     // classes
+constexpr std::uint32_t kByte = 2, kShort = 3, kWord = 5, kEight = 9, kLong = 13;  // types
+
+TEST(MatVersion5, ReadsBothOrdersOfBytes) {
+  for (const bool big_endian : {false, true}) {
+    const Version5 v(big_endian);
+    EXPECT_EQ(elements_of(v.file(kDouble, 2, 2, v.part(kEight, v.doubles({0.2, 1, -1.01, 0})))),
+              (Texts{"0.2", "-1.01", "1", "0"}));
+    // MATLAB writes whole numbers in as few bytes as they need.
+    EXPECT_EQ(elements_of(v.file(kDouble, 1, 3, v.small_part(kByte, "\x01\x02\xFF"))),
+              (Texts{"1", "2", "255"}));
+    EXPECT_EQ(elements_of(v.file(kInt16, 1, 2, v.small_part(kShort, v.words({0xFFFB, 7}, 2)))),
+              (Texts{"-5", "7"}));
+    EXPECT_EQ(elements_of(v.file(kSparse, 2, 2,
+                                 v.part(kWord, v.words({0, 1, 0}, 4)) +
+                                     v.part(kWord, v.words({0, 2, 3}, 4)) +
+                                     v.part(kEight, v.doubles({1, 2.5, -3})))),
+              (Texts{"1", "-3", "2.5", "0"}));
+  }
+}
+
+TEST(MatVersion5, RefusesNumbersThatAreNoneOfItsMatrix) {
+  const Version5 v(false);
+  const std::string four = v.doubles({1, 2, 3, 4});
+  const auto sparse = [&](const std::vector<std::uint64_t>& rows,
+                          const std::vector<std::uint64_t>& columns) {
+    return v.file(kSparse, 2, 2,
+                  v.part(kWord, v.words(rows, 4)) + v.part(kWord, v.words(columns, 4)) +
+                      v.part(kEight, v.doubles({1, 2.5, -3})));
+  };
+  for (const std::string& bytes :
+       {v.file(kDouble, 2, 2, v.part(0, four)), v.file(kDouble, 2, 2, v.part(kLong, four)),
+        v.file(kDouble, 2, 2, v.part(kWord, four)), v.file(kDouble, 2, 3, v.part(kEight, four)),
+        v.file(kDouble, 1, 3, v.part(kEight, four)), v.file(kInt16, 2, 2, v.part(kEight, four)),
+        sparse({0, 2, 0}, {0, 2, 3}), sparse({1, 0, 0}, {0, 2, 3}), sparse({0, 0, 0}, {0, 2, 3}),
+        sparse({0, 1, 0}, {0, 9, 3}), sparse({0, 1, 0}, {0, 2, 4}), sparse({0, 1, 0}, {1, 2, 3}),
+        sparse({0, 1, 0}, {0, 2}), sparse({0, 1}, {0, 2, 3})}) {
+    const InputError error = input_error([&] { elements_of(bytes); });
+    EXPECT_EQ(error.place(), kHere);
+    EXPECT_NE(error.message().find("f.mat: A: the file is damaged"), std::string::npos)
+        << error.message();
+  }
+}
+
 TEST_F(MatBytes, RefusesManyElementsByTheirSizeAlone) {
   std::string bytes = read_text(data("plant-v6.mat"));
   // The variables are followed by their flags, dimensions and names; the third one is T1.

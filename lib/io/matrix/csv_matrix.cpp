@@ -18,7 +18,7 @@ namespace {
 
 /// Before cells are made of them: each element but the last has a comma or a line end behind it.
 void check_count(const std::string& text, const std::string& path) {
-  for (const char mark : {',', '\n'})
+  for (const char mark : {',', '\n', '\r'})
     if (std::count(text.begin(), text.end(), mark) > kMostElements)
       throw InputError({path}, "the file has more than the " + std::to_string(kMostElements) +
                                    " elements that a matrix may have");

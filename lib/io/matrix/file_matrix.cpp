@@ -1,5 +1,6 @@
 #include "io/matrix/file_matrix.h"
 
+#include <bit>
 #include <cctype>
 #include <cmath>
 
@@ -36,6 +37,30 @@ void add_element(double value, const std::string& what, const Place& place,
                                 "; the elements of a matrix are finite numbers");
   }
   matrix.elements.push_back(model::printed(value));
+}
+
+std::uint64_t word_of(std::string_view bytes, bool big_endian) {
+  std::uint64_t result = 0;
+  for (std::size_t k = 0; k < bytes.size(); ++k) {
+    const std::size_t at = big_endian ? k : bytes.size() - 1 - k;
+    result = result << 8U | static_cast<unsigned char>(bytes[at]);
+  }
+  return result;
+}
+
+void add_stored(char kind, std::string_view bytes, bool big_endian, const std::string& what,
+                const Place& place, model::StatedMatrix& matrix) {
+  const std::uint64_t word = word_of(bytes, big_endian);
+  if (kind == 'f') {
+    const double value = bytes.size() == 4
+                             ? double{std::bit_cast<float>(static_cast<std::uint32_t>(word))}
+                             : std::bit_cast<double>(word);
+    return add_element(value, what, place, matrix);
+  }
+  const auto unused = static_cast<unsigned>(64 - 8 * bytes.size());
+  matrix.elements.push_back(
+      kind == 'i' ? std::to_string(static_cast<std::int64_t>(word << unused) >> unused)
+                  : std::to_string(word));
 }
 
 std::string spelt_as_json(const std::string& text) {

@@ -1,7 +1,9 @@
 // Matrices of files: what the readers of all formats give, and what they refuse alike.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/error.h"
@@ -27,6 +29,14 @@ model::StatedMatrix sized_matrix(double rows, double cols, const std::string& wh
 /// finite; `what` names the matrix, of which it is the next element.
 void add_element(double value, const std::string& what, const Place& place,
                  model::StatedMatrix& matrix);
+
+/// Up to 8 bytes as a whole number.
+std::uint64_t word_of(std::string_view bytes, bool big_endian);
+
+/// Adds the element that `bytes` store: `kind` f, a number of IEEE 754 of 4 or 8 bytes, as add_element does; i and u, a
+/// whole number with a sign and without.
+void add_stored(char kind, std::string_view bytes, bool big_endian, const std::string& what,
+                const Place& place, model::StatedMatrix& matrix);
 
 /// Elements of `text` as JSON spells numbers: "+.5" is 0.5. The text is a finite decimal.
 std::string spelt_as_json(const std::string& text);

@@ -1,4 +1,4 @@
-// Internal to io: what kind of MAT file some bytes are, and whether they are all there.
+// Internal to io: what kind of MAT file some bytes are.
 #pragma once
 
 #include <string>
@@ -7,8 +7,12 @@
 
 namespace gainsmith::io {
 
-/// InputError at `place` unless the bytes begin like a MAT file of version 5 or 7.3, and, of version 5, when it
-/// ends within a variable or holds what is none.
-void check_mat_layout(const std::string& bytes, const std::string& path, const Place& place);
+struct MatLayout {
+  bool hdf5 = false;  ///< version 7.3; otherwise 5
+  bool big_endian = false;
+};
+
+/// InputError at `place` unless the bytes begin like a MAT file of version 5 or 7.3.
+MatLayout mat_layout(const std::string& bytes, const std::string& path, const Place& place);
 
 }  // namespace gainsmith::io

@@ -1,11 +1,7 @@
 #include "io/matrix/npy_matrix.h"
 
 #include <algorithm>
-#include <bit>
 #include <cctype>
-#include <cstdint>
-#include <cstring>
-#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -35,7 +31,6 @@ class NpyReader {
     const double cols = layout.shape.empty() ? 1 : layout.shape.back();
     model::StatedMatrix matrix = sized_matrix(rows, cols, what_, place_);
     matrix.flat = list;
-    const char kind = layout.type[1];
     const std::size_t width = width_of(layout.type);
     const auto elements = static_cast<std::size_t>(rows * cols);
     const std::size_t there = bytes_.size() - layout.data;
@@ -49,7 +44,8 @@ class NpyReader {
     for (std::size_t i = 0; i < height; ++i)
       for (std::size_t j = 0; j < breadth; ++j) {
         const std::size_t at = layout.by_columns ? j * height + i : i * breadth + j;
-        add(word(layout.data + at * width, width, layout.type[0]), kind, width, matrix);
+        add_stored(layout.type[1], std::string_view(bytes_).substr(layout.data + at * width, width),
+                   layout.type[0] == '>', what_, place_, matrix);
       }
     return {matrix};
   }
@@ -69,7 +65,8 @@ class NpyReader {
       refuse("version " + std::to_string(version) + " of .npy files is not known; expected 1 to 3");
     const std::size_t count = version == 1 ? 2 : 4;
     const std::size_t begin = kMagic.size() + 2 + count;
-    const auto length = static_cast<std::size_t>(word(begin - count, count, '<'));
+    const auto length = static_cast<std::size_t>(
+        word_of(std::string_view(bytes_).substr(begin - count, count), false));
     if (bytes_.size() - begin < length) refuse("the file is cut off in its header");
     const std::string text = bytes_.substr(begin, length);
     Layout layout;
@@ -130,31 +127,6 @@ class NpyReader {
       refuse("the array has " + std::to_string(shape.size()) +
              " dimensions; a matrix has two: save one A[k] of it");
     return shape;
-  }
-
-  /// `width` bytes as a whole number; '>': the most significant one comes first.
-  std::uint64_t word(std::size_t at, std::size_t width, char order) const {
-    std::uint64_t result = 0;
-    for (std::size_t k = 0; k < width; ++k) {
-      const std::size_t byte = order == '>' ? at + k : at + width - 1 - k;
-      result = result << 8U | static_cast<unsigned char>(bytes_[byte]);
-    }
-    return result;
-  }
-
-  void add(std::uint64_t word, char kind, std::size_t width, model::StatedMatrix& matrix) const {
-    if (kind == 'f') {
-      const double value = width == 4
-                               ? double{std::bit_cast<float>(static_cast<std::uint32_t>(word))}
-                               : std::bit_cast<double>(word);
-      return add_element(value, what_, place_, matrix);
-    }
-    if (kind != 'i') {
-      matrix.elements.push_back(std::to_string(word));
-      return;
-    }
-    const auto unused = static_cast<unsigned>(64 - 8 * width);
-    matrix.elements.push_back(std::to_string(static_cast<std::int64_t>(word << unused) >> unused));
   }
 
   const std::string& bytes_;

@@ -1,0 +1,134 @@
+#include "io/matrix/mat_v5.h"
+
+#include <matio.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "io/matrix/file_matrix.h"
+#include "io/matrix/mat_variable.h"
+
+namespace gainsmith::io {
+
+namespace {
+
+constexpr std::size_t kTag = 8;  ///< a type and a length
+
+/// Reads a variable part by part.
+class PartReader {
+ public:
+  PartReader(std::string_view bytes, bool big_endian) : rest_(bytes), big_endian_(big_endian) {}
+
+  /// Whether all parts were there so far, with the types that they must have.
+  bool is_whole() const { return whole_; }
+
+  std::uint32_t word(std::string_view bytes, std::size_t at = 0) const {
+    if (at + 4 > bytes.size()) return 0;
+    return static_cast<std::uint32_t>(word_of(bytes.substr(at, 4), big_endian_));
+  }
+
+  MatNumbers next() {
+    // Up to four bytes stand in the tag itself, which has their number in the upper half of the type.
+    const std::uint32_t first = word(rest_), few = first >> 16U;
+    const std::size_t size = few > 0 ? few : word(rest_, 4), begin = few > 0 ? 4 : kTag;
+    whole_ = whole_ && rest_.size() >= kTag && few <= 4 && size <= rest_.size() - begin;
+    if (!whole_) return {};
+    const MatNumbers part{static_cast<int>(first & 0xFFFFU), rest_.substr(begin, size),
+                          big_endian_};
+    rest_.remove_prefix(std::min((begin + size + 7) / 8 * 8, rest_.size()));
+    return part;
+  }
+
+  /// All but the numbers.
+  MatVariable header() {
+    MatVariable result;
+    const MatNumbers flags = next();
+    result.kind = static_cast<int>(word(flags.bytes) & 0xFFU);
+    result.complex = (word(flags.bytes) & 0x800U) != 0;
+    whole_ = whole_ && flags.type == MAT_T_UINT32;
+    if (result.kind == MAT_C_OPAQUE) return result;
+    const MatNumbers dimensions = next(), name = next();
+    for (std::size_t at = 0; at < dimensions.bytes.size(); at += 4)
+      result.dimensions.push_back(word(dimensions.bytes, at));
+    result.name = name.bytes;
+    whole_ = whole_ && dimensions.type == MAT_T_INT32 &&
+             (name.type == MAT_T_INT8 || name.type == MAT_T_UINT8);
+    return result;
+  }
+
+ private:
+  std::string_view rest_;
+  bool big_endian_;
+  bool whole_ = true;
+};
+
+}  // namespace
+
+model::StatedMatrix matrix_of_v5(std::string_view bytes, bool big_endian, const std::string& path,
+                                 const std::string& name, const Place& place,
+                                 const Inflate& inflate) {
+  constexpr std::size_t kFileHeader = 128, kLongestHeader = 4096;
+  // Of a full matrix 8 bytes an element, of a sparse one a row besides; a header.
+  constexpr std::size_t kLongest = std::size_t{16} * kMostElements;
+  const auto refuse = [&](const std::string& why) {
+    throw InputError(place, path + ": the file is " + why);
+  };
+  struct Stored {
+    std::string_view bytes;
+    bool compressed = false;
+  };
+  std::vector<Stored> stored;
+  std::vector<MatVariable> found;
+  int count = 0;
+  for (std::string_view rest = bytes.substr(kFileHeader); !rest.empty();) {
+    const std::string variable = "variable " + std::to_string(++count);
+    const PartReader tag(rest, big_endian);
+    if (rest.size() < kTag) refuse("cut off at the beginning of " + variable);
+    const std::uint32_t type = tag.word(rest), length = tag.word(rest, 4);
+    rest.remove_prefix(kTag);
+    if (type != MAT_T_MATRIX && type != MAT_T_COMPRESSED)
+      refuse("damaged: " + variable + " is of no known kind");
+    if (rest.size() < length)
+      refuse("cut off within " + variable + ": " + std::to_string(rest.size()) + " of its " +
+             std::to_string(length) + " bytes are there");
+    const bool compressed = type == MAT_T_COMPRESSED;
+    const std::string text =
+        compressed ? inflate(rest.substr(0, length), kLongestHeader) : std::string();
+    if (compressed && (text.size() < kTag || tag.word(text) != MAT_T_MATRIX))
+      refuse("damaged: " + variable + " cannot be decompressed");
+    PartReader parts(compressed ? std::string_view(text).substr(kTag) : rest.substr(0, length),
+                     big_endian);
+    MatVariable header = parts.header();
+    if (!parts.is_whole()) refuse("damaged: " + variable + " begins with no header");
+    // MATLAB writes what classes of its own need without a name.
+    if (!header.name.empty()) {
+      stored.push_back({rest.substr(0, length), compressed});
+      found.push_back(std::move(header));
+    }
+    rest.remove_prefix(length);
+  }
+  std::string text;
+  return matrix_of_variable(found, name, path, place, [&](std::size_t index) {
+    std::string_view body = stored[index].bytes;
+    if (stored[index].compressed) {
+      const std::string tag = inflate(body, kTag);
+      const std::size_t length = kTag + PartReader(tag, big_endian).word(tag, 4);
+      if (length <= kLongest) text = inflate(body, length + 1);
+      if (text.size() != length)
+        refuse("damaged: " + found[index].name + " cannot be decompressed");
+      body = std::string_view(text).substr(kTag);
+    }
+    PartReader parts(body, big_endian);
+    MatVariable variable = parts.header();
+    if (variable.kind == MAT_C_SPARSE) {
+      variable.rows = parts.next();
+      variable.columns = parts.next();
+    }
+    variable.values = parts.next();
+    return variable;
+  });
+}
+
+}  // namespace gainsmith::io
