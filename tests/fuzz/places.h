@@ -1,8 +1,7 @@
 // The place of an error must lie in the text that was read.
 #pragma once
 
-#include <cstdio>
-#include <cstdlib>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -17,13 +16,12 @@ inline int code_points(std::string_view text) {
   return count;
 }
 
-/// Stops the process, which the fuzzer takes for a crash, unless the error has a message and its
-/// place is known and inside `text`; one column behind the end of a line is inside. Places in
-/// other files than `file` are not looked at.
+/// std::logic_error, which a fuzzer takes for a crash, unless the error has a message and its place is
+/// known and inside `text`; one column behind the end of a line is inside. Places in other files than
+/// `file` are not looked at.
 inline void require_place(const InputError& error, const std::string& file, std::string_view text) {
   const auto stop = [&](const char* what) {
-    std::fprintf(stderr, "%s: %s\n", what, error.what());
-    std::abort();
+    throw std::logic_error(std::string(what) + ": " + error.what());
   };
   if (error.message().empty()) stop("an error without a message");
   const Place& place = error.place();

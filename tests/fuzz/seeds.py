@@ -3,8 +3,7 @@
 
     seeds.py TREE FOLDER
 
-FOLDER/TARGET.seeds holds one file a seed, FOLDER/TARGET.dict the words that are worth trying, for the targets
-language_fuzz, yaml_fuzz and sdpa_fuzz.
+FOLDER/TARGET.seeds holds one file a seed, FOLDER/TARGET.dict the words that are worth trying, for each target.
 """
 import glob
 import hashlib
@@ -15,6 +14,9 @@ import sys
 # What a formula is made of: a scalar of YAML that holds none of these is no formula.
 FORMULA = re.compile(r"[*+'<>()\[\]^]|\b\d")
 SMALL_SDP = '"a comment\n2 = m\n2 = blocks\n2 -1\n1.0, 1.0\n0 1 1 2 -1.0\n1 1 1 1 1.0\n2 1 2 2 1e0\n2 2 1 1 1\n'
+CSVS = ['t,y,"z, 1"\r\n0,1.5,-2\r\n0.1,,3e-3\r\n', "0.2, -1.01\n1,0\n"]
+JSONS = ['{"A": [[1, -2.5e-3], [3, 0.1]], "gains": {"L": [1, 2]}}\n', "[1.5, -2, 3e5]"]
+NPYS = [b"\x93NUMPY\x01\x00v\x00" + b"{'descr': '<f8', 'fortran_order': False, 'shape': (2, 1), }".ljust(117) + b"\n" + bytes(range(16))]
 OPERATORS = ["<=", ">=", "<", ">", "+", "-", "*", "/", "^", "'", ",", ";", ":", "(", ")", "[", "]", "*,", "; *", "1e308",
              "1e-320", "pi", "I", "0", "^-1", ":)"]
 NAMES = ["A", "C", "T2", "tol", "P", "L", "g", "tau", "Q", "mu(", "f(", "n", "p"]
@@ -30,9 +32,9 @@ def read(path):
 def write_seeds(folder, seeds):
     os.makedirs(folder, exist_ok=True)
     for seed in seeds:
-        name = hashlib.sha256(seed.encode()).hexdigest()[:16]
-        with open(os.path.join(folder, name), "w", encoding="utf-8", newline="") as file:
-            file.write(seed)
+        content = seed if isinstance(seed, bytes) else seed.encode()
+        with open(os.path.join(folder, hashlib.sha256(content).hexdigest()[:16]), "wb") as file:
+            file.write(content)
 
 
 def write_dictionary(path, words):
@@ -89,10 +91,15 @@ def main():
     write_seeds(os.path.join(folder, "language_fuzz.seeds"), language)
     write_seeds(os.path.join(folder, "yaml_fuzz.seeds"), yaml)
     write_seeds(os.path.join(folder, "sdpa_fuzz.seeds"), [SMALL_SDP])
+    write_seeds(os.path.join(folder, "csv_fuzz.seeds"), CSVS)
+    write_seeds(os.path.join(folder, "json_fuzz.seeds"), JSONS)
+    write_seeds(os.path.join(folder, "npy_fuzz.seeds"), NPYS)
+    write_seeds(os.path.join(folder, "mat_fuzz.seeds"),
+                [open(path, "rb").read() for path in sorted(glob.glob(os.path.join(tree, "tests/data/*.mat")))])
 
-    functions = re.findall(r'^    \{\w+, "(\w+)", ', read(os.path.join(tree, "lib/expr/functions.cpp")), re.M)
+    functions = re.findall(r'^FUNCTION\([^"]*"(\w+)"', read(os.path.join(tree, "lib/expr/operations.def")), re.M)
     if not functions:
-        sys.exit("seeds: no functions in lib/expr/functions.cpp")
+        sys.exit("seeds: no functions in lib/expr/operations.def")
     keys = set()
     for text in yaml:
         keys.update(re.findall(r"(?:^|[{,\s])([A-Za-z_]\w*):", without_comments(text)))
@@ -100,6 +107,8 @@ def main():
     write_dictionary(os.path.join(folder, "language_fuzz.dict"), words)
     write_dictionary(os.path.join(folder, "yaml_fuzz.dict"),
                      words + YAML_WORDS + [key + ": " for key in keys] + ["symmetric n", "n x n", "scalar", "yes", "held"])
+    for target in ("csv", "json", "mat", "npy"):
+        write_dictionary(os.path.join(folder, target + "_fuzz.dict"), ["1e308", "\n", ",", "\"", "[", "]", "{", "}", "A", "'shape': "])
     write_dictionary(os.path.join(folder, "sdpa_fuzz.dict"), ["{", "}", "(", ")", ",", "-1", "1e308", "\n", "*", "\"", "+"])
 
 

@@ -1,10 +1,8 @@
-// libFuzzer target: whatever the bytes, the matrix language gives a value or an InputError at a
-// place inside the text.
+// The matrix language gives a value or an InputError at a place inside the text.
 //
 // The last line is an expression. Each line before it is a definition, "name(a, b): expression",
 // that the expression may use, beside the names of world().
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -14,6 +12,7 @@
 #include "expr/compile.h"
 #include "expr/parser.h"
 #include "fuzz/places.h"
+#include "fuzz/readers.h"
 #include "numbers/real.h"
 
 namespace gainsmith::expr {
@@ -93,12 +92,12 @@ void run(const std::string_view whole) {
 }  // namespace
 }  // namespace gainsmith::expr
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const std::string_view text(reinterpret_cast<const char*>(data), size);
+bool gainsmith::fuzz::read_language(std::string_view bytes) {
   try {
-    gainsmith::expr::run(text);
-  } catch (const gainsmith::InputError& error) {
-    gainsmith::require_place(error, gainsmith::expr::kFile, text);
+    expr::run(bytes);
+    return true;
+  } catch (const InputError& error) {
+    require_place(error, expr::kFile, bytes);
+    return false;
   }
-  return 0;
 }

@@ -1,16 +1,16 @@
-// libFuzzer target: whatever the bytes, a problem and its method are read and bound, or refused
-// with an InputError at a place inside the text.
+// A problem and its method are read and bound, or refused with an InputError at a place inside the
+// text.
 //
 // Behind a line "---" stands a method of the problem's own, in whatever name the problem asks for;
 // without one the methods of the program are there.
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "bind/bind.h"
 #include "fuzz/places.h"
+#include "fuzz/readers.h"
 #include "io/problem_yaml.h"
 #include "methods/methods.h"
 
@@ -44,14 +44,14 @@ void run(const Texts& texts) {
 }  // namespace
 }  // namespace gainsmith::io
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace gainsmith;
-  const io::Texts texts = io::split({reinterpret_cast<const char*>(data), size});
+bool gainsmith::fuzz::read_yaml(std::string_view bytes) {
+  const io::Texts texts = io::split(bytes);
   try {
     io::run(texts);
+    return true;
   } catch (const InputError& error) {
     const bool about_the_whole_file = error.place() == Place{io::kFile};
     if (!about_the_whole_file) require_place(error, io::kFile, texts.problem);
+    return false;
   }
-  return 0;
 }
