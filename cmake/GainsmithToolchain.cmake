@@ -31,7 +31,10 @@ if(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
   set(GAINSMITH_VARIANTS OFF)
 endif()
 if(GAINSMITH_SANITIZE)
-  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  # Without the checks that each access through a pointer or a reference carries: a quarter of the time of a build. Of null
+  # pointers and objects that are gone AddressSanitizer tells; the preset fuzz keeps them.
+  add_compile_options(-fsanitize=address,undefined,float-cast-overflow -fno-sanitize=null,alignment,vptr,object-size
+                      -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined)
 endif()
 if(GAINSMITH_FUZZ)
