@@ -58,7 +58,7 @@ struct Solution {
   Cause cause = Cause::numerical_breakdown;
   std::string message;  ///< one sentence for a person, when undecided
 
-  std::vector<double> x;  ///< m; of the best point found, or the certificate's direction
+  std::vector<double> x;  ///< m; of the best point, or of the certificate; none before a point
   BlockMatrix X;          ///< sum x_i F_i - F_0 as iterated
   BlockMatrix Y;
 

@@ -85,12 +85,9 @@ class Workflow(unittest.TestCase):
         self.assertEqual(self.read("results/campaigns/t2/campaign.json"), whole)
 
     def wait_for(self, shard):
-        for _ in range(600):
-            found = processes(self.folder, shard)
-            if found:
-                return found[0]
+        while not (found := processes(self.folder, shard)):
             time.sleep(0.05)
-        self.fail("the shard does not begin")
+        return found[0]
 
     def all_kinds_of_work(self):
         self.say("20000")

@@ -1,14 +1,20 @@
 #include "end_to_end/program.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
+#include <ctime>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <thread>
 
 namespace gainsmith::tests {
 
@@ -63,6 +69,69 @@ Outcome gainsmith(const std::vector<std::string>& arguments, const std::string& 
   outcome.out = text_of(folder.path("out"));
   outcome.err = text_of(folder.path("err"));
   return outcome;
+}
+
+pid_t start(std::vector<std::string> arguments, const std::string& out, const std::string& err) {
+  arguments.insert(arguments.begin(), program());
+  std::vector<char*> words;
+  for (std::string& word : arguments) words.push_back(word.data());
+  words.push_back(nullptr);
+  const pid_t child = ::fork();
+  if (child != 0) return child;
+  const auto open = [](const std::string& name, int as) {
+    ::dup2(::open(name.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND, 0600), as);
+  };
+  open(out, STDOUT_FILENO);
+  open(err, STDERR_FILENO);
+  ::execv(words[0], words.data());
+  ::_exit(127);
+}
+
+void wait_for(pid_t child, const std::function<bool()>& when) {
+  for (siginfo_t ended{}; ended.si_pid == 0 && !when();) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    ::waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOHANG | WNOWAIT);
+  }
+}
+
+double seconds_of(pid_t child) {
+  clockid_t clock{};
+  timespec used{};
+  if (::clock_getcpuclockid(child, &clock) != 0 || ::clock_gettime(clock, &used) != 0) return 0;
+  return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
+}
+
+namespace {
+
+bool catches(pid_t child, int signal) {
+  std::ifstream status("/proc/" + std::to_string(child) + "/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with("SigCgt:"))
+      return ((std::stoull(line.substr(7), nullptr, 16) >> (signal - 1)) & 1U) != 0;
+  return false;
+}
+
+}  // namespace
+
+Interrupted interrupted(const std::vector<std::string>& arguments, double seconds, int signal,
+                        const std::function<bool()>& when) {
+  const Folder folder;
+  const pid_t child = start(arguments, folder.path("out"), folder.path("err"));
+  wait_for(child, [&] { return catches(child, signal) && seconds_of(child) >= seconds && when(); });
+  ::kill(child, signal);
+  const double before = seconds_of(child);
+  int status = 0;
+  rusage used{};
+  ::wait4(child, &status, 0, &used);
+  const auto in_seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
+  Interrupted result;
+  result.seconds = in_seconds(used.ru_utime) + in_seconds(used.ru_stime) - before;
+  result.exit = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  result.out = text_of(folder.path("out"));
+  result.err = text_of(folder.path("err"));
+  return result;
 }
 
 std::string problem(const std::string& name) {

@@ -1,7 +1,11 @@
 // Runs the built program as a person does.
 #pragma once
 
+#include <sys/types.h>
+
+#include <csignal>
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -22,6 +26,25 @@ std::string program();
 
 /// Runs gainsmith with the arguments; `input` is its standard input.
 Outcome gainsmith(const std::vector<std::string>& arguments, const std::string& input = "");
+
+/// Starts gainsmith and gives its process. Standard output and standard error go into the files `out` and `err`.
+pid_t start(std::vector<std::string> arguments, const std::string& out, const std::string& err);
+
+/// Waits until a process that was started has ended, or `when` holds. However busy the machine is: no time is a limit.
+void wait_for(pid_t child, const std::function<bool()>& when);
+
+/// The processor time that a process has used, in seconds.
+double seconds_of(pid_t child);
+
+struct Interrupted : Outcome {
+  double seconds = 0;  ///< of processor time between the signal and the end
+};
+
+/// Runs gainsmith until it has used so many seconds of processor time, and `when` holds, and gives it the signal of Ctrl-C
+/// or another one.
+Interrupted interrupted(
+    const std::vector<std::string>& arguments, double seconds = 1, int signal = SIGINT,
+    const std::function<bool()>& when = [] { return true; });
 
 /// A folder of its own for a test, empty at the start and removed at the end.
 class Folder {

@@ -172,20 +172,6 @@ TEST_F(Shards, OfOtherGainsAreRefused) {
       << outcome.err;
 }
 
-/// Starts a program and gives its process.
-pid_t start(std::vector<std::string> words, const std::string& out) {
-  words.insert(words.begin(), program());
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  const pid_t child = ::fork();
-  if (child != 0) return child;
-  for (const int file : {STDOUT_FILENO, STDERR_FILENO})
-    ::dup2(::open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), file);
-  ::execv(arguments[0], arguments.data());
-  ::_exit(127);
-}
-
 int ended(pid_t child) {
   int status = 0;
   ::waitpid(child, &status, 0);
@@ -211,8 +197,9 @@ TEST_F(Shards, ACampaignThatIsKilledGoesOn) {
   for (int k = 0; k < 10; ++k) {
     const pid_t child = start({"verify", gains_, "--runs", runs, "--resume", kept, "--threads",
                                std::to_string(1 + k % 2)},
-                              folder_.path("out"));
-    std::this_thread::sleep_for(std::chrono::milliseconds(50 + random() % 400));
+                              folder_.path("out"), folder_.path("out"));
+    const double after = 0.05 + static_cast<double>(random() % 400) / 1000;
+    wait_for(child, [&] { return seconds_of(child) >= after; });
     ::kill(child, SIGKILL);
     const int exit = ended(child);
     EXPECT_TRUE(exit == -SIGKILL || exit == 0) << exit << text_of(folder_.path("out"));
@@ -253,7 +240,8 @@ TEST_F(Shards, ACampaignUntilViolatedGoesOn) {
 
 TEST_F(Shards, ACampaignThatIsInterruptedSaysHowToGoOn) {
   const std::string kept = folder_.path("kept"), part = folder_.path("part.json");
-  const Outcome stopped = verify("1e9", {"--resume", kept, "--time", "1", "--json"});
+  const Outcome stopped =
+      interrupted({"verify", gains_, "--runs", "1e9", "--resume", kept, "--json"});
   EXPECT_EQ(stopped.exit, 3);
   EXPECT_TRUE(has(stopped.err, kept + " keeps ")) << stopped.err;
   EXPECT_TRUE(has(stopped.err, " of 1000000000 runs; the same command goes on from there"))
@@ -261,7 +249,8 @@ TEST_F(Shards, ACampaignThatIsInterruptedSaysHowToGoOn) {
   const std::uint64_t runs = stopped.json()["runs"];
   EXPECT_GT(runs, 0U);
   EXPECT_EQ(kept_runs(kept), runs);
-  const Outcome shard = verify("1e9", {"--shard", "2/2", "-o", part, "--time", "1"});
+  const Outcome shard =
+      interrupted({"verify", gains_, "--runs", "1e9", "--shard", "2/2", "-o", part});
   EXPECT_EQ(shard.exit, 3);
   EXPECT_TRUE(has(shard.err, " runs of part 2/2: it was not written")) << shard.err;
   EXPECT_FALSE(fs::exists(part));
@@ -324,10 +313,9 @@ TEST_F(Shards, AFolderOfOtherWorkIsRefused) {
 
 TEST_F(Shards, OneProgramWorksInAFolder) {
   const std::string kept = folder_.path("kept");
-  const pid_t child =
-      start({"verify", gains_, "--runs", "1e9", "--resume", kept}, folder_.path("out"));
-  for (int k = 0; k < 500 && !fs::exists(fs::path(kept) / "kept-0.json"); ++k)
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  const pid_t child = start({"verify", gains_, "--runs", "1e9", "--resume", kept},
+                            folder_.path("out"), folder_.path("out"));
+  wait_for(child, [&] { return fs::exists(fs::path(kept) / "kept-0.json"); });
   const Outcome second = verify("1e9", {"--resume", kept});
   EXPECT_EQ(second.exit, 2);
   EXPECT_TRUE(has(second.err, kept + ": another gainsmith works in this folder (process " +
@@ -365,12 +353,15 @@ TEST_F(Shards, AFullOrReadOnlyDiskIsSaid) {
   const std::string path = folder_.path("disk"), kept = path + "/kept";
   const SmallDisk disk(path, "size=64k");
   if (!disk.is_there()) GTEST_SKIP() << "this process may not mount a disk";
-  verify("1e9", {"--resume", kept, "--time", "0.6"});
+  const auto some = [&] {
+    return interrupted({"verify", gains_, "--runs", "1e9", "--resume", kept}, 0.6);
+  };
+  some();
   const std::uint64_t before = kept_runs(kept);
   EXPECT_GT(before, 0U);
   const std::string fill = path + "/fill";
   std::ofstream(fill) << std::string(1 << 20, 'x');
-  const Outcome full = verify("1e9", {"--resume", kept, "--time", "0.6"});
+  const Outcome full = some();
   EXPECT_EQ(full.exit, 2);
   EXPECT_TRUE(has(full.err,
                   "No space left on device; what was kept before is whole, and the same "
@@ -378,10 +369,10 @@ TEST_F(Shards, AFullOrReadOnlyDiskIsSaid) {
       << full.err;
   fs::remove(fill);
   EXPECT_EQ(kept_runs(kept), before);
-  EXPECT_EQ(verify("1e9", {"--resume", kept, "--time", "0.6"}).exit, 3);
+  EXPECT_EQ(some().exit, 3);
   EXPECT_GT(kept_runs(kept), before);
   ASSERT_TRUE(disk.make_read_only());
-  const Outcome closed = verify("1e9", {"--resume", kept, "--time", "0.6"});
+  const Outcome closed = some();
   EXPECT_EQ(closed.exit, 2);
   EXPECT_TRUE(has(closed.err, kept + ": cannot write here: Read-only file system")) << closed.err;
 }
