@@ -25,6 +25,13 @@ volatile std::sig_atomic_t interrupted_at = 0;  // seconds
 volatile std::sig_atomic_t out_of_time = 0;
 volatile std::sig_atomic_t telling_now = 0;
 double patience_seconds = 0;
+double used_at_stop = 0, used_last = 0;  // processor time, in seconds
+
+double processor_seconds() {
+  timespec used{};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);
+  return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
+}
 
 std::sig_atomic_t seconds_now() {
   timespec now{};
@@ -44,11 +51,22 @@ void set_timer(double seconds) {
   ::setitimer(ITIMER_REAL, &timer, nullptr);
 }
 
+constexpr double kToBegin = 0.9;  ///< seconds
+
 /// What is known must be told from now on.
 void stop() {
-  constexpr double kToBegin = 0.9;
   request_stop();
+  used_at_stop = used_last = processor_seconds();
   set_timer(kToBegin);
+}
+
+/// On a busy machine a process that works may not have had its time yet. One that waits, for a file, uses none.
+bool has_had_its_time() {
+  constexpr double kNothing = 0.01;
+  const double used = processor_seconds();
+  const bool waits = used - used_last < kNothing;
+  used_last = used;
+  return waits || used - used_at_stop >= kToBegin;
 }
 
 /// One that follows within two seconds is the first again: timeout(1) and schedulers signal a
@@ -71,6 +89,7 @@ void on_timer(int) {
     return stop();
   }
   if (telling_now != 0) return;
+  if (!has_had_its_time()) return set_timer(kToBegin);
   constexpr char kText[] = "gainsmith: stopped, before anything was known\n";
   static_cast<void>(!::write(STDERR_FILENO, kText, sizeof kText - 1));
   ::_exit(static_cast<int>(ExitCode::undecided));

@@ -30,7 +30,7 @@ struct Patience {
 };
 
 /// From now on Ctrl-C, SIGTERM, or the end of the patience, requests a stop (base/stop.h). Where the command
-/// does not begin to tell what is known within a second, the program ends with exit code 3. One
+/// does not begin to tell what is known within a second of processor time, the program ends with exit code 3. One
 /// more Ctrl-C after some seconds ends it too.
 void begin_work(const Patience& patience);
 
