@@ -9,6 +9,8 @@
 #include <random>
 #include <string>
 
+#include "base/known_digits.h"
+
 namespace gainsmith {
 namespace {
 
@@ -125,6 +127,32 @@ TEST(ParseDecimal, RoundsToTheNearestDouble) {
   // 2^53 + 1 lies between two doubles and goes to the even one.
   EXPECT_EQ(parse_decimal("9007199254740993"), 9007199254740992.0);
   EXPECT_EQ(parse_decimal("9007199254740993.0000000000000000001"), 9007199254740994.0);
+}
+
+/// Whatever the truth within the error: the last digit is right within one, or the error behind it holds.
+TEST(Brief, HasNoMoreDigitsThanAreKnown) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> part(-1, 1);
+  for (int k = 0; k < 100000; ++k) {
+    const double value = part(random) * std::pow(10.0, std::floor(20 * part(random)));
+    const double error = std::abs(value) * std::pow(10.0, 12 * part(random) - 6);
+    const std::string text = brief(value, 6, error);
+    const std::size_t behind = text.find(" +- ");
+    const std::string number = text.substr(0, behind);
+    const double printed = *parse_decimal(number);
+    if (behind == std::string::npos) {
+      const double last = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 5);
+      EXPECT_EQ(text, brief(value, 6));
+      EXPECT_LE(std::abs(printed - value) + error, last * (1 + 1e-9)) << text;
+      continue;
+    }
+    const double shown = *parse_decimal(text.substr(behind + 4));
+    EXPECT_GE(shown, std::abs(printed - value) + error * (1 - 1e-9)) << text << " " << value;
+    EXPECT_EQ(number, printed == 0 ? "0" : brief(printed, 6)) << "no digits but those that count";
+    EXPECT_LE(std::abs(printed - value), 10 * error) << text;
+  }
+  EXPECT_EQ(brief(2.5, 6, 0), "2.5");
+  EXPECT_EQ(brief(std::numeric_limits<double>::infinity(), 6, 0), "inf");
 }
 
 }  // namespace
