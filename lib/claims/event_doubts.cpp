@@ -42,9 +42,22 @@ double length(const hybrid::FlowPiece& flow) { return flow.to() - flow.from(); }
 }  // namespace
 
 EventDoubts::EventDoubts(const hybrid::System& system)
-    : system_(&system), watch_(system), maps_(system), are_independent_(system.dynamics) {
+    : system_(&system),
+      watch_(system),
+      maps_(system),
+      are_independent_(system.dynamics),
+      steps_(system.dynamics.events.size()) {
   for (std::size_t e = 0; e < system.dynamics.events.size(); ++e)
     has_clocks_ = has_clocks_ || system.has_clock(e);
+  const auto moves = [&](const std::string& name) { return system.slot(name).has_value(); };
+  for (const model::Dynamics::Reaction& reaction : system.dynamics.reactions)
+    for (const model::Dynamics::Pass& pass : reaction.passes)
+      for (const model::Dynamics::Assignment& one : pass.map)
+        for (expr::Branch& branch : expr::branches_of(one.value.program, moves)) {
+          if (!branch.jumps) continue;
+          branches_.push_back(std::move(branch));
+          steps_[reaction.event].emplace_back(branches_.back().difference, system);
+        }
 }
 
 VectorXd EventDoubts::whole(const VectorXd& variables) const {
@@ -130,6 +143,41 @@ std::optional<EventDoubts::Instant> EventDoubts::instant(std::size_t jump) {
   at.event = own.jump->event;
   at.lost = own.jump->lost;
   return at;
+}
+
+/// Whether the maps of the event jump within the errors of the values before: a text that they
+/// branch on is as near to 0, and what they do differs as much within the errors as within 64 times
+/// of them. Of what is smooth it grows as they do, of a root by 8.
+bool EventDoubts::is_on_step(const Instant& at) {
+  const double factor = error_factor(*system_);
+  const auto is_near = [&](EventFunction& step) {
+    for (Index e = 0; e < step.size(); ++e) {
+      const double value = element(step, at.now, e);
+      const double difference = std::abs(value - element(step, at.twin, e));
+      if (std::abs(value) <= factor * difference + noise_of(step, at.now, e)) return true;
+    }
+    return false;
+  };
+  std::vector<EventFunction>& steps = steps_[at.event];
+  if (std::none_of(steps.begin(), steps.end(), is_near)) return false;
+  const VectorXd errors = errors_of(at.now, at.twin, factor);
+  const auto change = [&](double times) {
+    VectorXd largest = VectorXd::Zero(errors.size());
+    for (Index bit = 1; bit < 2 * errors.size(); bit *= 2) {
+      VectorXd move = times * errors;
+      for (Index e = 0; e < move.size(); ++e)
+        if ((e & bit) != 0) move(e) = -move(e);
+      const VectorXd up = maps_(at.event, at.lost, at.now + move);
+      largest = largest.cwiseMax((up - maps_(at.event, at.lost, at.now - move)).cwiseAbs());
+    }
+    return largest;
+  };
+  try {
+    const VectorXd least = kValueRounding * at.now.cwiseAbs(), within = change(1);
+    return (within.array() > least.array() && change(64).array() < 4 * within.array()).any();
+  } catch (const std::exception&) {
+    return true;
+  }
 }
 
 /// Those that a flow changes, of a condition all its elements.
@@ -250,11 +298,34 @@ std::optional<std::string> EventDoubts::clocks_after(std::size_t jump, const Ins
   return std::nullopt;
 }
 
+std::optional<EventDoubts::Doubt> EventDoubts::first(const hybrid::Trajectory& run,
+                                                     const TwinParts& twins) {
+  begin(twins);
+  auto turn = run.turns.begin();
+  for (std::size_t k = 0; k < twins.parts.size(); ++k) {
+    const auto* flow = std::get_if<TwinFlow>(&twins.parts[k]);
+    if (flow == nullptr) {
+      if (auto why = of_jump(k))
+        return Doubt{k, std::get<TwinJump>(twins.parts[k]).jump->t, std::move(*why)};
+      continue;
+    }
+    for (; turn != run.turns.end() && turn->t <= flow->flow->to(); ++turn) {
+      if (turn->t < flow->flow->from()) continue;
+      if (auto why = of_turn(*turn, *flow)) return Doubt{k, turn->t, std::move(*why)};
+    }
+  }
+  return std::nullopt;
+}
+
 std::optional<std::string> EventDoubts::of_jump(std::size_t jump) {
   const auto& events = system_->dynamics.events;
-  if (events.size() < 2) return std::nullopt;
+  const std::size_t own = std::get<TwinJump>(twins_->parts[jump]).jump->event;
+  if (events.size() < 2 && steps_[own].empty()) return std::nullopt;
   auto at = instant(jump);
   if (!at) return std::nullopt;
+  if (is_on_step(*at))
+    return fmt::format("t = {}: the jump of {} takes a step within the errors of its values",
+                       brief(at->t, 12), events[own].name);
   const auto has_happened = [&](std::size_t event) {
     return event == at->event || happened_[event];
   };

@@ -1,8 +1,11 @@
-// Events within their errors: where it is not certain which of them happen, or in which order.
+// Events within their errors: where it is not certain which of them happen, in which order, or what
+// their jumps do.
 //
 //   turn    a guard whose turning point lies nearer to 0 than its error there
 //   order   an event whose guard lies within its error when another one happens, so that it may
 //           come before or after, and whose maps do not commute on that state
+//   step    what a map branches on (expr/branches.h), by a jump of its value, lies within its error:
+//           a number that is rounded, next to a tie
 //
 // The error of a guard has three parts: that of the difference of the two runs, what its terms
 // round, and its rate times the error of the time of the other event. Clocks strike when they do:
@@ -10,12 +13,14 @@
 #pragma once
 
 #include <cstddef>
+#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "claims/independence.h"
 #include "claims/twin_parts.h"
+#include "expr/branches.h"
 #include "simulate/event_watch.h"
 #include "simulate/jump_maps.h"
 
@@ -26,11 +31,19 @@ class EventDoubts {
   /// The system must outlive it.
   explicit EventDoubts(const hybrid::System& system);
 
+  struct Doubt {
+    std::size_t part = 0;  ///< of the twins
+    double t = 0;
+    std::string why;
+  };
+  /// The first of all doubts about a run with its turning points.
+  std::optional<Doubt> first(const hybrid::Trajectory& run, const TwinParts& twins);
+
   /// Why a turning point is uncertain, in the flow in which it lies; none: it is certain.
   std::optional<std::string> of_turn(const hybrid::NearTurn& turn, const TwinFlow& flow);
   /// The parts whose jumps of_jump is asked about, best in their order. They must outlive it.
   void begin(const TwinParts& twins);
-  /// Why the order of a jump and another event is uncertain.
+  /// Why what a jump does, or its order and that of another event, is uncertain.
   std::optional<std::string> of_jump(std::size_t jump);
 
   simulate::JumpMaps& maps() { return maps_; }
@@ -60,6 +73,7 @@ class EventDoubts {
   std::vector<Guard> guards(std::size_t event, const Instant& at);
   void set_time_error(Instant& at);
   bool may_happen(std::size_t event, const Instant& at, const std::vector<Guard>& guards);
+  bool is_on_step(const Instant& at);
   std::optional<std::string> clocks_after(std::size_t jump, const Instant& at);
   bool fires(std::size_t event, const std::vector<Guard>& guards, const Instant& at,
              const Eigen::VectorXd& values);
@@ -71,6 +85,8 @@ class EventDoubts {
   simulate::EventWatch watch_;
   simulate::JumpMaps maps_;
   Independence are_independent_;
+  std::deque<expr::Branch> branches_;
+  std::vector<std::vector<hybrid::EventFunction>> steps_;  ///< by event: where its maps jump
   bool has_clocks_ = false;
   const TwinParts* twins_ = nullptr;
   std::vector<std::size_t> next_clock_;      ///< by part: the next jump of a clock in its instant

@@ -58,16 +58,22 @@ bool any_of_both(const std::vector<bool>& a, const std::vector<bool>& b) {
 
 }  // namespace
 
+std::vector<bool> read_by_guards(const Dynamics& dynamics, std::size_t event) {
+  std::vector<bool> variables(dynamics.variables.size());
+  Reads reads(dynamics, variables);
+  const Dynamics::Event& one = dynamics.events[event];
+  reads.add(one.condition);
+  reads.add(one.crossing);
+  reads.add(one.only_if);
+  return variables;
+}
+
 Independence::Independence(const Dynamics& dynamics) {
   const std::size_t variables = dynamics.variables.size();
   for (std::size_t event = 0; event < dynamics.events.size(); ++event) {
     Touched& touched =
-        events_.emplace_back(std::vector<bool>(variables), std::vector<bool>(variables));
+        events_.emplace_back(read_by_guards(dynamics, event), std::vector<bool>(variables));
     Reads reads(dynamics, touched.reads);
-    const Dynamics::Event& one = dynamics.events[event];
-    reads.add(one.condition);
-    reads.add(one.crossing);
-    reads.add(one.only_if);
     for (const Dynamics::Reaction& reaction : dynamics.reactions) {
       if (reaction.event != event) continue;
       for (const Dynamics::Pass& pass : reaction.passes) {

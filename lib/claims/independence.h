@@ -13,6 +13,9 @@
 
 namespace gainsmith::claims {
 
+/// By variable, whether the condition, the crossing or `if` of an event uses it.
+std::vector<bool> read_by_guards(const model::Dynamics& dynamics, std::size_t event);
+
 class Independence {
  public:
   explicit Independence(const model::Dynamics& dynamics);

@@ -8,6 +8,7 @@
 
 #include "claims/smooth_parts.h"
 #include "claims/tolerances.h"
+#include "hybrid/scenario.h"
 #include "numerics/golden_section.h"
 
 namespace gainsmith::claims {
@@ -49,6 +50,8 @@ std::optional<double> FigureOf::operator()(const Trajectory& run) {
     return value && std::isnan(*value) ? std::nullopt : value;
   };
   squares_ = {};
+  until_ = run.end;
+  moment_.resize(0);
   switch (kind_) {
     case Kind::at_event:
       return finite(counted(at_event(run)));
@@ -59,7 +62,7 @@ std::optional<double> FigureOf::operator()(const Trajectory& run) {
     case Kind::least:
       return finite(extreme(run, -1));
     case Kind::settles: {
-      const double time = settled(run);
+      const double time = settled(run, numbers_.front());
       return std::isinf(time) && !is_complete(run.ending) ? std::nullopt : finite(time);
     }
     case Kind::rms: {
@@ -92,28 +95,31 @@ std::optional<double> FigureOf::at_event(const Trajectory& run) {
   for (const auto& part : run.parts) {
     const auto* jump = std::get_if<JumpPoint>(&part);
     if (jump == nullptr || jump->event != event_ || ++found < count_) continue;
-    return value_->number(after_ ? jump->after : jump->before);
+    until_ = jump->t;
+    moment_ = after_ ? jump->after : jump->before;
+    return value_->number(moment_);
   }
   return std::nullopt;
 }
 
 std::optional<double> FigureOf::at_time(const Trajectory& run) {
   const double t = numbers_.front();
-  if (!(t >= 0 && t <= run.end)) return std::nullopt;
-  double value = value_->number(run.start);
+  if (!(t >= 0 && hybrid::has_come(t, run.end))) return std::nullopt;
+  until_ = t;
+  moment_ = run.start;
   for (const auto& part : run.parts) {
     if (const auto* jump = std::get_if<JumpPoint>(&part)) {
-      if (jump->t > t) break;
-      value = value_->number(jump->after);
+      if (!hybrid::has_come(jump->t, t)) break;
+      moment_ = jump->after;
       continue;
     }
     const auto& flow = std::get<FlowPiece>(part);
     if (flow.from() > t) break;
     const auto step = std::partition_point(flow.steps.begin(), flow.steps.end(),
                                            [&](const DenseStep& one) { return one.to < t; });
-    value = value_->number(step == flow.steps.end() ? flow.end : (*step)(t));
+    moment_ = step == flow.steps.end() ? flow.end : (*step)(t);
   }
-  return value;
+  return value_->number(moment_);
 }
 
 /// The largest of `most` and the values of a step times `sign`: where a top of a series may lie
@@ -186,8 +192,7 @@ double FigureOf::last_above(const DenseStep& step, double level) {
   return -infinity;
 }
 
-double FigureOf::settled(const Trajectory& run) {
-  const double level = numbers_.front();
+double FigureOf::settled(const Trajectory& run, double level) {
   bool last = true;
   for (std::size_t k = run.parts.size(); k-- > 0; last = false) {
     if (const auto* jump = std::get_if<JumpPoint>(&run.parts[k])) {
@@ -248,6 +253,20 @@ std::optional<double> FigureOf::integral(const Trajectory& run, const Rate& rate
     }
   });
   return sum;
+}
+
+double FigureOf::own_error(const Trajectory& run) {
+  using Kind = model::FigureKind;
+  if (kind_ == Kind::integral || kind_ == Kind::rms) {
+    const auto size = integral(run, [](double value) { return std::abs(value); });
+    const double length = kind_ == Kind::rms ? numbers_.back() - numbers_.front() : 1;
+    return kExactAgreement * size.value_or(0) / length;
+  }
+  if (kind_ != Kind::settles) return 0;
+  const double level = numbers_.front();
+  const double low = settled(run, level * (1 + kExactAgreement));
+  const double high = settled(run, level * (1 - kExactAgreement));
+  return low == high ? 0 : high - low;
 }
 
 double FigureOf::number_of(const Trajectory& run) const {

@@ -30,6 +30,13 @@ class FigureOf {
            std::size_t event, std::int64_t count, bool after, std::optional<Eigen::Index> passes);
 
   std::optional<double> operator()(const hybrid::Trajectory& run);
+  /// The end of the part of the last run that its number depends on.
+  double until() const { return until_; }
+  /// The variables that its number is the value at, in the last run; empty: not at one moment.
+  const Eigen::VectorXd& moment() const { return moment_; }
+  /// What its computation on that run may be off by.
+  double own_error(const hybrid::Trajectory& run);
+  std::optional<RunValue>& value() { return value_; }
   /// Of the last run; only of figures `nees` and `nis` they have a meaning.
   const Squares& squares() const { return squares_; }
 
@@ -39,7 +46,7 @@ class FigureOf {
   std::optional<double> at_time(const hybrid::Trajectory& run);
   double extreme(const hybrid::Trajectory& run, double sign);
   double extreme(const hybrid::DenseStep& step, double sign, double most);
-  double settled(const hybrid::Trajectory& run);
+  double settled(const hybrid::Trajectory& run, double level);
   double last_above(const hybrid::DenseStep& step, double level);
   template <class Rate>
   std::optional<double> integral(const hybrid::Trajectory& run, const Rate& rate);
@@ -54,6 +61,8 @@ class FigureOf {
   bool after_;
   std::optional<Eigen::Index> passes_;
   Squares squares_;
+  double until_ = 0;
+  Eigen::VectorXd moment_;
 };
 
 }  // namespace gainsmith::claims

@@ -191,17 +191,8 @@ bool RunTracks::parts(std::size_t function, double value, double difference, dou
   return parted_[claim] != 0;
 }
 
-void RunTracks::add_flow(const TwinFlow& flow, const hybrid::Trajectory& run) {
+void RunTracks::add_flow(const TwinFlow& flow, const hybrid::Trajectory& run, double certain) {
   const hybrid::FlowPiece& fine = *flow.flow;
-  double certain = std::numeric_limits<double>::infinity();
-  for (; next_turn_ < run.turns.size() && run.turns[next_turn_].t <= fine.to(); ++next_turn_) {
-    const hybrid::NearTurn& turn = run.turns[next_turn_];
-    if (turn.t < fine.from() || !doubt_.empty()) continue;
-    if (auto doubt = doubts_.of_turn(turn, flow)) {
-      doubt_ = *doubt;
-      certain = turn.t;
-    }
-  }
   rounded_ += static_cast<double>(fine.steps.size());
   const std::vector<SamplePoint> points =
       points_along(fine, setup_->sample_points, functions_, rises_);
@@ -230,10 +221,6 @@ void RunTracks::add_flow(const TwinFlow& flow, const hybrid::Trajectory& run) {
 
 void RunTracks::add_jump(const TwinParts& twins, std::size_t at) {
   const auto& [jump, before, after, t] = std::get<TwinJump>(twins.parts[at]);
-  if (auto doubt = doubts_.of_jump(at)) {
-    doubt_ = *doubt;
-    return;
-  }
   rounded_ += 1;
   come_to(jump->event);
   track_.moves.push_back({true, jump->event});
@@ -257,17 +244,19 @@ RiseLimits RunTracks::limits_of_rises(const VectorXd& start, double accuracy) {
 bool RunTracks::add_parts(const hybrid::Trajectory& coarse, const hybrid::Trajectory& fine) {
   append({0, 0}, 0, coarse.start, fine.start, (coarse.start - fine.start).cwiseAbs(), 0, 1);
   const TwinParts twins = pair_twins(fine, coarse, setup_->system, doubts_.maps());
-  doubts_.begin(twins);
+  const auto doubt = doubts_.first(fine, twins);
   widen(0);
   std::size_t first = 1;
   std::size_t last = twins.parts.size();  // flow
   while (last > 0 && !std::holds_alternative<TwinFlow>(twins.parts[last - 1])) --last;
   for (std::size_t k = 0; k < twins.parts.size() && doubt_.empty(); ++k) {
     amid_ = k + 1 < last;
+    if (doubt && doubt->part == k) doubt_ = doubt->why;
     if (const auto* flow = std::get_if<TwinFlow>(&twins.parts[k])) {
-      add_flow(*flow, fine);
+      add_flow(*flow, fine, doubt_.empty() ? std::numeric_limits<double>::infinity() : doubt->t);
       continue;
     }
+    if (!doubt_.empty()) break;
     widen(first);
     first = track_.samples();
     add_jump(twins, k);
@@ -362,7 +351,6 @@ const Track& RunTracks::run(std::uint64_t seed, std::uint64_t run, double factor
   fresh_.assign(functions_.size(), false);
   for (RunValue& function : functions_)
     function.followed_until = std::numeric_limits<double>::infinity();
-  next_turn_ = 0;
   doubt_.clear();
   const bool certain = add_parts(coarse, fine);
   end(coarse, fine, certain);

@@ -51,7 +51,8 @@ class RunTracks {
   void append(const SamplePoint& point, std::int64_t j, const Eigen::VectorXd& coarse,
               const Eigen::VectorXd& fine, const Eigen::VectorXd& around, int pattern, int stride,
               bool within_instant = false);
-  void add_flow(const TwinFlow& flow, const hybrid::Trajectory& fine);
+  /// Up to a time before which all is certain.
+  void add_flow(const TwinFlow& flow, const hybrid::Trajectory& run, double certain);
   void add_jump(const TwinParts& twins, std::size_t at);
   /// The part of both runs that is certain; whether that is all.
   bool add_parts(const hybrid::Trajectory& coarse, const hybrid::Trajectory& fine);
@@ -102,7 +103,6 @@ class RunTracks {
   std::vector<double> sizes_;     ///< by claim, at its first function: of values and their terms
   std::vector<char> parted_;      ///< the same: whether the two runs have
   bool ended_early_ = false;      ///< the last run, both times alike, before its horizon
-  std::size_t next_turn_ = 0;     ///< of the turning points of the twin
   std::string doubt_;             ///< why the run is lost
   double rounded_ = 0;            ///< steps and jumps so far
 };

@@ -1,12 +1,15 @@
 #include "claims/twin_parts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <map>
 #include <optional>
 #include <set>
 #include <utility>
 
+#include "base/unit_roundoff.h"
+#include "base/whole_number.h"
 #include "claims/sample_points.h"
 
 namespace gainsmith::claims {
@@ -190,6 +193,14 @@ class Pairs {
 };
 
 }  // namespace
+
+VectorXd errors_of(const VectorXd& run, const VectorXd& twin, double factor) {
+  VectorXd result = factor * (run - twin).cwiseAbs();
+  for (Eigen::Index e = 0; e < result.size(); ++e)
+    if (result(e) != 0 || !is_exact_whole(run(e)))
+      result(e) += 8 * kUnitRoundoff * std::abs(run(e));
+  return result;
+}
 
 VectorXd TwinFlow::twin_at(double share) const {
   return twin != nullptr ? state_at(*twin, share) : stays;

@@ -24,6 +24,10 @@ inline double error_factor(const hybrid::System& system) {
   return system.affine ? kErrorOfRounding : kErrorOfDifference;
 }
 
+/// What values of a run may be off by, where those of its twin are known: of the difference, and what
+/// rounds. What is a whole number in both is exact.
+Eigen::VectorXd errors_of(const Eigen::VectorXd& run, const Eigen::VectorXd& twin, double factor);
+
 struct TwinFlow {
   const hybrid::FlowPiece* flow = nullptr;
   const hybrid::FlowPiece* twin = nullptr;  ///< none within an instant: it stays as it is

@@ -303,10 +303,6 @@ double EventClocks::next() const {
   return earliest;
 }
 
-bool EventClocks::is_due(std::size_t event, double t) const {
-  return clocks_[event].due <= t + kOneInstant * std::abs(t);
-}
-
 void EventClocks::advance(std::size_t event, double t) {
   Clock& clock = clocks_[event];
   ++clock.occurrences;

@@ -74,6 +74,11 @@ RandomStream draw_stream(std::uint64_t seed, std::uint64_t run, Purpose purpose,
 Eigen::VectorXd draw_start(const System& system, const Scenario& scenario, std::uint64_t seed,
                            std::uint64_t run);
 
+/// Whether a time has come at t: times that differ by rounding alone are one instant.
+constexpr bool has_come(double time, double t) {
+  return time <= t + kOneInstant * (t < 0 ? -t : t);
+}
+
 /// When the events with a clock are due in one run.
 class EventClocks {
  public:
@@ -86,8 +91,7 @@ class EventClocks {
   double length(std::size_t event) const { return clocks_[event].length; }
   /// The earliest of all.
   double next() const;
-  /// Times that differ by rounding alone are one instant.
-  bool is_due(std::size_t event, double t) const;
+  bool is_due(std::size_t event, double t) const { return has_come(clocks_[event].due, t); }
   /// The occurrence at t is over.
   void advance(std::size_t event, double t);
   /// Whether no observer sees occurrence k = 0, 1, ... of the event; asked for each once, in order.

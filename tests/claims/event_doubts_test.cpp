@@ -90,5 +90,36 @@ TEST(EventDoubts, ATurningPointWithinTheErrorIsUncertain) {
   EXPECT_NE(doubt->find("x(1) - 1"), std::string::npos) << *doubt;
 }
 
+/// At t = 1, where x = 16.5 but for `off`, p jumps to a text of x.
+EventProblem sampled(const std::string& off, const std::string& text) {
+  EventProblem problem;
+  problem.state("x", {}, "0.1").flow("x", "16.4 + " + off).state("p", {}, "0");
+  problem.every("sample", "1", "1").jump("sample", {{"p", text}});
+  return problem;
+}
+
+TEST(EventDoubts, AQuantizerAtATieIsUncertain) {
+  const auto doubt = Runs(sampled("0", "floor(x + 0.5)")).doubt();
+  ASSERT_TRUE(doubt);
+  EXPECT_NE(doubt->find("sample"), std::string::npos) << *doubt;
+  EXPECT_TRUE(Runs(sampled("0", "where(x >= 16.5, 2, 1)")).doubt());
+  EXPECT_FALSE(Runs(sampled("1e-9", "floor(x + 0.5)")).doubt());
+  EXPECT_FALSE(Runs(sampled("-1e-9", "floor(x + 0.5)")).doubt());
+}
+
+TEST(EventDoubts, AStepOfAMapThatChangesNothingIsCertain) {
+  for (const char* text :
+       {"where(x >= 16.5, x - 16.5, 0)", "max(x, 16.5)", "sqrt(abs(x - 16.5))", "0*floor(x + 0.5)"})
+    EXPECT_FALSE(Runs(sampled("0", text)).doubt()) << text;
+}
+
+TEST(EventDoubts, WholeNumbersAreAtNoTie) {
+  EventProblem problem;
+  problem.state("n", {}, "0").state("p", {}, "0");
+  problem.every("sample", "0.1", "0.1")
+      .jump("sample", {{"n", "n + 1"}, {"p", "floor(n/3) + sign(n)"}});
+  EXPECT_FALSE(Runs(problem).doubt());
+}
+
 }  // namespace
 }  // namespace gainsmith::claims

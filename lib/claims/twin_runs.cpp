@@ -1,0 +1,98 @@
+#include "claims/twin_runs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/number.h"
+#include "base/stop.h"
+#include "claims/sample_points.h"
+#include "claims/tolerances.h"
+
+namespace gainsmith::claims {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace {
+
+/// Until when two runs have the same events: where one of the last two flows ends, if not to `end`.
+double certain_end(const TwinParts& parts, double end) {
+  if (parts.whole || parts.parts.empty()) return parts.whole ? end : 0;
+  if (const auto* jump = std::get_if<TwinJump>(&parts.parts.back())) return jump->jump->t;
+  const auto& last = std::get<TwinFlow>(parts.parts.back());
+  return last.twin == nullptr ? last.flow->from() : std::min(last.flow->to(), last.twin->to());
+}
+
+}  // namespace
+
+std::string TwinRun::unknown(double until, const std::vector<Index>& elements,
+                             const hybrid::System& system) const {
+  if (until >= certain) return doubt;
+  for (const Index e : elements)
+    if (until >= parted(e))
+      return "t = " + brief(parted(e)) +
+             ": rounding and errors of integration have grown to the size of " +
+             system.element_name(e);
+  return "";
+}
+
+TwinRun TwinRuns::operator()(std::uint64_t seed, std::uint64_t run, double usual, double factor) {
+  const simulate::Accuracy accuracy = setup_->accuracy(usual, factor);
+  TwinRun result;
+  result.run = simulator_.run(seed, run, setup_->accuracy(usual, factor * kSharper));
+  result.twin = simulator_.run(seed, run, accuracy, {}, 0);
+  check_stop();
+  // The turning points are those of the twin.
+  const TwinParts parts = pair_twins(result.twin, result.run, setup_->system, doubts_.maps());
+  compare(parts, accuracy.times(kSharper), result);
+  const bool same = parts.whole && result.run.ending == result.twin.ending &&
+                    std::abs(result.run.end - result.twin.end) <= kInstantOfRun * result.run.end;
+  if (!same) {
+    result.certain = certain_end(parts, std::min(result.run.end, result.twin.end));
+    result.doubt =
+        "t = " + brief(result.certain) + ": which events happen, and when, hangs on the accuracy";
+  }
+  if (auto doubt = doubts_.first(result.twin, parts); doubt && doubt->t < result.certain) {
+    result.certain = doubt->t;
+    result.doubt = std::move(doubt->why);
+  }
+  return result;
+}
+
+/// At the ends of all steps, and before and after jumps.
+void TwinRuns::compare(const TwinParts& twins, const simulate::Accuracy& accuracy,
+                       TwinRun& result) const {
+  VectorXd low = result.run.start, high = low;
+  result.parted = VectorXd::Constant(low.size(), std::numeric_limits<double>::infinity());
+  const auto see = [&](double t, const VectorXd& own, const VectorXd& other) {
+    low = low.cwiseMin(own);
+    high = high.cwiseMax(own);
+    for (Index e = 0; e < low.size(); ++e) {
+      const double difference = std::abs(own(e) - other(e));
+      const double size = std::fmax(std::abs(low(e)), std::abs(high(e)));
+      if (difference > kParted * (high(e) - low(e)) &&
+          difference > kPartedAccuracy * (accuracy.relative * size + accuracy.absolute))
+        result.parted(e) = std::fmin(result.parted(e), t);
+    }
+  };
+  for (const auto& part : twins.parts) {
+    if (const auto* jump = std::get_if<TwinJump>(&part)) {
+      see(jump->jump->t, jump->jump->before, jump->twin_before);
+      see(jump->jump->t, jump->jump->after, jump->twin_after);
+      continue;
+    }
+    const auto& flow = std::get<TwinFlow>(part);
+    const double from = flow.flow->from();
+    const double length = flow.twin != nullptr ? flow.twin->to() - flow.twin->from() : 0;
+    for (const hybrid::DenseStep& step : flow.flow->steps) {
+      // One of two flows that lead to other events is longer.
+      if (flow.twin != nullptr && step.to - from > (1 + kInstantOfRun) * length) break;
+      const bool last = step.to == flow.flow->to();
+      see(step.to, last ? flow.flow->end : step(step.to),
+          flow.twin_at(length > 0 ? std::min((step.to - from) / length, 1.0) : 1));
+    }
+  }
+}
+
+}  // namespace gainsmith::claims

@@ -1,0 +1,49 @@
+// Runs with their second ones, from which figures have their errors (statistics/bound_figure.h).
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "claims/event_doubts.h"
+#include "claims/run_setup.h"
+
+namespace gainsmith::claims {
+
+/// The run of a (seed, number), and a twin to a hundred times its accuracy that is moved in the last
+/// places (simulate/last_places.h).
+struct TwinRun {
+  hybrid::Trajectory run, twin;
+  /// Until when it is certain which events happen, and why not from there on.
+  double certain = std::numeric_limits<double>::infinity();
+  std::string doubt;
+  /// By element of the variables: from when on the two runs have nothing to do with each other, as
+  /// they differ by more than a thousandth of its range so far (RunTracks). Infinite: never.
+  Eigen::VectorXd parted;
+
+  /// Why what is read of some elements up to a time is not known; empty: it is.
+  std::string unknown(double until, const std::vector<Eigen::Index>& elements,
+                      const hybrid::System& system) const;
+};
+
+/// Makes one after the other; one for each thread. The setup must outlive it.
+class TwinRuns {
+ public:
+  explicit TwinRuns(const RunSetup& setup)
+      : setup_(&setup), simulator_(setup.system, setup.scenario), doubts_(setup.system) {}
+
+  /// The run to a hundredth of `usual`, the twin to it, unless the campaign asks for another
+  /// accuracy; times a factor. A stop (base/stop.h) is thrown.
+  TwinRun operator()(std::uint64_t seed, std::uint64_t run, double usual, double factor = 1);
+
+ private:
+  void compare(const TwinParts& twins, const simulate::Accuracy& accuracy, TwinRun& result) const;
+
+  const RunSetup* setup_;
+  simulate::Simulator simulator_;
+  EventDoubts doubts_;
+};
+
+}  // namespace gainsmith::claims
