@@ -50,12 +50,22 @@ statistics::ValueSketch sketch_from(const JsonReader& reader) {
 }
 
 Json of_run_json(const std::optional<statistics::OfRun>& of) {
-  return of ? Json{{"value", bits(of->value)}, {"run", of->run}} : Json();
+  return of ? Json{{"value", bits(of->value)}, {"run", of->run}, {"error", bits(of->error)}}
+            : Json();
 }
 
 std::optional<statistics::OfRun> of_run_from(const JsonReader& reader) {
   if (reader.is_null()) return std::nullopt;
-  return statistics::OfRun{from_bits(reader.at("value")), reader.at("run").count()};
+  return statistics::OfRun{from_bits(reader.at("value")), reader.at("run").count(),
+                           from_bits(reader.at("error"))};
+}
+
+Json some_json(const statistics::SomeRuns& some) {
+  return {{"count", some.count}, {"first", some.first}, {"why", some.why}};
+}
+
+statistics::SomeRuns some_from(const JsonReader& reader) {
+  return {reader.at("count").count(), reader.at("first").count(), reader.at("why").text()};
 }
 
 Json squares_json(const statistics::SquaredErrors& squares) {
@@ -82,7 +92,9 @@ Json summary_json(const statistics::FigureSummary& figure) {
   Json document = {{"title", figure.title},
                    {"observer", figure.observer},
                    {"values", sketch_json(figure.values)},
+                   {"error", bits(figure.error)},
                    {"without", figure.without},
+                   {"unknown", some_json(figure.unknown)},
                    {"least", of_run_json(figure.least)},
                    {"largest", of_run_json(figure.largest)},
                    {"whole", figure.whole}};
@@ -95,7 +107,9 @@ statistics::FigureSummary summary_from(const JsonReader& reader) {
   figure.title = reader.at("title").text();
   figure.observer = reader.at("observer").text();
   figure.values = sketch_from(reader.at("values"));
+  figure.error = from_bits(reader.at("error"));
   figure.without = reader.at("without").count();
+  figure.unknown = some_from(reader.at("unknown"));
   figure.least = of_run_from(reader.at("least"));
   figure.largest = of_run_from(reader.at("largest"));
   figure.whole = reader.at("whole").truth();
@@ -130,9 +144,7 @@ Json to_json(const statistics::SurveyOfRuns& figures) {
     list.push_back(summary_json(figure));
   return {{"ranges", ranges_json(figures.runs)},
           {"runs", survey.runs},
-          {"early", survey.early},
-          {"early_run", survey.early_run},
-          {"early_why", survey.early_why},
+          {"early", some_json(survey.early)},
           {"figures", list}};
 }
 
@@ -141,9 +153,7 @@ statistics::SurveyOfRuns survey_from(const JsonReader& reader) {
   figures.runs = ranges_from(reader.at("ranges"));
   statistics::FigureSurvey& survey = figures.survey;
   survey.runs = reader.at("runs").count();
-  survey.early = reader.at("early").count();
-  survey.early_run = reader.at("early_run").count();
-  survey.early_why = reader.at("early_why").text();
+  survey.early = some_from(reader.at("early"));
   for (const JsonReader& figure : reader.at("figures").items())
     survey.figures.push_back(summary_from(figure));
   return figures;

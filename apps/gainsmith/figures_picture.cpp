@@ -77,7 +77,7 @@ Bins bins_of(const Summaries& figures) {
 
 report::Curve outline(const FigureSummary& figure, const Bins& bins, int colour) {
   std::vector<std::uint64_t> runs(bins.count, 0);
-  std::uint64_t others = figure.without;
+  std::uint64_t others = figure.without + figure.unknown.count;
   for (const auto& part : figure.values.parts()) {
     const double value = part.values.middle();
     if (std::isfinite(value))
@@ -90,7 +90,7 @@ report::Curve outline(const FigureSummary& figure, const Bins& bins, int colour)
   if (others > 0)
     curve.label +=
         fmt::format("{}{} of {} runs have no finite value", figure.observer.empty() ? "" : ": ",
-                    others, figure.values.count() + figure.without);
+                    others, figure.values.count() + figure.without + figure.unknown.count);
   curve.colour = colour;
   const auto add = [&](double at, double value) {
     curve.t.push_back(at);

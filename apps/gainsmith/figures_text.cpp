@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/known_digits.h"
 #include "base/number.h"
 #include "statistics/quantiles.h"
 
@@ -16,9 +17,13 @@ constexpr double kMedian = 0.5;
 
 using Cells = std::vector<std::string>;
 
-std::string cell(const std::optional<double>& value, int digits = 6) {
-  return value ? brief(*value, digits) : "-";
+std::string cell(const std::optional<double>& value, double error) {
+  constexpr int kDigits = 6;
+  return value ? brief(*value, kDigits, error) : "-";
 }
+
+/// Of one run, where its number is not known.
+const std::string kUnknown = "unknown";
 
 /// Columns as wide as they need: the first `left` are names, the others end in line.
 std::string table_text(const std::vector<Cells>& rows, std::size_t left) {
@@ -51,12 +56,11 @@ Cells names_of(const std::vector<model::FigureRecord>& figures, std::size_t k) {
 }
 
 /// "1.2 to 1.3"; of too few runs "above 1.2".
-std::string interval_text(const model::QuantileRecord& quantile) {
-  constexpr int kDigits = 4;
-  if (quantile.low && quantile.high)
-    return brief(*quantile.low, kDigits) + " to " + brief(*quantile.high, kDigits);
-  if (quantile.low) return "above " + brief(*quantile.low, kDigits);
-  return quantile.high ? "below " + brief(*quantile.high, kDigits) : "-";
+std::string interval_text(const model::QuantileRecord& quantile, double error) {
+  const auto end = [&](double value) { return brief(value, 4, error); };
+  if (quantile.low && quantile.high) return end(*quantile.low) + " to " + end(*quantile.high);
+  if (quantile.low) return "above " + end(*quantile.low);
+  return quantile.high ? "below " + end(*quantile.high) : "-";
 }
 
 std::string run_text(std::uint64_t run) { return "run " + std::to_string(run); }
@@ -71,12 +75,12 @@ std::string quantiles_table(const model::FiguresRecord& record) {
     const model::FigureRecord& figure = record.figures[k];
     Cells values = names_of(record.figures, k);
     Cells below = {"", "", run_text(figure.least_run)};
-    values.push_back(cell(figure.least));
+    values.push_back(cell(figure.least, figure.least_error));
     for (const model::QuantileRecord& quantile : figure.quantiles) {
-      values.push_back(cell(quantile.value));
-      below.push_back(record.confidence ? interval_text(quantile) : "");
+      values.push_back(cell(quantile.value, figure.error));
+      below.push_back(record.confidence ? interval_text(quantile, figure.error) : "");
     }
-    values.push_back(cell(figure.largest));
+    values.push_back(cell(figure.largest, figure.largest_error));
     below.push_back(run_text(figure.largest_run));
     rows.push_back(values);
     if (figure.runs > 0) rows.push_back(below);
@@ -98,7 +102,8 @@ std::string spread_table(const std::vector<model::FigureRecord>& figures) {
     rows.push_back(names_of(figures, k));
     const auto run = [&](std::uint64_t of) { return figure.runs > 0 ? std::to_string(of) : "-"; };
     for (const std::string& text :
-         {cell(figure.least), run(figure.least_run), cell(median_of(figure)), cell(figure.largest),
+         {cell(figure.least, figure.least_error), run(figure.least_run),
+          cell(median_of(figure), figure.error), cell(figure.largest, figure.largest_error),
           run(figure.largest_run)})
       rows.back().push_back(text);
   }
@@ -127,8 +132,12 @@ std::string comparison_table(const std::vector<model::FigureRecord>& figures) {
       const auto found = std::find_if(figures.begin(), figures.end(), [&](const auto& one) {
         return one.figure == title && one.observer == observer;
       });
-      rows.back().push_back(found == figures.end() ? "-" : cell(found->least));
-      has_all = has_all && (found == figures.end() || found->least);
+      const bool none = found == figures.end();
+      const bool unknown = !none && found->unknown > 0;
+      rows.back().push_back(none      ? "-"
+                            : unknown ? kUnknown
+                                      : cell(found->least, found->least_error));
+      has_all = has_all && (none || unknown || found->least);
     }
   }
   return table_text(rows, 1) +
@@ -137,13 +146,26 @@ std::string comparison_table(const std::vector<model::FigureRecord>& figures) {
                     "number\n");
 }
 
+/// Of each figure that is not known of all runs.
+std::string unknown_text(const model::FiguresRecord& record) {
+  std::string text;
+  for (const model::FigureRecord& figure : record.figures)
+    if (figure.unknown > 0)
+      text += fmt::format("{}: {}: {}\n", title_of(figure),
+                          record.runs == 1 ? kUnknown
+                                           : fmt::format("not known in {} of {} runs, as",
+                                                         figure.unknown, record.runs),
+                          figure.why);
+  return text;
+}
+
 /// Of each figure that not all runs have.
 std::string missing_text(const std::vector<model::FigureRecord>& figures) {
   std::string text;
   for (const model::FigureRecord& figure : figures)
     if (figure.without > 0)
       text += fmt::format("{}: no value in {} of {} runs\n", title_of(figure), figure.without,
-                          figure.runs + figure.without);
+                          figure.runs + figure.without + figure.unknown);
   return text;
 }
 
@@ -183,15 +205,20 @@ model::FigureRecord figure_record(const statistics::FigureSummary& summary,
   record.observer = summary.observer;
   record.runs = summary.values.count();
   record.without = summary.without;
+  record.unknown = summary.unknown.count;
+  record.why = summary.unknown.why;
+  record.error = summary.error;
   if (summary.least) {
     record.least = summary.least->value;
     record.least_run = summary.least->run;
+    record.least_error = summary.least->error;
     record.largest = summary.largest->value;
     record.largest_run = summary.largest->run;
+    record.largest_error = summary.largest->error;
   }
   for (const double probability : {0.05, kMedian, 0.95}) {
-    const statistics::Quantile quantile =
-        statistics::quantile_of(summary.values, probability, confidence.value_or(kMedian));
+    const statistics::Quantile quantile = statistics::quantile_of(
+        summary.values, probability, confidence.value_or(kMedian), summary.unknown.count);
     record.quantiles.push_back({probability, quantile.value, {}, {}});
     if (!confidence) continue;
     record.quantiles.back().low = quantile.low;
@@ -234,10 +261,11 @@ std::string figures_text(const model::FiguresRecord& record) {
   if (record.runs == 0) return text + "\n";
   if (record.confidence)
     text += fmt::format(", quantiles with {} % confidence", brief(100 * *record.confidence));
-  const std::string lines =
-      record.runs == 1 ? comparison_text(record)
-                       : quantiles_table(record) + missing_text(record.figures) +
-                             consistency_text(record.figures) + resolution_text(record.figures);
+  const std::string lines = record.runs == 1
+                                ? comparison_text(record)
+                                : quantiles_table(record) + missing_text(record.figures) +
+                                      unknown_text(record) + consistency_text(record.figures) +
+                                      resolution_text(record.figures);
   text += "\n  ";
   for (const char c : lines) text += c == '\n' ? std::string("\n  ") : std::string(1, c);
   text.resize(text.size() - 2);
@@ -247,8 +275,9 @@ std::string figures_text(const model::FiguresRecord& record) {
 std::string comparison_text(const model::FiguresRecord& record) {
   const std::vector<model::FigureRecord>& figures = record.figures;
   const std::string fit = consistency_text(figures);
-  if (record.runs == 1) return comparison_table(figures) + fit;
-  return spread_table(figures) + missing_text(figures) + fit + resolution_text(figures);
+  const std::string unknown = unknown_text(record);
+  if (record.runs == 1) return comparison_table(figures) + unknown + fit;
+  return spread_table(figures) + missing_text(figures) + unknown + fit + resolution_text(figures);
 }
 
 }  // namespace gainsmith::app

@@ -130,14 +130,12 @@ class Job {
         instance_, gains, campaign ? std::optional(campaign->verdict) : std::nullopt);
     const bool nothing = design::lacks_gains(*instance_.design, gains);
     const verify::RunDifferences run =
-        nothing ? verify::RunDifferences{}
-                : verify::run_differences(instance_, gains, std::exchange(first_run_, {}));
+        nothing ? verify::RunDifferences{} : verify::run_differences(instance_, gains);
     if (is_stopping()) throw Interrupted("interrupted while figures of the first run were found");
     result.differences.insert(result.differences.end(), run.different.begin(), run.different.end());
     result.exit = judge(*instance_.design, gains, campaign, result.differences);
     if (result.exit == ExitCode::yes && !run.undecided.empty()) result.exit = ExitCode::undecided;
-    for (const std::string& open : run.undecided)
-      result.differences.push_back(open + ": the digits do not decide");
+    result.differences.insert(result.differences.end(), run.undecided.begin(), run.undecided.end());
     if (result.exit != ExitCode::yes) result.causes = causes(gains, campaign);
     result.line = verdict_line(gains) + "; " +
                   (campaign ? campaign_line(campaign_record(*campaign, hash_))
@@ -213,8 +211,6 @@ class Job {
                      run_picture(*instance_.design, setup, report.worst_run, worst));
     if (report.verdict != model::CampaignVerdict::held)
       write_atomically(folder_ / "worst-run.csv", run_csv(setup, worst));
-    if (report.worst_run == 0 && report.seed == instance_.design->campaign.seed)
-      first_run_ = std::move(worst);
   }
 
   io::Json report(const model::Gains& gains, const std::optional<verify::Report>& campaign,
@@ -250,8 +246,7 @@ class Job {
   fs::path folder_;
   const JobOptions& options_;
   std::string& hash_;
-  std::optional<hybrid::Trajectory> first_run_;  ///< where the campaign drew it
-  std::string unstated_;                         ///< why a campaign would judge nothing
+  std::string unstated_;  ///< why a campaign would judge nothing
 };
 
 /// The path of a problem from the folder of its results; empty for standard input.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "base/known_digits.h"
 #include "base/number.h"
 
 namespace gainsmith::app {
@@ -72,7 +73,8 @@ std::string search_text(const model::Gains& gains) {
       search.figure.starts_with("largest ") || search.figure.starts_with("smallest ");
   std::string text;
   if (search.value)
-    text = fmt::format("search      {} = {}{}\n", search.figure, brief(*search.value, kDigits),
+    text = fmt::format("search      {} = {}{}\n", search.figure,
+                       brief(*search.value, kDigits, search.error.value_or(0)),
                        bracket ? " is feasible, every margin recomputed" : "");
   else
     text = fmt::format("search      {}: nothing feasible was found\n", search.figure);

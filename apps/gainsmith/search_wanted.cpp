@@ -37,7 +37,8 @@ design::SearchRequest wanted_search(const model::Instance& instance) {
   if (runs > 1) request.measure_name += fmt::format(", mean of {} runs", runs);
   // A text is bound again when values change a shape: the figure is that of the instance's design.
   request.measure = [runs](const model::Instance& at, const model::Gains& gains) {
-    return verify::mean_figure(at, gains, *at.design->search->run_figure, runs);
+    const auto found = verify::mean_figure(at, gains, *at.design->search->run_figure, runs);
+    return found ? std::optional(design::Measured{found->value, found->bound}) : std::nullopt;
   };
   return request;
 }

@@ -195,9 +195,10 @@ ExitCode compare(const SimulateOptions& options, const LoadedGains& loaded, std:
     write(options, options.json ? io::to_text(io::to_json(record)) : comparison_text(record));
   if (survey.runs > 0 && !options.picture.file.empty())
     write_picture(options.picture.file, histograms(loaded.stated.design->name, survey));
-  if (survey.early > 0)
-    say(fmt::format("run {} ended before its horizon, {}\n", survey.early_run, survey.early_why));
-  if (survey.early > 1) say(fmt::format("so did {} of these runs in all\n", survey.early));
+  if (const statistics::SomeRuns& early = survey.early; early.count > 0) {
+    say(fmt::format("run {} ended before its horizon, {}\n", early.first, early.why));
+    if (early.count > 1) say(fmt::format("so did {} of these runs in all\n", early.count));
+  }
   return survey.runs < runs.size() ? ExitCode::undecided : ExitCode::yes;
 }
 

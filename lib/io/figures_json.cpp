@@ -23,13 +23,21 @@ std::optional<double> value_of(const JsonReader& reader) {
   reader.fail("expected a number, null, \"inf\" or \"-inf\"");
 }
 
+Json of_run_json(const std::optional<double>& value, double error, std::uint64_t run) {
+  return {{"value", value_json(value)}, {"error", error}, {"run", run}};
+}
+
 Json figure_json(const model::FigureRecord& figure) {
-  Json result = {{"figure", figure.figure},
-                 {"observer", figure.observer},
-                 {"runs", figure.runs},
-                 {"runs_without", figure.without},
-                 {"least", {{"value", value_json(figure.least)}, {"run", figure.least_run}}},
-                 {"largest", {{"value", value_json(figure.largest)}, {"run", figure.largest_run}}}};
+  Json result = {
+      {"figure", figure.figure},
+      {"observer", figure.observer},
+      {"runs", figure.runs},
+      {"runs_without", figure.without},
+      {"runs_unknown", figure.unknown},
+      {"why", figure.why},
+      {"error", figure.error},
+      {"least", of_run_json(figure.least, figure.least_error, figure.least_run)},
+      {"largest", of_run_json(figure.largest, figure.largest_error, figure.largest_run)}};
   Json quantiles = Json::array();
   for (const model::QuantileRecord& quantile : figure.quantiles)
     quantiles.push_back({{"probability", quantile.probability},
@@ -57,6 +65,13 @@ model::FigureRecord figure_of(const JsonReader& reader) {
   figure.runs = reader.at("runs").count();
   figure.without = reader.at("runs_without").count();
   const JsonReader least = reader.at("least"), largest = reader.at("largest");
+  if (reader.has("error")) {
+    figure.unknown = reader.at("runs_unknown").count();
+    figure.why = reader.at("why").text();
+    figure.error = reader.at("error").number();
+    figure.least_error = least.at("error").number();
+    figure.largest_error = largest.at("error").number();
+  }
   figure.least = value_of(least.at("value"));
   figure.least_run = least.at("run").count();
   figure.largest = value_of(largest.at("value"));

@@ -103,6 +103,7 @@ Json search_json(const model::Gains& gains, const model::SearchRecord& search) {
                  {"breaks", search.breaks},         {"over", search.over},
                  {"at_end", search.at_end},         {"evaluations", search.evaluations},
                  {"feasible", search.feasible},     {"finished", search.finished}};
+  if (search.error) result["error"] = *search.error;
   if (const auto& refinement = search.joint_refinement)
     result["joint_refinement"] = {{"before", refinement->before},
                                   {"after", number(refinement->after)},
@@ -226,6 +227,7 @@ model::SearchRecord search_of(const JsonReader& reader, model::Gains& gains) {
   model::SearchRecord search;
   search.figure = reader.at("figure").text();
   search.value = number(reader.at("value"));
+  if (reader.has("error")) search.error = reader.at("error").number();
   search.beyond = number(reader.at("beyond"));
   search.open = numbers(reader.at("open"));
   search.breaks = numbers(reader.at("breaks"));

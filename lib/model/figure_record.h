@@ -30,9 +30,13 @@ struct FigureRecord {
   std::string figure;
   std::string observer;
   std::uint64_t runs = 0;     ///< that have such a number; of these is what follows
-  std::uint64_t without = 0;  ///< the others
+  std::uint64_t without = 0;  ///< those that have none
+  std::uint64_t unknown = 0;  ///< those of which it is not known ...
+  std::string why;            ///< ... and why, of the first one
+  double error = 0;           ///< the largest of the numbers
   std::optional<double> least, largest;
   std::uint64_t least_run = 0, largest_run = 0;
+  double least_error = 0, largest_error = 0;
   std::vector<QuantileRecord> quantiles;
   double resolution = 0;  ///< by which part of itself the value of a quantile may be off
   std::optional<ConsistencyRecord> consistency;

@@ -1,11 +1,42 @@
 #include "statistics/bound_figure.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
-#include <vector>
+
+#include "base/unit_roundoff.h"
+#include "claims/independence.h"
 
 namespace gainsmith::statistics {
 
-BoundFigure::BoundFigure(const model::Figure& figure, const claims::RunSetup& setup) {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::infinity();
+
+/// Whether its number is that of jumps of the event.
+bool is_of_event(model::FigureKind kind) {
+  using Kind = model::FigureKind;
+  return kind == Kind::at_event || kind == Kind::nis || kind == Kind::count ||
+         kind == Kind::passes || kind == Kind::lost;
+}
+
+/// The elements of the variables by which the event happens.
+std::vector<Eigen::Index> guarding(std::size_t event, const hybrid::System& system) {
+  std::vector<Eigen::Index> elements;
+  const std::vector<bool> read = claims::read_by_guards(system.dynamics, event);
+  for (std::size_t k = 0; k < read.size(); ++k)
+    for (Eigen::Index e = 0; read[k] && e < system.layout.slots[k].shape.size(); ++e)
+      elements.push_back(system.layout.slots[k].offset + e);
+  return elements;
+}
+
+}  // namespace
+
+bool Estimate::known() const { return std::isfinite(error); }
+
+BoundFigure::BoundFigure(const model::Figure& figure, const claims::RunSetup& setup)
+    : setup_(&setup) {
   std::optional<claims::RunValue> value;
   if (figure.value) {
     program_ = setup.texts.stated.bodies.link(figure.value->program);
@@ -25,6 +56,46 @@ BoundFigure::BoundFigure(const model::Figure& figure, const claims::RunSetup& se
   }
   number_.emplace(figure.kind, std::move(value), std::move(constants), figure.event, figure.count,
                   figure.after, passes);
+  if (is_of_event(figure.kind)) elements_ = guarding(figure.event, setup.system);
+  if (passes) elements_.push_back(*passes);
+  if (!program_) return;
+  claims::RunValue& reads = *number_->value();
+  elements_.insert(elements_.end(), reads.used().begin(), reads.used().end());
+  ball_.emplace(*program_, reads, setup.layout, setup.constants);
+}
+
+Estimate BoundFigure::of(const claims::TwinRun& runs) {
+  const std::optional<double> other = of(runs.twin);
+  const Eigen::VectorXd twin = number_->moment();
+  Estimate result{of(runs.run), 0, {}};
+  result.why = runs.unknown(number_->until(), elements_, setup_->system);
+  if (result.why.empty() && other.has_value() != result.value.has_value())
+    result.why = "whether there is such a number hangs on the accuracy";
+  if (result.why.empty() && result.value) {
+    const double value = *result.value;
+    const double difference = *other == value ? 0 : std::abs(*other - value);
+    const double own = number_->own_error(runs.run) + rounding(value, twin);
+    // What is the same in a run that is moved in all last places is not made of them.
+    result.error = own;
+    if (difference != 0)
+      result.error +=
+          claims::error_factor(setup_->system) * difference + 8 * kUnitRoundoff * std::abs(value);
+    if (!result.known()) result.why = "it changes without bounds within the errors of the run";
+  }
+  if (!result.why.empty()) result.error = kUnknown;
+  return result;
+}
+
+/// What the text of the figure makes of errors that the difference of two values does not show.
+double BoundFigure::rounding(double value, const Eigen::VectorXd& twin) {
+  const Eigen::VectorXd& x = number_->moment();
+  if (!ball_ || x.size() == 0 || x.size() != twin.size()) return 0;
+  const Eigen::VectorXd all = claims::errors_of(x, twin, claims::error_factor(setup_->system));
+  Eigen::VectorXd error = Eigen::VectorXd::Zero(x.size());
+  for (const Eigen::Index e : number_->value()->used()) error(e) = all(e);
+  if (error.isZero(0) || !ball_->is_open(x, error)) return ball_->rounding(x);
+  const claims::Bounded hull = ball_->hull(x, error);
+  return hull.bound + std::abs(hull.value - value);
 }
 
 }  // namespace gainsmith::statistics

@@ -40,32 +40,30 @@ FigureSurvey empty_survey(const std::vector<model::Figure>& figures) {
   return survey;
 }
 
+void count(const SomeRuns& more, SomeRuns& some) {
+  if (more.count > 0 && (some.count == 0 || more.first < some.first)) {
+    some.first = more.first;
+    some.why = more.why;
+  }
+  some.count += more.count;
+}
+
 /// Figures of run after run; one for each thread.
 class Surveyor {
  public:
   Surveyor(const claims::RunSetup& setup, const std::vector<model::Figure>& figures,
            std::uint64_t seed)
-      : setup_(setup),
-        seed_(seed),
-        simulator_(setup.system, setup.scenario),
-        survey_(empty_survey(figures)),
-        values_(figures.size()) {
+      : seed_(seed), runs_(setup), survey_(empty_survey(figures)), values_(figures.size()) {
     for (const model::Figure& figure : figures)
       figures_.push_back(std::make_unique<BoundFigure>(figure, setup));
   }
 
   void add(std::uint64_t run) {
-    const hybrid::Trajectory made =
-        simulator_.run(seed_, run, setup_.accuracy(claims::kAccuracyOfOne, claims::kSharper));
-    check_stop();
+    const claims::TwinRun made = runs_(seed_, run, claims::kAccuracyOfOne);
     ++survey_.runs;
-    if (!is_complete(made.ending)) {
-      if (survey_.early++ == 0 || run < survey_.early_run) {
-        survey_.early_run = run;
-        survey_.early_why =
-            to_string(made.ending) + (made.message.empty() ? std::string() : ": " + made.message);
-      }
-    }
+    if (const hybrid::Trajectory& one = made.run; !is_complete(one.ending))
+      count({1, run, to_string(one.ending) + (one.message.empty() ? "" : ": " + one.message)},
+            survey_.early);
     for (std::size_t k = 0; k < figures_.size(); ++k) add(k, run, made);
   }
 
@@ -75,22 +73,26 @@ class Surveyor {
   }
 
  private:
-  void add(std::size_t k, std::uint64_t run, const hybrid::Trajectory& made) {
+  void add(std::size_t k, std::uint64_t run, const claims::TwinRun& made) {
     FigureSummary& summary = survey_.figures[k];
-    const std::optional<double> value = figures_[k]->of(made);
+    const Estimate found = figures_[k]->of(made);
+    if (!found.known()) {
+      count({1, run, found.why}, summary.unknown);
+      return;
+    }
     if (summary.squares.elements > 0) summary.squares.add(figures_[k]->squares());
-    if (!value) {
+    if (!found.value) {
       ++summary.without;
       return;
     }
-    values_[k].push_back(*value);
-    keep_least(OfRun{*value, run}, summary.least);
-    keep_largest(OfRun{*value, run}, summary.largest);
+    values_[k].push_back(*found.value);
+    summary.error = std::max(summary.error, found.error);
+    keep_least(OfRun{*found.value, run, found.error}, summary.least);
+    keep_largest(OfRun{*found.value, run, found.error}, summary.largest);
   }
 
-  const claims::RunSetup& setup_;
   std::uint64_t seed_;
-  simulate::Simulator simulator_;
+  claims::TwinRuns runs_;
   std::vector<std::unique_ptr<BoundFigure>> figures_;
   FigureSurvey survey_;
   std::vector<std::vector<double>> values_;  ///< by figure
@@ -100,7 +102,9 @@ class Surveyor {
 
 void FigureSummary::add(const FigureSummary& more) {
   values.add(more.values);
+  error = std::max(error, more.error);
   without += more.without;
+  count(more.unknown, unknown);
   keep_least(more.least, least);
   keep_largest(more.largest, largest);
   squares.add(more.squares);
@@ -108,11 +112,7 @@ void FigureSummary::add(const FigureSummary& more) {
 
 void FigureSurvey::add(const FigureSurvey& more) {
   runs += more.runs;
-  if (more.early > 0 && (early == 0 || more.early_run < early_run)) {
-    early_run = more.early_run;
-    early_why = more.early_why;
-  }
-  early += more.early;
+  count(more.early, early);
   for (std::size_t k = 0; k < figures.size(); ++k) figures[k].add(more.figures[k]);
 }
 

@@ -1,6 +1,7 @@
 // Figures over the runs of a campaign: what each of them is in all, in bounded memory.
 //
-// Each run is made by the careful simulator, to the accuracy of expected figures. The survey of
+// Each run is made by the careful simulator, to the accuracy of expected figures, with its twin
+// (claims/twin_runs.h): a number that it does not know counts as such. The survey of
 // some runs is the sum of the surveys of its parts, in any order and grouping to the same bits: of
 // blocks on threads as of campaigns on several machines.
 #pragma once
@@ -23,8 +24,18 @@ namespace gainsmith::statistics {
 struct OfRun {
   double value = 0;
   std::uint64_t run = 0;
+  double error = 0;
 
   bool operator==(const OfRun&) const = default;
+};
+
+/// Runs to which something happened.
+struct SomeRuns {
+  std::uint64_t count = 0;
+  std::uint64_t first = 0;  ///< the first of them ...
+  std::string why;          ///< ... and why
+
+  bool operator==(const SomeRuns&) const = default;
 };
 
 /// A figure over some runs.
@@ -32,7 +43,9 @@ struct FigureSummary {
   std::string title;
   std::string observer;        ///< empty: of none
   ValueSketch values{};        ///< of the runs that have such a number; it may be infinite
-  std::uint64_t without = 0;   ///< the other runs
+  double error = 0;            ///< the largest of these values
+  std::uint64_t without = 0;   ///< runs that have none
+  SomeRuns unknown{};          ///< runs of which it is not known
   std::optional<OfRun> least;  ///< of several runs the first
   std::optional<OfRun> largest;
   SquaredErrors squares{};  ///< of `nees` and `nis`; the values are the means of each run
@@ -45,9 +58,7 @@ struct FigureSummary {
 struct FigureSurvey {
   std::uint64_t runs = 0;
   std::vector<FigureSummary> figures;
-  std::uint64_t early = 0;      ///< runs that ended before their horizon, and not by zeno
-  std::uint64_t early_run = 0;  ///< the first of them ...
-  std::string early_why;        ///< ... and why
+  SomeRuns early{};  ///< that ended before their horizon, and not by zeno
 
   void add(const FigureSurvey& more);
   bool operator==(const FigureSurvey&) const = default;

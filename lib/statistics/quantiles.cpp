@@ -46,7 +46,8 @@ RankInterval rank_interval(std::uint64_t count, double probability, double confi
   return {beyond - 1, upper};
 }
 
-Quantile quantile_of(const ValueSketch& values, double probability, double confidence) {
+Quantile quantile_of(const ValueSketch& values, double probability, double confidence,
+                     std::uint64_t unknown) {
   Quantile quantile{probability, {}, {}, {}};
   const std::uint64_t count = values.count();
   if (count == 0) return quantile;
@@ -57,8 +58,8 @@ Quantile quantile_of(const ValueSketch& values, double probability, double confi
   const double first = values.ranked(rank(std::ceil(place))).middle();
   const double next = values.ranked(rank(std::floor(place) + 1)).middle();
   quantile.value = Enclosure{first, next}.middle();
-  const RankInterval ranks = rank_interval(count, probability, confidence);
-  if (ranks.lower >= 1) quantile.low = values.ranked(ranks.lower).low;
+  const RankInterval ranks = rank_interval(count + unknown, probability, confidence);
+  if (ranks.lower > unknown) quantile.low = values.ranked(ranks.lower - unknown).low;
   if (ranks.upper <= count) quantile.high = values.ranked(ranks.upper).high;
   return quantile;
 }

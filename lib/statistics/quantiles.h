@@ -36,6 +36,8 @@ struct Quantile {
 };
 
 /// Of a sketch that is not exact the interval is as wide as the enclosures of its ends need.
-Quantile quantile_of(const ValueSketch& values, double probability, double confidence);
+/// `unknown`: values more, which may lie anywhere: the interval holds for all, the value is of the others.
+Quantile quantile_of(const ValueSketch& values, double probability, double confidence,
+                     std::uint64_t unknown = 0);
 
 }  // namespace gainsmith::statistics

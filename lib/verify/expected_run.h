@@ -14,13 +14,11 @@ namespace gainsmith::verify {
 
 struct RunDifferences {
   std::vector<std::string> different;  ///< place: figure: expected ..., found ...
-  std::vector<std::string> undecided;  ///< those whose digits do not decide
+  std::vector<std::string> undecided;  ///< those whose errors do not decide
   std::size_t figures = 0;             ///< that were expected
 };
 
-/// What is expected of the first run (number 0) and is not found there. `made`: that run (replay.h),
-/// where it is known already.
-RunDifferences run_differences(const model::Instance& instance, const model::Gains& gains,
-                               std::optional<hybrid::Trajectory> made = {});
+/// What is expected of the first run (number 0) and is not found there.
+RunDifferences run_differences(const model::Instance& instance, const model::Gains& gains);
 
 }  // namespace gainsmith::verify

@@ -1,4 +1,5 @@
 // Claims and figures whose texts branch between two sample points, or whose evaluation cancels.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -300,18 +301,79 @@ TEST(NarrowFigures, HaveLimits) {
       "    - {settles: x, below: 0.1, is: {below: 10}}\n"
       "    - {value: x, at: {t: 2}, is: {below: 10}}\n"));
   const RunDifferences found = run_differences(instance, model::Gains{});
-  ASSERT_EQ(found.different.size(), 4U);
+  ASSERT_EQ(found.different.size(), 5U);
   EXPECT_NE(found.different[0].find("expected at most 0.3, found 0.367879441"), std::string::npos);
   EXPECT_NE(found.different[1].find("expected at least 1, found 0.3678"), std::string::npos);
-  EXPECT_NE(found.different[2].find("expected at most 10, found inf"), std::string::npos);
-  EXPECT_NE(found.different[3].find("found none until the run ends, at t = 1"), std::string::npos);
-  EXPECT_EQ(found.undecided.size(), 1U) << "a limit within the errors of the run";
+  EXPECT_NE(found.different[2].find("at most 0.367879441, found"), std::string::npos)
+      << "an exact flow is known to all digits";
+  EXPECT_NE(found.different[3].find("expected at most 10, found inf"), std::string::npos);
+  EXPECT_NE(found.different[4].find("found none until the run ends, at t = 1"), std::string::npos);
+  EXPECT_TRUE(found.undecided.empty());
   const model::Instance never = bind::bind(io::read_problem(
       "problem: p\nmethod:\n  method: m\n  plant: {state: {x: {shape: scalar, start: 1}}, flow: "
       "{x: -x}}\ncampaign: {horizon: 1}\nexpect:\n  run:\n"
       "    - {peak: x, is: {below: 1, above: 2}}\n"));
   EXPECT_EQ(tests::input_error([&] { run_differences(never, {}); }).message(),
             "is: no number is above 2 and below 1");
+}
+
+/// Expectations of a run to t = 2 of flows, with an event at each tenth.
+RunDifferences differences(const std::string& states, const std::string& flow,
+                           const std::string& map, const std::string& expectations) {
+  return run_differences(
+      bind::bind(io::read_problem("problem: p\nmethod:\n  method: m\n  events: {tick: {every: "
+                                  "0.1}}\n  plant:\n    state: {" +
+                                  states + "}\n    flow: {" + flow + "}\n    at: {tick: {" + map +
+                                  "}}\ncampaign: {horizon: 2}\nexpect:\n  run:\n" + expectations)),
+      model::Gains{});
+}
+
+TEST(NarrowFigures, AFigureAtATickIsAfterIt) {
+  for (int k = 1; k < 20; ++k) {
+    const std::string t = fmt::format("{}.{}", k / 10, k % 10);
+    const RunDifferences found =
+        differences("n: {shape: scalar, start: 0}", "", "n: n + 1",
+                    fmt::format("    - {{at: {{t: {}}}, value: n, is: {}, absolute: 0}}\n"
+                                "    - {{at: {{t: {}1}}, value: n, is: {}, absolute: 0}}\n"
+                                "    - {{at: {{t: {} - 1e-9}}, value: n, is: {}, absolute: 0}}\n",
+                                t, k, t, k, t, k - 1));
+    EXPECT_TRUE(found.different.empty()) << found.different.front();
+    EXPECT_TRUE(found.undecided.empty()) << found.undecided.front();
+  }
+}
+
+/// x = 16.5 at t = 1, beside a state that is integrated.
+TEST(NarrowFigures, ATieIsADoubt) {
+  const std::string states =
+      "x: {shape: scalar, start: 0.1}, q: {shape: scalar, start: 0}, r: {shape: scalar, start: 1}";
+  for (const char* rate : {"-r", "-r^3"}) {
+    const RunDifferences found =
+        differences(states, fmt::format("x: \"16.4\", r: {}", rate), "q: floor(x + 0.5)",
+                    "    - {at: {t: 1}, value: floor(x + 0.5), is: 17, absolute: 0}\n"
+                    "    - {at: {t: 1}, value: floor(x + 0.5), is: 17, absolute: 2}\n"
+                    "    - {at: {t: 1}, value: q, is: 16, absolute: 0}\n"
+                    "    - {at: {t: 1.05}, value: q, is: 16, absolute: 0}\n"
+                    "    - {at: {t: 0.95}, value: q, is: 15, absolute: 0}\n"
+                    "    - {at: {t: 1.05}, value: x, is: 17.32, absolute: 1e-9}\n");
+    EXPECT_TRUE(found.different.empty()) << found.different.front();
+    ASSERT_EQ(found.undecided.size(), 4U);
+    EXPECT_NE(found.undecided[0].find("floor"), std::string::npos) << found.undecided[0];
+  }
+}
+
+TEST(NarrowFigures, OfAChaoticRunAreUndecidedOnceItHasParted) {
+  // Each tick takes a digit away: of 16 there are 11 after five ticks, and none after 19.
+  const RunDifferences found =
+      differences("y: {shape: scalar, start: 0.3183098861837907}, n: {shape: scalar, start: 0}", "",
+                  "y: \"10*y - floor(10*y)\", n: n + 1",
+                  "    - {at: {t: 0.55}, value: y, is: 0.98861837907, absolute: 1e-9}\n"
+                  "    - {at: {t: 0.55}, value: y, is: 0.98861837, absolute: 1e-9}\n"
+                  "    - {at: {t: 1.95}, value: y, is: 0.5, absolute: 1e-9}\n"
+                  "    - {peak: y, is: {below: 0.1}}\n"
+                  "    - {at: {t: 1.95}, value: n, is: 19, absolute: 0}\n");
+  EXPECT_EQ(found.different.size(), 1U);
+  ASSERT_EQ(found.undecided.size(), 2U);
+  EXPECT_NE(found.undecided[0].find("found a number that is not known"), std::string::npos);
 }
 
 }  // namespace

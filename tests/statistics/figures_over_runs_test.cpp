@@ -66,6 +66,27 @@ TEST(Quantiles, FewRunsHaveNoEnds) {
   EXPECT_FALSE(found.low || found.high);
 }
 
+/// Wherever the values that are not known lie, the interval of all of them lies in what is said.
+TEST(Quantiles, HoldWhereverUnknownValuesLie) {
+  std::vector<double> known(60);
+  for (std::size_t k = 0; k < known.size(); ++k) known[k] = static_cast<double>(k);
+  ValueSketch sketch;
+  sketch.add(known);
+  for (const double p : {0.05, 0.5, 0.95})
+    for (const std::uint64_t unknown : {0U, 1U, 5U, 40U}) {
+      const Quantile found = quantile_of(sketch, p, 0.9, unknown);
+      for (const double where : {-1.0, 29.5, 61.0}) {
+        ValueSketch all;
+        all.add(known);
+        all.add(std::vector<double>(unknown, where));
+        const Quantile of_all = quantile_of(all, p, 0.9);
+        EXPECT_TRUE(!found.low || *found.low <= of_all.low.value());
+        EXPECT_TRUE(!found.high || *found.high >= of_all.high.value());
+        EXPECT_TRUE(unknown > 0 || found.low == of_all.low);
+      }
+    }
+}
+
 TEST(ValueSketch, EnclosesRanksAndDoesNotDependOnOrder) {
   std::mt19937_64 random(2);
   std::lognormal_distribution<double> drawn(0, 2);
@@ -200,6 +221,36 @@ TEST(FigureSurvey, OfPartsIsThatOfTheWhole) {
     EXPECT_EQ(figure.values.count() + figure.without, 200U) << figure.title;
   EXPECT_GT(whole.figures[3].without, 0U) << "not all runs have five samples";
   EXPECT_GT(whole.figures[4].squares.improper, 0U);
+}
+
+/// In every second run y is chaotic: its figures are known up to some time, or not at all.
+TEST(FigureSurvey, CountsRunsThatAreNotKnown) {
+  const model::Instance instance = bind::bind(io::read_problem(R"(problem: p
+method:
+  method: m
+  events: {tick: {every: 1}}
+  plant:
+    state: {y: {shape: scalar, start: 0.3}, k: {shape: scalar, start: 0}}
+    at: {tick: {y: k*y*(1 - y)}}
+campaign: {runs: 4, horizon: 90, initial: {k: [2, 4]}}
+compare: [{at: {t: 90}, value: y}, {at: {t: 10}, value: y}, {count: tick}, {peak: y}]
+)"));
+  const auto setup = claims::make_run_setup(bind::run_texts(instance, {}));
+  const FigureSurvey found = survey_figures(*setup, instance.design->compare, 1, {4});
+  for (const std::size_t chaotic : {0U, 3U}) {
+    const FigureSummary& figure = found.figures[chaotic];
+    EXPECT_EQ(figure.unknown.count, 2U) << figure.title;
+    EXPECT_EQ(figure.unknown.first, 1U);
+    EXPECT_NE(figure.unknown.why.find("size of y"), std::string::npos) << figure.unknown.why;
+    EXPECT_EQ(figure.values.count(), 2U);
+    EXPECT_EQ(figure.without, 0U);
+  }
+  EXPECT_NEAR(found.figures[0].least->value, 0.5, 1e-12) << "y goes to 1 - 1/k";
+  for (const std::size_t known : {1U, 2U}) EXPECT_EQ(found.figures[known].unknown.count, 0U);
+  EXPECT_EQ(found.figures[2].error, 0) << "a count";
+  // Errors double at each tick.
+  EXPECT_GT(found.figures[1].largest->error + found.figures[1].least->error, 1e-15);
+  EXPECT_LT(found.figures[1].error, 1e-10);
 }
 
 }  // namespace

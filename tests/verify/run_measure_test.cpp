@@ -34,7 +34,9 @@ campaign: {horizon: 3, seed: 5, initial: {x: {box: [0, 2]}}}
 class Measures : public testing::Test {
  protected:
   static std::optional<double> mean(const YamlProblem& problem, std::uint64_t runs) {
-    return mean_figure(problem.instance, {}, *problem.instance.design->search->run_figure, runs);
+    const auto found =
+        mean_figure(problem.instance, {}, *problem.instance.design->search->run_figure, runs);
+    return found ? std::optional(found->value) : std::nullopt;
   }
   static double start_of(const YamlProblem& problem, std::uint64_t run) {
     const auto setup = claims::make_run_setup(bind::run_texts(problem.instance, {}));
@@ -75,6 +77,41 @@ TEST_F(Measures, HaveNoValueWhereARunHasNone) {
   EXPECT_FALSE(mean(YamlProblem(decay("{at: {event: low, count: 9}, value: x}")), 1));
   EXPECT_FALSE(mean(YamlProblem(decay("{at: {t: 4}, value: x}")), 1));
   EXPECT_FALSE(mean(YamlProblem(decay("{settles: x, below: 0}")), 1));
+}
+
+/// x(t) = x(0)*exp(-2 t), beside a pendulum, which makes the flow one that is integrated.
+TEST_F(Measures, HaveErrors) {
+  for (const std::string more : {"", ", p: sin(x)"}) {
+    std::string text = decay("{at: {t: 1}, value: x}");
+    text.replace(text.find("flow: {x: -k*x"), 14, "flow: {x: -k*x" + more);
+    if (!more.empty())
+      text.replace(text.find("state: {"), 8, "state: {p: {shape: scalar, start: 0}, ");
+    const YamlProblem problem(text);
+    const YamlProblem start(decay("{at: {t: 0}, value: x}"));
+    const auto found =
+        mean_figure(problem.instance, {}, *problem.instance.design->search->run_figure, 4);
+    const double truth = mean(start, 4).value() * std::exp(-2);
+    EXPECT_LE(std::abs(found->value - truth), found->bound);
+    EXPECT_LT(found->bound, 1e-4);
+    EXPECT_GT(found->bound, 0);
+  }
+}
+
+TEST_F(Measures, HaveNoValueWhereARunDoesNotKnowIt) {
+  const auto chaotic = [](const std::string& t) {
+    return YamlProblem(R"(problem: p
+method:
+  method: m
+  parameters: {k: 4}
+  events: {tick: {every: 1}}
+  plant: {state: {y: {shape: scalar, start: 0.3}}, at: {tick: {y: k*y*(1 - y)}}}
+search: {over: {k: [3, 4]}, minimize: {at: {t: )" +
+                       t + R"(}, value: y}}
+campaign: {horizon: 90}
+)");
+  };
+  EXPECT_TRUE(mean(chaotic("10"), 1));
+  EXPECT_FALSE(mean(chaotic("90"), 1));
 }
 
 TEST_F(Measures, AreTheSameBitsAgain) {
