@@ -145,6 +145,14 @@ std::optional<EventDoubts::Instant> EventDoubts::instant(std::size_t jump) {
   return at;
 }
 
+/// Whether the event is where it is at other values too, on the same side of its guard.
+bool EventDoubts::stays(const Instant& at, const VectorXd& values) {
+  if (watch_.only_if[at.event] && !(*watch_.only_if[at.event])(values)) return false;
+  if (watch_.when[at.event]) return (*watch_.when[at.event])(values);
+  EventFunction* const crossing = watch_.crossing[at.event] ? &*watch_.crossing[at.event] : nullptr;
+  return crossing == nullptr || element(*crossing, values, 0) * element(*crossing, at.now, 0) >= 0;
+}
+
 /// Whether the maps of the event jump within the errors of the values before: a text that they
 /// branch on is as near to 0, and what they do differs as much within the errors as within 64 times
 /// of them. Of what is smooth it grows as they do, of a root by 8.
@@ -161,19 +169,22 @@ bool EventDoubts::is_on_step(const Instant& at) {
   std::vector<EventFunction>& steps = steps_[at.event];
   if (std::none_of(steps.begin(), steps.end(), is_near)) return false;
   const VectorXd errors = errors_of(at.now, at.twin, factor);
-  const auto change = [&](double times) {
-    VectorXd largest = VectorXd::Zero(errors.size());
-    for (Index bit = 1; bit < 2 * errors.size(); bit *= 2) {
-      VectorXd move = times * errors;
-      for (Index e = 0; e < move.size(); ++e)
-        if ((e & bit) != 0) move(e) = -move(e);
-      const VectorXd up = maps_(at.event, at.lost, at.now + move);
-      largest = largest.cwiseMax((up - maps_(at.event, at.lost, at.now - move)).cwiseAbs());
-    }
-    return largest;
-  };
   try {
-    const VectorXd least = kValueRounding * at.now.cwiseAbs(), within = change(1);
+    const VectorXd after = maps_(at.event, at.lost, at.now);
+    const auto change = [&](double times) {
+      VectorXd largest = VectorXd::Zero(errors.size());
+      for (Index bit = 1; bit < 2 * errors.size(); bit *= 2)
+        for (const int sign : {1, -1}) {
+          VectorXd moved = at.now;
+          for (Index e = 0; e < moved.size(); ++e)
+            moved(e) += ((e & bit) != 0 ? -sign : sign) * times * errors(e);
+          if (stays(at, moved))
+            largest = largest.cwiseMax((maps_(at.event, at.lost, moved) - after).cwiseAbs());
+        }
+      return largest;
+    };
+    const VectorXd within = change(1);
+    const auto least = kValueRounding * at.now.cwiseAbs().cwiseMax(after.cwiseAbs());
     return (within.array() > least.array() && change(64).array() < 4 * within.array()).any();
   } catch (const std::exception&) {
     return true;

@@ -73,6 +73,7 @@ class EventDoubts {
   std::vector<Guard> guards(std::size_t event, const Instant& at);
   void set_time_error(Instant& at);
   bool may_happen(std::size_t event, const Instant& at, const std::vector<Guard>& guards);
+  bool stays(const Instant& at, const Eigen::VectorXd& values);
   bool is_on_step(const Instant& at);
   std::optional<std::string> clocks_after(std::size_t jump, const Instant& at);
   bool fires(std::size_t event, const std::vector<Guard>& guards, const Instant& at,

@@ -113,6 +113,20 @@ TEST(EventDoubts, AStepOfAMapThatChangesNothingIsCertain) {
     EXPECT_FALSE(Runs(sampled("0", text)).doubt()) << text;
 }
 
+/// An event lies on the side of its guard that lets it happen, and so do maps that branch there.
+TEST(EventDoubts, AMapThatBranchesOnItsOwnGuardIsCertain) {
+  for (const bool crossing : {false, true}) {
+    EventProblem problem;
+    problem.state("x", {}, "0.1").flow("x", "16.4").state("p", {}, "0");
+    if (crossing)
+      problem.crossing(EventKind::rises, "full", "x - 16.5");
+    else
+      problem.when("full", "x >= 16.5 and p < 1");
+    problem.jump("full", {{"p", "where(x >= 16.5, 2, 1)"}, {"x", "where(2*x >= 33, 0, x)"}});
+    EXPECT_FALSE(Runs(problem).doubt()) << crossing;
+  }
+}
+
 TEST(EventDoubts, WholeNumbersAreAtNoTie) {
   EventProblem problem;
   problem.state("n", {}, "0").state("p", {}, "0");
