@@ -8,6 +8,7 @@
 #include "base/stop.h"
 #include "claims/sample_points.h"
 #include "claims/tolerances.h"
+#include "ode/tolerances.h"
 
 namespace gainsmith::claims {
 
@@ -38,14 +39,16 @@ std::string TwinRun::unknown(double until, const std::vector<Index>& elements,
 }
 
 TwinRun TwinRuns::operator()(std::uint64_t seed, std::uint64_t run, double usual, double factor) {
-  const simulate::Accuracy accuracy = setup_->accuracy(usual, factor);
+  const simulate::Accuracy accuracy = setup_->accuracy(usual, factor * kSharper);
+  simulate::Accuracy coarser = setup_->accuracy(usual, factor);
+  coarser.longest = accuracy.longest / ode::kShorter;
   TwinRun result;
-  result.run = simulator_.run(seed, run, setup_->accuracy(usual, factor * kSharper));
-  result.twin = simulator_.run(seed, run, accuracy, {}, 0);
+  result.run = simulator_.run(seed, run, accuracy);
+  result.twin = simulator_.run(seed, run, coarser, {}, 0);
   check_stop();
   // The turning points are those of the twin.
   const TwinParts parts = pair_twins(result.twin, result.run, setup_->system, doubts_.maps());
-  compare(parts, accuracy.times(kSharper), result);
+  compare(parts, accuracy, result);
   const bool same = parts.whole && result.run.ending == result.twin.ending &&
                     std::abs(result.run.end - result.twin.end) <= kInstantOfRun * result.run.end;
   if (!same) {
