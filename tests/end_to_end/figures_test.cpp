@@ -295,7 +295,7 @@ method:
   events: {tick: {every: 1}}
   plant: {state: {y: {shape: scalar, start: 0.3}, k: {shape: scalar, start: 0}}, at: {tick: {y: k*y*(1 - y)}}}
   claims: {small: {below: y, bound: 2, after: 1.5}}
-campaign: {runs: 40, horizon: 90, initial: {k: [2, 4]}}
+campaign: {runs: 40, horizon: 90, initial: {k: {list: [2, 4]}}}
 compare: [{at: {t: 90}, value: y}]
 )yaml");
   const std::string part = folder.path("part.json");

@@ -232,7 +232,7 @@ method:
   plant:
     state: {y: {shape: scalar, start: 0.3}, k: {shape: scalar, start: 0}}
     at: {tick: {y: k*y*(1 - y)}}
-campaign: {runs: 4, horizon: 90, initial: {k: [2, 4]}}
+campaign: {runs: 4, horizon: 90, initial: {k: {list: [2, 4]}}}
 compare: [{at: {t: 90}, value: y}, {at: {t: 10}, value: y}, {count: tick}, {peak: y}]
 )"));
   const auto setup = claims::make_run_setup(bind::run_texts(instance, {}));
