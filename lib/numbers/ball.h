@@ -85,6 +85,12 @@ struct Ball {
   bool is_zero() const { return rad == 0 && mid == S(0); }
 };
 
+/// x times a power of two.
+template <class S>
+Ball<S> scaled(const Ball<S>& x, double power) {
+  return {x.mid * S(power), x.rad * power};
+}
+
 /// Ends of a ball, rounded outward.
 template <class S>
 double low_end(const Ball<S>& x) {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <bit>
@@ -34,6 +35,12 @@ Matrix Cholesky::solve(const Matrix& B) const {
   packed_.triangularView<Eigen::Lower>().solveInPlace(result);
   packed_.adjoint().triangularView<Eigen::Upper>().solveInPlace(result);
   return result;
+}
+
+Matrix inverse_of_factor(const Matrix& M) {
+  const Eigen::HouseholderQR<Matrix> factor(M);
+  const Matrix R = factor.matrixQR().topRows(M.cols());
+  return R.triangularView<Eigen::Upper>().solve(Matrix::Identity(M.cols(), M.cols()));
 }
 
 namespace {

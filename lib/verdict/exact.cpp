@@ -85,11 +85,8 @@ EnclosedValues<S> ExactBlocks<S>::values_at(const lmi::Block& block) const {
 }
 
 template <class S>
-ExactBlock<S> ExactBlocks<S>::block(const lmi::Block& block, std::size_t at,
-                                    const std::vector<int>& kept) const {
-  const lmi::Statement& statement = of_.statements[block.inequality];
-  const expr::Program& program = statement.differences[block.comparison];
-  const EnclosedValues<S> values = values_at(block);
+std::vector<std::pair<int, ExactElements<S>>> ExactBlocks<S>::terms(
+    const expr::Program& program, const EnclosedValues<S>& values) const {
   std::vector<ExactForm<S>> inputs;
   for (const expr::Input& input : program.inputs) {
     const lmi::Unknown* unknown = of_.unknowns.find(input.name);
@@ -98,13 +95,31 @@ ExactBlock<S> ExactBlocks<S>::block(const lmi::Block& block, std::size_t at,
   }
   expr::Evaluator<ExactAlgebra<S>> evaluator(program);
   for (std::size_t k = 0; k < inputs.size(); ++k) evaluator.fix(program.inputs[k].name, inputs[k]);
-  const ExactForm<S>& form = evaluator.run();
+  return terms_of(evaluator.run());
+}
+
+template <class S>
+std::vector<numbers::Ball<S>> ExactBlocks<S>::objective() const {
+  std::vector<numbers::Ball<S>> costs(static_cast<std::size_t>(of_.unknowns.size()) + 1);
+  for (const auto& [i, elements] :
+       terms(of_.bodies.link(of_.design().objective->program), values_)) {
+    costs[static_cast<std::size_t>(i)] =
+        numbers::scaled(elements.front().ball(), i == 0 ? 1 : balance_.unit(i));
+  }
+  return costs;
+}
+
+template <class S>
+ExactBlock<S> ExactBlocks<S>::block(const lmi::Block& block, std::size_t at,
+                                    const std::vector<int>& kept) const {
+  const lmi::Statement& statement = of_.statements[block.inequality];
   std::vector<int> place(static_cast<std::size_t>(block.size), -1);
   for (std::size_t k = 0; k < kept.size(); ++k)
     place[static_cast<std::size_t>(kept[k])] = static_cast<int>(k);
   ExactBlock<S> result;
   result.size = static_cast<int>(kept.size());
-  for (const auto& [i, elements] : terms_of(form)) {
+  for (const auto& [i, elements] :
+       terms(statement.differences[block.comparison], values_at(block))) {
     ExactElements<S> part = symmetric_part(
         elements, place, [&, i = i](int r, int c) { return balance_.factor(at, r, c, i); });
     if (!part.empty()) result.terms.emplace_back(i, std::move(part));

@@ -36,8 +36,12 @@ class ExactBlocks {
 
   /// The rows `kept` of a block; `at` is its place in the balance.
   ExactBlock<S> block(const lmi::Block& block, std::size_t at, const std::vector<int>& kept) const;
+  /// c_0 ... c_m of the objective, which there is.
+  std::vector<numbers::Ball<S>> objective() const;
 
  private:
+  std::vector<std::pair<int, ExactElements<S>>> terms(
+      const expr::Program& program, const numbers::EnclosedValues<S>& values) const;
   numbers::EnclosedValues<S> values_at(const lmi::Block& block) const;
 
   const lmi::Inequalities& of_;

@@ -16,12 +16,6 @@ using Eigen::Index;
 using numbers::Matrix;
 using numbers::Vector;
 
-/// g_i and a bound of its error in the norm of Frobenius.
-struct Images {
-  Matrix G;
-  Vector error;
-};
-
 /// L' B L for each term, its lower triangle with sqrt(2) beside the diagonal.
 template <class S>
 void add_images(const FactoredBlock<S>& one, Index first, Images& images) {
@@ -54,9 +48,7 @@ void add_images(const FactoredBlock<S>& one, Index first, Images& images) {
 }  // namespace
 
 template <class S>
-bool is_exact_in_double(const std::vector<FactoredBlock<S>>& blocks,
-                        const ResidualsInDouble& residuals, bool constant) {
-  const Index unknowns = residuals.r.size();
+Images images_of(const std::vector<FactoredBlock<S>>& blocks, Index unknowns) {
   Index size = 1;
   for (const FactoredBlock<S>& one : blocks) size += one.L.cols() * (one.L.cols() + 1) / 2;
   Images images{Matrix::Zero(size, unknowns), Vector::Zero(unknowns)};
@@ -65,6 +57,17 @@ bool is_exact_in_double(const std::vector<FactoredBlock<S>>& blocks,
     add_images(one, first, images);
     first += one.L.cols() * (one.L.cols() + 1) / 2;
   }
+  return images;
+}
+
+template Images images_of(const std::vector<FactoredBlock<DoubleDouble>>&, Index);
+
+template <class S>
+bool is_exact_in_double(const std::vector<FactoredBlock<S>>& blocks,
+                        const ResidualsInDouble& residuals, bool constant) {
+  const Index unknowns = residuals.r.size();
+  Images images = images_of(blocks, unknowns);
+  const Index size = images.G.rows();
   Vector r = residuals.r;
   Vector error = residuals.error;
   if (constant) {

@@ -19,6 +19,15 @@ struct FactoredBlock {
   numbers::Matrix L;
 };
 
+/// g_i, and a bound of its error in the norm of Frobenius.
+struct Images {
+  numbers::Matrix G;
+  numbers::Vector error;
+};
+/// The columns g_0 ... g_m of `unknowns` = m + 1, a block after the other, below them a row of zeros.
+template <class S>
+Images images_of(const std::vector<FactoredBlock<S>>& blocks, Eigen::Index unknowns);
+
 /// r_i with |true - r_i| <= error_i; r_0 = -v.
 struct ResidualsInDouble {
   numbers::Vector r;

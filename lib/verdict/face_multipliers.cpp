@@ -242,4 +242,31 @@ ExactMultipliers exact_multipliers(const Faces& faces, const FoundMultipliers& f
   return {};
 }
 
+std::optional<std::vector<FaceOfBlock>> fractions_near(const Faces& faces,
+                                                       const FoundMultipliers& projectors,
+                                                       double relative) {
+  constexpr double kLeast = 1e-6;  // of a projector's diagonal, 0 or above 1/n
+  std::vector<FaceOfBlock> result;
+  for (std::size_t k = 0; k < projectors.Y.size(); ++k) {
+    const RationalBlock& block = faces.blocks()[k];
+    if (!block.exact || block.strict) continue;
+    const std::vector<int> pivots = pivots_of(projectors.Y[k], kLeast);
+    if (pivots.empty()) continue;
+    auto V = basis_of(projectors.Y[k], projectors.rows[k], pivots, relative);
+    if (!V) return std::nullopt;
+    result.push_back({k, pivots, std::move(*V)});
+  }
+  if (result.empty()) return std::nullopt;
+  return result;
+}
+
+bool are_exact_on(const Faces& faces, const std::vector<FaceOfBlock>& on,
+                  const FoundMultipliers& found) {
+  std::vector<RationalMatrix> start;
+  for (const FaceOfBlock& face : on)
+    start.push_back(start_of(found.Y[face.block], found.rows[face.block], face.pivots));
+  return Correction(faces, on, std::move(start), Rational(0)).run() ==
+         ExactMultipliers::Say::restricts;
+}
+
 }  // namespace gainsmith::verdict

@@ -36,4 +36,15 @@ struct ExactMultipliers {
 
 ExactMultipliers exact_multipliers(const Faces& faces, const FoundMultipliers& found);
 
+/// The ranges of projectors onto kernels of the blocks with >=, in fractions within `relative`;
+/// none where an element is near no short one, or all are 0.
+std::optional<std::vector<FaceOfBlock>> fractions_near(const Faces& faces,
+                                                       const FoundMultipliers& projectors,
+                                                       double relative);
+
+/// Whether exact multipliers near those that were found have these ranges: every solution is on
+/// the face then.
+bool are_exact_on(const Faces& faces, const std::vector<FaceOfBlock>& on,
+                  const FoundMultipliers& found);
+
 }  // namespace gainsmith::verdict

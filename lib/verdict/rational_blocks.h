@@ -8,6 +8,7 @@
 #include "lmi/block.h"
 #include "lmi/inequalities.h"
 #include "numbers/rational.h"
+#include "verdict/exact.h"
 
 namespace gainsmith::verdict {
 
@@ -27,6 +28,13 @@ struct RationalBlock {
 /// one whose text has a value that is no fraction (numbers/rational.h).
 std::vector<RationalBlock> rational_blocks(const lmi::Inequalities& of,
                                            const std::vector<lmi::Block>& blocks);
+
+/// In 31 digits.
+numbers::Ball<DoubleDouble> ball_of(const Rational& x);
+
+/// The rows `kept` in the units of a balance, where the block is number `at`.
+ExactBlock<DoubleDouble> exact_block(const RationalBlock& block, const lmi::Balance& balance,
+                                     std::size_t at, const std::vector<int>& kept);
 
 /// Data and parameters; those that have no fraction are left out.
 numbers::RationalValues rational_values(const model::Instance& instance);

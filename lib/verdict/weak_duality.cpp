@@ -1,0 +1,243 @@
+#include "verdict/weak_duality.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/unit_roundoff.h"
+#include "lmi/assembler.h"
+#include "numbers/dense.h"
+#include "verdict/exactness.h"
+#include "verdict/wide_algebra.h"
+
+namespace gainsmith::verdict {
+
+namespace {
+
+using Eigen::Index;
+using numbers::Matrix;
+using numbers::Vector;
+using Quad = numbers::MatrixOf<DoubleDouble>;
+using Factored = std::vector<FactoredBlock<DoubleDouble>>;
+using BlockList = std::vector<ExactBlock<DoubleDouble>>;
+
+/// Y_k with `lift` of its mean eigenvalue more; none where that is not positive definite.
+std::optional<Factored> factors_of(const BlockList& blocks, const Multipliers& Y, double lift) {
+  Factored result;
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    Matrix y = Y[k].unaryExpr([](const DoubleDouble& x) { return as<double>(x); });
+    if (!(y.trace() > 0)) continue;
+    y.diagonal().array() += lift * y.trace() / static_cast<double>(y.rows());
+    const numbers::Cholesky factor(y);
+    if (!factor) return std::nullopt;
+    result.push_back({&blocks[k], factor.lower()});
+  }
+  return result;
+}
+
+/// r_i, r_0 = c_0 - sum_k <B_k0, Y_k> among them.
+ResidualsInDouble slacks_of(const Factored& blocks, const Costs& costs) {
+  constexpr double kRounding = 1e-24;  // more than a million operations in 31 digits leave
+  std::vector<DoubleDouble> r;
+  Vector error(std::ssize(costs));
+  for (Index i = 0; i < error.size(); ++i) {
+    const auto& c = costs[static_cast<std::size_t>(i)];
+    r.push_back(c.mid);
+    error[i] = c.rad + kRounding * upper(c.mid);
+  }
+  for (const auto& [block, L] : blocks) {
+    const Quad wide = L.cast<DoubleDouble>();
+    const Quad Y = numbers::times<DoubleDouble>(wide, wide.transpose());
+    const Matrix sizes = L.cwiseAbs() * L.cwiseAbs().transpose() * (1 + 1e-12);
+    for (const auto& [i, elements] : block->terms)
+      for (const auto& e : elements) {
+        r[static_cast<std::size_t>(i)] -= e.mid * Y(e.row, e.column);
+        error[i] += (kRounding * upper(e.mid) + e.rad) * sizes(e.row, e.column) * (1 + 1e-12);
+      }
+  }
+  Vector rounded(error.size());
+  for (Index i = 0; i < error.size(); ++i) {
+    rounded[i] = as<double>(r[static_cast<std::size_t>(i)]);
+    error[i] += 2 * kUnitRoundoff * std::abs(rounded[i]);
+  }
+  return {rounded, error};
+}
+
+/// The g_i of the unknowns that occur, each of length 1, and what was divided by; r and its error
+/// are divided alike.
+struct Scaled {
+  Matrix G;
+  Vector error;
+  Vector r;
+  Vector r_error;
+};
+
+/// None where an unknown has a cost that no block pays for.
+std::optional<Scaled> in_unit_lengths(const Images& images, const ResidualsInDouble& residuals) {
+  Scaled result{Matrix(images.G.rows(), images.G.cols()), images.error, residuals.r,
+                residuals.error};
+  Index used = 0;
+  for (Index i = 1; i < images.G.cols(); ++i) {
+    const double length = images.G.col(i).norm();
+    if (!(length > 0)) {
+      if (images.error[i] > 0 || residuals.error[i] > 0 || residuals.r[i] != 0) return std::nullopt;
+      continue;
+    }
+    result.G.col(used) = images.G.col(i) / length;
+    result.error[used] = images.error[i] / length * (1 + 1e-12) + 4 * kUnitRoundoff;
+    result.r[used] = residuals.r[i] / length;
+    result.r_error[used] =
+        residuals.error[i] / length * (1 + 1e-12) + 2 * kUnitRoundoff * std::abs(result.r[used]);
+    ++used;
+  }
+  result.G.conservativeResize(Eigen::NoChange, used);
+  for (Vector* part : {&result.error, &result.r, &result.r_error}) part->conservativeResize(used);
+  return result;
+}
+
+struct Move {
+  double theta = 0;  ///< rounded upward
+  Vector steps;      ///< H^-1 r times the lengths of the g_i, about
+};
+
+std::optional<Move> move_of(const Scaled& of) {
+  const Index m = of.G.cols(), size = of.G.rows();
+  if (m == 0) return Move{};
+  if (size < m) return std::nullopt;
+  const Matrix R = numbers::inverse_of_factor(of.G);
+  const Matrix Q = of.G * R;
+  Matrix rest = -Matrix::Identity(m, m);
+  rest.selfadjointView<Eigen::Lower>().rankUpdate(Q.transpose());
+  rest.triangularView<Eigen::StrictlyUpper>() = rest.transpose();
+  const double rows = static_cast<double>(size), columns = static_cast<double>(m);
+  const double roundings = 2 * (rows + columns + 8) * kUnitRoundoff;
+  const double singular = 1 - rest.norm() - roundings * Q.squaredNorm();
+  const double moved =
+      of.error.dot(R.rowwise().norm()) + roundings * std::sqrt(columns) * R.norm() * (1 + 1e-12);
+  const double sigma = std::sqrt(std::max(0.0, singular)) * (1 - 1e-12) - moved * (1 + 1e-9);
+  // What is not a number is not above it either.
+  if (!(sigma > 0.1)) return std::nullopt;
+  const Vector z = R.transpose() * of.r;
+  const Vector z_error =
+      R.cwiseAbs().transpose() * (of.r_error + roundings * of.r.cwiseAbs()) * (1 + 1e-9);
+  return Move{(z.norm() + z_error.norm()) / sigma * (1 + 1e-9), R * z};
+}
+
+/// L_k with L_k L_k' near Y_k + dY_k; none where rounding leaves no factor.
+std::optional<Factored> corrected(const Factored& blocks, const Scaled& by, const Vector& steps) {
+  const Vector moved = by.G * steps;
+  Factored result;
+  Index at = 0;
+  for (const auto& [block, L] : blocks) {
+    Matrix W = Matrix::Identity(L.cols(), L.cols());
+    for (Index c = 0; c < W.cols(); ++c)
+      for (Index r = c; r < W.cols(); ++r, ++at)
+        W(r, c) += r == c ? moved[at] : moved[at] / std::sqrt(2.0);
+    const numbers::Cholesky factor(W);
+    if (!factor) return std::nullopt;
+    result.push_back({block, L * factor.lower()});
+  }
+  return result;
+}
+
+BlockList blocks_of(const lmi::Inequalities& of, const lmi::Lmi& lmi, const lmi::GainBounds& bounds,
+                    const lmi::Formulation& formulation) {
+  const ExactBlocks<DoubleDouble> exact(of, formulation.balance);
+  BlockList blocks;
+  const auto add = [&](const lmi::Block& block, const std::vector<int>& kept) {
+    if (block.where) {
+      blocks.push_back(exact.block(block, blocks.size(), kept));
+      return;
+    }
+    ExactBlock<DoubleDouble> as_solved{static_cast<int>(kept.size()), {}};
+    lmi::for_each_balanced(block, formulation.balance, blocks.size(), kept,
+                           [&](int i, int row, int column, double value) {
+                             if (as_solved.terms.empty() || as_solved.terms.back().first != i)
+                               as_solved.terms.emplace_back(i, ExactElements<DoubleDouble>());
+                             auto& elements = as_solved.terms.back().second;
+                             elements.push_back({row, column, DoubleDouble(value), 0});
+                             if (row != column)
+                               elements.push_back({column, row, DoubleDouble(value), 0});
+                           });
+    blocks.push_back(std::move(as_solved));
+  };
+  for (std::size_t k = 0; k < lmi.blocks.size(); ++k)
+    add(lmi.blocks[k], formulation.free_variables.kept[k]);
+  for (const lmi::Block& block : bounds.blocks) add(block, lmi::all_rows(block));
+  return blocks;
+}
+
+}  // namespace
+
+Costs exact_objective(const lmi::Inequalities& of) {
+  lmi::Balance units;
+  units.unknowns.assign(static_cast<std::size_t>(of.unknowns.size()), 0);
+  return ExactBlocks<DoubleDouble>(of, units).objective();
+}
+
+Costs on_face(const Faces& faces, const Costs& costs) {
+  const numbers::RationalMatrix& N = faces.directions();
+  Costs result(static_cast<std::size_t>(N.cols()) + 1);
+  result[0] = costs[0];
+  for (std::size_t i = 1; i < costs.size(); ++i) {
+    if (costs[i].is_zero()) continue;
+    result[0] = result[0] + costs[i] * ball_of(faces.origin()[i - 1]);
+    for (std::size_t j = 1; j < result.size(); ++j)
+      result[j] =
+          result[j] + costs[i] * ball_of(N(static_cast<Index>(i) - 1, static_cast<Index>(j) - 1));
+  }
+  return result;
+}
+
+std::optional<double> lower_bound(const BlockList& blocks, const Multipliers& Y, Costs costs) {
+  constexpr double kLifts[] = {0, 1e-15, 1e-13, 1e-11, 1e-9, 1e-7};
+  constexpr int kCorrections = 4;
+  constexpr double kNoLoss = 1e-9, kLittleLoss = 1e-4;
+  int last = 0;
+  for (const auto& block : blocks)
+    if (!block.terms.empty()) last = std::max(last, block.terms.back().first);
+  if (std::ssize(costs) <= last) costs.resize(static_cast<std::size_t>(last) + 1);
+  std::optional<double> best;
+  for (const double lift : kLifts) {
+    auto factors = factors_of(blocks, Y, lift);
+    double theta = 1;
+    for (int k = 0; k < kCorrections && factors && theta > kNoLoss; ++k) {
+      const Images images = images_of(*factors, std::ssize(costs));
+      const ResidualsInDouble slacks = slacks_of(*factors, costs);
+      const auto by = in_unit_lengths(images, slacks);
+      const auto move = by ? move_of(*by) : std::nullopt;
+      if (!move) break;
+      theta = move->theta;
+      const double loss = theta * (images.G.col(0).norm() + images.error[0]) * (1 + 1e-12);
+      const double low = slacks.r[0] - slacks.error[0] - loss;
+      const double rounding = 4 * kUnitRoundoff * (std::abs(slacks.r[0]) + loss);
+      if (theta <= 1 && std::isfinite(low) && (!best || low - rounding > *best))
+        best = low - rounding;
+      factors = corrected(*factors, *by, move->steps);
+    }
+    if (best && theta <= kLittleLoss) break;
+  }
+  return best;
+}
+
+std::optional<double> lower_bound(const lmi::Inequalities& of, const lmi::Lmi& lmi,
+                                  const lmi::GainBounds& bounds,
+                                  const lmi::Formulation& formulation,
+                                  const sdp::Solution& solution) {
+  constexpr double kMostWork = 6e9;  // multiplications: seconds
+  double size = 0;
+  for (const int n : formulation.sizes) size += 0.5 * n * (n + 1);
+  if (size * std::pow(formulation.variables, 2) > kMostWork || solution.Y.values.empty())
+    return std::nullopt;
+  const ExactBlocks<DoubleDouble> exact(of, formulation.balance);
+  Costs costs = exact.objective();
+  for (auto& cost : costs) cost = numbers::scaled(cost, formulation.cost_unit);
+  const auto bound = lower_bound(blocks_of(of, lmi, bounds, formulation),
+                                 multipliers_of(formulation, formulation.sizes.size(), solution),
+                                 std::move(costs));
+  if (!bound) return std::nullopt;
+  return *bound / formulation.cost_unit;
+}
+
+}  // namespace gainsmith::verdict

@@ -1,0 +1,44 @@
+// Lower bounds of an objective, shown by weak duality.
+//
+// Y_k = L_k L_k' >= 0 with residuals r_i = c_i - sum_k <B_ki, Y_k>, i >= 1. With the g_i and H of
+// exactness.h and r' H^-1 r = theta^2 <= 1,
+//   dY_k = sum_j (H^-1 r)_j Y_k B_kj Y_k
+// leaves no residual beside Y + dY >= (1 - theta) Y, so that for every x with all B_k(x) >= 0
+//   c_0 + c'x >= c_0 - sum_k <B_k0, Y_k + dY_k> >= c_0 - sum_k <B_k0, Y_k> - theta |g_0|
+// whatever the size of x. With any R near H^-1/2, theta <= |R'r| / sigma, sigma the smallest singular
+// value of the matrix of the g_i times R; all rounded outward.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "lmi/formulation.h"
+#include "numbers/ball.h"
+#include "verdict/exact.h"
+#include "verdict/faces.h"
+#include "verdict/solved_multipliers.h"
+
+namespace gainsmith::verdict {
+
+/// c_0 ... c_m.
+using Costs = std::vector<numbers::Ball<DoubleDouble>>;
+
+/// Those of the objective of the inequalities, by the decimals of the file.
+Costs exact_objective(const lmi::Inequalities& of);
+
+/// The same in the coordinates y of a face, x = x_0 + N y.
+Costs on_face(const Faces& faces, const Costs& costs);
+
+/// The greatest bound that is shown with multipliers near Y; none where none is. c_i that are
+/// beyond the costs are 0.
+std::optional<double> lower_bound(const std::vector<ExactBlock<DoubleDouble>>& blocks,
+                                  const Multipliers& Y, Costs costs);
+
+/// Of the objective of the inequalities, within the gain bounds, by the dual solution of its
+/// program. What represents no point of its domain is taken as it was solved.
+std::optional<double> lower_bound(const lmi::Inequalities& of, const lmi::Lmi& lmi,
+                                  const lmi::GainBounds& bounds,
+                                  const lmi::Formulation& formulation,
+                                  const sdp::Solution& solution);
+
+}  // namespace gainsmith::verdict
