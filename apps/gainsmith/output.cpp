@@ -82,6 +82,12 @@ ExitCode exit_of(model::Verdict verdict) {
   return ExitCode::undecided;
 }
 
+ExitCode exit_of_synthesis(const model::Gains& gains) {
+  const bool open = gains.verdict == model::Verdict::yes && gains.objective &&
+                    gains.solver.status == "feasible" && !gains.solver.unbounded;
+  return open ? ExitCode::undecided : exit_of(gains.verdict);
+}
+
 ExitCode exit_of_search(const model::Gains& gains) {
   const bool finished = gains.search && gains.search->finished;
   return stop_requested && !finished ? ExitCode::undecided : exit_of(gains.verdict);

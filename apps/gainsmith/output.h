@@ -29,6 +29,9 @@ io::Json json_without_statement(const model::Gains& gains);
 /// 0, 1 or 3.
 ExitCode exit_of(model::Verdict verdict);
 
+/// That of the verdict, but 3 for a yes whose optimum is not known.
+ExitCode exit_of_synthesis(const model::Gains& gains);
+
 /// 3 for a search that was stopped, whatever it found; otherwise that of its verdict.
 ExitCode exit_of_search(const model::Gains& gains);
 

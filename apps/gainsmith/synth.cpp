@@ -99,7 +99,7 @@ ExitCode synth(const SynthOptions& options) {
     // The result is there.
   }
   if (gains.solver.cause == to_string(sdp::Cause::interrupted)) return ExitCode::undecided;
-  return gains.search ? exit_of_search(gains) : exit_of(gains.verdict);
+  return gains.search ? exit_of_search(gains) : exit_of_synthesis(gains);
 }
 
 }  // namespace
@@ -124,7 +124,7 @@ Command synth_command() {
            .one_of({"ordinary", "full"}),
        Option("--json", options->json, "print the result as JSON")},
       "Exit code: 0 gains found, 1 infeasible by a checked certificate, 2 wrong input, 3 "
-      "undecided or stopped.\n"
+      "undecided, stopped, or the optimum is not known to 1e-6.\n"
       "Examples:\n"
       "  gainsmith synth problems/ferrante-seuret-2021/t2-0.70.yaml -o gains.json\n"
       "  gainsmith synth problem.yaml --json | jq .gains",

@@ -78,8 +78,9 @@ struct Attempt {
   std::string left_open;
   /// Of a minimum that is only approached, as unknowns grow without end (blended()).
   bool approached = false;
-  /// Of a minimum on a face: no solution has an objective below it.
-  std::optional<double> least;
+  /// On a face: no solution has an objective below it, and what the solver found.
+  std::optional<double> least, reached;
+  bool unbounded = false;  ///< on a face the solver finds no least objective
   std::vector<numbers::Matrix> multipliers;
   /// Of a point that was found without the gain bounds of the problem: its largest gain.
   double largest_gain = 0;

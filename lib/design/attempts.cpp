@@ -41,7 +41,9 @@ struct Attempts {
     return is_bounded(climb) && climb.find(AttemptKind::free_inside) == nullptr &&
            nothing_holds_at_all(climb);
   }
-  static bool minimum_is_due(const Climb& climb) { return has_minimum(climb); }
+  /// Beside equations nothing has room to spare: only the face that they leave has.
+  static bool has_room(const Climb& climb) { return !states_equations(climb.posed_.lmi); }
+  static bool minimum_is_due(const Climb& climb) { return has_minimum(climb) && has_room(climb); }
   /// The last attempt at the minimum within the bounds.
   static const Attempt* last_minimum(const Climb& climb) {
     const Attempt* large = climb.find(AttemptKind::large_minimum);
@@ -62,7 +64,7 @@ struct Attempts {
            std::isfinite(minimum->solution.certificate.excluded_radius);
   }
   static bool free_minimum_is_due(const Climb& climb) {
-    return is_bounded(climb) && has_minimum(climb) && nothing_holds(climb);
+    return is_bounded(climb) && minimum_is_due(climb) && nothing_holds(climb);
   }
   static bool is_large(const Climb& climb) {
     constexpr int kMostRows = 120;
@@ -87,11 +89,10 @@ struct Attempts {
   }
   static bool faces_are_due(const Climb& climb) {
     return climb.posed_.lmi.represents_points() && nothing_holds_at_all(climb) &&
-           !climb.waits_for_points();
+           climb.find(AttemptKind::on_equations) == nullptr && !climb.waits_for_points();
   }
   static bool equations_are_due(const Climb& climb) {
-    return climb.posed_.lmi.represents_points() && nothing_holds_at_all(climb) &&
-           states_equations(climb.posed_.lmi);
+    return climb.posed_.lmi.represents_points() && !has_room(climb);
   }
   static bool tighter_is_due(const Climb& climb) {
     const Attempt* point = climb.point();
@@ -161,9 +162,6 @@ struct Attempts {
   static std::optional<Attempt> in_31_digits(const Climb& climb) {
     return ask(climb, interior({}, {"quad", 1e-22}));
   }
-  static std::optional<Attempt> on_equations(const Climb& climb) {
-    return measured(climb, attempt_on_equations(climb.posed_, climb.solve_));
-  }
   static std::optional<Attempt> facial_reduction(const Climb& climb) {
     return measured(climb, attempt_facial_reduction(climb.posed_, climb.solve_));
   }
@@ -191,6 +189,8 @@ struct Row {
 };
 
 constexpr std::array<Row, 13> kAttempts = {{
+    {AttemptKind::on_equations, Attempts::equations_are_due, Attempts::facial_reduction,
+     "a face that the equations leave"},
     {AttemptKind::minimum, Attempts::minimum_is_due, Attempts::minimum, "the minimum"},
     {AttemptKind::free_inside, Attempts::free_inside_is_due, Attempts::free_inside,
      "the largest margin, gains of any size"},
@@ -202,8 +202,6 @@ constexpr std::array<Row, 13> kAttempts = {{
      "the minimum, gains of any size"},
     {AttemptKind::free_inside, Attempts::bounds_leave_nothing, Attempts::free_inside,
      "the largest margin, gains of any size"},
-    {AttemptKind::on_equations, Attempts::equations_are_due, Attempts::on_equations,
-     "a point that satisfies the equations"},
     {AttemptKind::in_100_digits, Attempts::certificate_is_due, Attempts::certificate_in_100_digits,
      "a certificate in 100 digits"},
     {AttemptKind::in_31_digits, Attempts::digits_are_due, Attempts::in_31_digits,

@@ -1,7 +1,11 @@
 // The attempts of a synthesis, in their order.
 //
 //   attempt           asks                                     is made after
-//   minimum           the objective, within the gain bounds    -  (where it can have a minimum)
+//   on equations      a point, the minimum or a no on the      -  (where equations are stated)
+//                     face that equations leave
+//                     (facial_reduction.h)
+//   minimum           the objective, within the gain bounds    -  (where it can have a minimum, and
+//                                                              without equations)
 //   free inside       the largest margin, gains of any size    -  (where it cannot), or nothing
 //                                                              that holds: bounds depend on units
 //   inside            the largest margin, within the bounds    nothing that holds within them
@@ -10,13 +14,11 @@
 //   blended           a point between minimum and inside       both, the minimum found but not
 //                                                              holding
 //   free minimum      the objective, gains of any size         nothing that holds within the bounds
-//   on equations      a point that satisfies stated            nothing that holds, nothing refuted
-//                     equations exactly, or a no
-//                     (facial_reduction.h)
-//   100 digits        a certificate alone, in these digits     the same, of large programs whose
-//                                                              multipliers in double exclude them
+//   100 digits        a certificate alone, in these digits     nothing that holds, nothing refuted,
+//                                                              of large programs whose multipliers
+//                                                              in double exclude them
 //   31 digits         the largest margin in these digits       nothing that holds, nothing refuted
-//   facial reduction  a point or a no on the face that all     the same
+//   facial reduction  a point or a no on the face that all     the same, without equations
 //                     solutions share (facial_reduction.h)
 //   100 digits        the largest margin in these digits       the same, of programs that are not
 //                                                              large

@@ -5,6 +5,7 @@
 #include "base/number.h"
 #include "base/scalars.h"
 #include "design/attempts.h"
+#include "verdict/weak_duality.h"
 #include "verdict/zero_diagonal.h"
 
 namespace gainsmith::design {
@@ -32,7 +33,7 @@ model::SolverRecord record_of(const Attempt& attempt, bool has_objective) {
 /// What a point that holds has less than was wished for.
 void note_wishes(const Attempt& point, model::Gains& gains) {
   // A minimum lies on the boundary, where nothing is left of a margin.
-  if (gains.objective_lower_bound) return;
+  if (point.question.goal == lmi::Goal::objective) return;
   std::string small;
   for (const model::Margin& margin : point.margins.margins)
     if (margin.is_far_below())
@@ -111,6 +112,37 @@ std::vector<model::Multiplier> multipliers_of(const Climb& climb, const Attempt&
   return result;
 }
 
+/// Shown by weak duality, within the gain bounds.
+std::optional<double> lower_bound(const Climb& climb, const Attempt& point) {
+  if (point.on_face) return point.least;
+  lmi::GainBounds bounds = point.question.bounds;
+  // What limits unknowns alone is no inequality of the problem (blended()).
+  if (point.approached) bounds.blocks.resize(climb.bounds().blocks.size());
+  return verdict::lower_bound(climb.posed().inequalities, climb.posed().lmi, bounds,
+                              point.formulation, point.solution);
+}
+
+/// What the solver found, whatever is shown of it.
+std::optional<double> solver_objective(const Climb& climb) {
+  for (const AttemptKind kind : {AttemptKind::on_equations, AttemptKind::facial_reduction})
+    if (const Attempt* face = climb.find(kind); face != nullptr && face->reached)
+      return face->reached;
+  const Attempt* minimum = climb.find(AttemptKind::minimum);
+  if (minimum == nullptr || !minimum->is_near_optimal()) return std::nullopt;
+  return climb.posed().lmi.objective_at(
+      lmi::read_back(climb.posed().lmi, minimum->formulation, minimum->solution));
+}
+
+/// A minimum is one where a bound shows it to 1e-6 of its size.
+void note_bracket(const Attempt& point, model::Gains& gains) {
+  const auto& least = gains.objective_lower_bound;
+  if (least && lmi::is_narrow_bracket(*least, *gains.objective, point.formulation)) return;
+  gains.solver.status = "feasible";
+  gains.solver.add_message(
+      least ? "the optimum is between the lower bound " + brief(*least, 10) + " and the objective"
+            : std::string("how near the objective is to the optimum is not shown"));
+}
+
 void note_objective(const Climb& climb, const Attempt& point, model::Gains& gains) {
   const lmi::Lmi& lmi = climb.posed().lmi;
   if (!lmi.has_objective) return;
@@ -124,29 +156,31 @@ void note_objective(const Climb& climb, const Attempt& point, model::Gains& gain
   }
   gains.objective = lmi.objective_at(point.x);
   if (point.question.goal == lmi::Goal::objective) {
-    // The dual solution is feasible to the solver's tolerance only.
-    const double least = point.least
-                             ? *point.least
-                             : lmi::objective_lower_bound(lmi, point.question.bounds,
-                                                          point.formulation, point.solution);
-    gains.objective_lower_bound = std::min(*gains.objective, least);
+    const auto least = lower_bound(climb, point);
+    if (least) gains.objective_lower_bound = std::min(*gains.objective, *least);
     if (!point.on_face) gains.multipliers = multipliers_of(climb, point);
     if (point.approached)
       gains.solver.add_message(
           "the least value of the objective is only approached, as unknowns and gains grow without "
           "end; this one is near it");
+    else
+      note_bracket(point, gains);
     return;
   }
   const Attempt* minimum = climb.find(AttemptKind::minimum);
   gains.solver.unbounded =
-      minimum != nullptr && minimum->solution.status == sdp::Status::dual_infeasible;
-  if (gains.solver.unbounded)
+      point.unbounded ||
+      (minimum != nullptr && minimum->solution.status == sdp::Status::dual_infeasible);
+  if (gains.solver.unbounded) {
     gains.solver.add_message(
         "the objective is that of a point inside: the solver finds it unbounded below");
-  else
-    gains.solver.add_message(
-        "the objective is that of a point inside, not its minimum: the minimum was "
-        "not found");
+    return;
+  }
+  const auto value = solver_objective(climb);
+  gains.solver.add_message(
+      "the objective is that of a point inside, not its minimum: the minimum was not found" +
+      (value ? "; the solver's is " + brief(*value, 10) + ", near no decimals that hold"
+             : std::string()));
 }
 
 void accept_point(const Climb& climb, const Attempt& point, model::Gains& gains) {
@@ -265,10 +299,9 @@ void conclude(const Climb& climb, model::Gains& gains) {
         "the search for a point or a certificate in more digits was ended after its allowance of "
         "work; `--effort full`, or `effort: full` under `synthesis`, lets it go on");
   }
-  if (const Attempt* faces = climb.find(AttemptKind::facial_reduction)) {
-    gains.solver.add_message(faces->left_open);
-    return;
-  }
+  if (climb.posed().lmi.has_objective) gains.objective = solver_objective(climb);
+  for (const AttemptKind kind : {AttemptKind::on_equations, AttemptKind::facial_reduction})
+    if (const Attempt* faces = climb.find(kind)) return gains.solver.add_message(faces->left_open);
   if (climb.last().relaxation_refuted()) {
     // What it is about is said by the plan (synthesize.cpp).
     gains.certificate =

@@ -6,10 +6,13 @@
 
 #include "base/rational.h"
 #include "design/gain_values.h"
+#include "design/minimum.h"
+#include "numbers/dense.h"
 #include "verdict/face_multipliers.h"
 #include "verdict/faces.h"
 #include "verdict/printable.h"
 #include "verdict/solved_multipliers.h"
+#include "verdict/weak_duality.h"
 
 namespace gainsmith::design {
 
@@ -18,8 +21,8 @@ namespace {
 using verdict::Faces;
 using verdict::RationalBlock;
 
-/// Beyond these sizes fractions take too long.
-constexpr int kMostUnknowns = 60;
+/// Beyond these sizes of what equations leave fractions take too long.
+constexpr int kMostUnknowns = 100;
 constexpr int kMostRows = 120;
 
 std::vector<std::string> names_of(const lmi::Lmi& lmi) {
@@ -86,28 +89,15 @@ class FacialReduction {
     result_.formulation = lmi::pose_interior(posed.lmi, {});
   }
 
-  /// The plain steps, and a point in double.
-  std::optional<Attempt> run_plain() {
-    faces_.find_plain();
-    if (faces_.steps() == 0) return std::nullopt;
-    if (!faces_.excluded()) faces_.drop_dependent();
-    if (!faces_.excluded() && faces_.unknowns() > 0)
-      solve_left(left_of(faces_, posed_.lmi), {}, Want::point);
-    if (!faces_.excluded() && !result_.holds()) return std::nullopt;
-    return finished();
-  }
-
   std::optional<Attempt> run() {
     const bool any = std::any_of(stated_.begin(), stated_.end(),
                                  [](const RationalBlock& block) { return block.exact; });
     if (!any) return std::nullopt;
-    if (!posed_.wide) {
-      // A quick answer checks only what needs no multipliers.
-      faces_.find_plain();
-      if (faces_.steps() == 0) return std::nullopt;
-    }
+    faces_.find_plain();
+    // A quick answer checks only what needs no multipliers.
+    if (!posed_.wide && faces_.steps() == 0) return std::nullopt;
     while (!done_) step();
-    if (!result_.point && !faces_.excluded()) {
+    if (!result_.point && !excludes()) {
       if (faces_.steps() == 0) return std::nullopt;
       result_.left_open = "every solution has only equality somewhere (" + faces_.why() +
                           "); no numbers of 16 digits were found that keep it";
@@ -118,8 +108,11 @@ class FacialReduction {
  private:
   enum class Want { point, point_or_multipliers };
 
+  /// On a face that was only guessed nothing is excluded.
+  bool excludes() const { return faces_.excluded() && !guessed_; }
+
   Attempt finished() {
-    if (faces_.excluded()) {
+    if (excludes()) {
       result_.point = false;
       result_.refutation = verdict::Refutation{true, 0, kWideDigits};
       result_.chain = faces_.why();
@@ -150,21 +143,28 @@ class FacialReduction {
     if (faces_.excluded()) return finish();
     faces_.drop_dependent();
     if (faces_.unknowns() == 0) {
-      if (!verdict::satisfies(faces_.blocks(), {}))
-        faces_.exclude("what is left has no unknowns and does not hold");
-      else
-        try_point({});
-      if (result_.holds()) settle(posed_.lmi.objective_at(result_.x));
+      try_only_point();
       return finish();
     }
     const Left left = left_of(faces_, posed_.lmi);
     const std::size_t steps = faces_.steps();
+    // Of the whole space double was asked before.
+    if (steps > 0) solve_left(left, {}, Want::point);
+    if (!posed_.wide || left.lmi.unknowns > kMostUnknowns || left.lmi.rows() > kMostRows)
+      return finish();
     for (const Effort& effort : {Effort{"quad", 1e-22}, Effort{"100", 1e-40}}) {
+      if (done_ || faces_.steps() > steps) return;
       solve_left(left, effort, Want::point_or_multipliers);
-      if (done_ || faces_.steps() > steps || !posed_.wide) break;
+      if (!done_ && faces_.steps() == steps) guess(left);
     }
-    if (done_ || faces_.steps() > steps) return;
-    finish();
+    if (faces_.steps() == steps) finish();
+  }
+
+  void try_only_point() {
+    if (!verdict::satisfies(faces_.blocks(), {}))
+      return faces_.exclude("what is left has no unknowns and does not hold");
+    try_point({});
+    settle_constant();
   }
 
   void finish() { done_ = true; }
@@ -173,27 +173,19 @@ class FacialReduction {
     return lmi::formulate_interior(
         left.lmi, {}, round,
         [&](std::size_t k, const lmi::Balance& balance, const std::vector<int>& kept) {
-          lmi::BalancedBlock block{static_cast<int>(kept.size()), {}, {}};
-          for (const auto& [i, matrix] : faces_.blocks()[left.blocks[k]].terms)
-            for (int c = 0; c < block.size; ++c)
-              for (int r = 0; r <= c; ++r) {
-                const int row = kept[static_cast<std::size_t>(r)];
-                const int column = kept[static_cast<std::size_t>(c)];
-                if (matrix(row, column) == 0) continue;
-                const auto value = nearest_double_double(matrix(row, column));
-                const double unit = balance.factor(k, row, column, i);
-                block.elements.push_back({i, r, c, value.hi() * unit, value.lo() * unit});
-              }
-          return block;
+          return verdict::rounded(
+              verdict::exact_block(faces_.blocks()[left.blocks[k]], balance, k, kept));
         });
   }
 
   void solve_left(const Left& left, const Effort& effort, Want want) {
     constexpr int kMostRounds = 4;
     constexpr double kRises = 1.5;
+    constexpr double kInterior = 1e-6;  // what double leaves of none is far below
     lmi::Round round;
-    std::optional<lmi::Formulation> first;
     std::optional<std::vector<double>> inside;
+    posed_left_ = {};
+    solved_ = {};
     for (int k = 0; k < kMostRounds; ++k) {
       lmi::Formulation formulation = formulate(left, round);
       sdp::Solution solution = solve_(formulation.problem, effort);
@@ -203,18 +195,19 @@ class FacialReduction {
         inside = lmi::read_back(left.lmi, formulation, solution);
       if (k == 0) {
         solved_ = std::move(solution);
-        first = std::move(formulation);
+        posed_left_ = std::move(formulation);
       }
       // Points of the whole space are those of the other attempts.
       if (faces_.steps() == 0 || !next || next->margin <= round.margin * kRises) break;
       round = *next;
     }
-    if (faces_.steps() > 0 && inside &&
-        std::all_of(inside->begin(), inside->end(),
-                    [](double value) { return std::isfinite(value); }))
+    if (faces_.steps() > 0 && inside && is_finite(*inside)) {
       try_point(*inside);
-    if (result_.holds() && posed_.lmi.has_objective) minimise(left, *inside);
-    if (want == Want::point_or_multipliers && !done_ && first) take_multipliers(left, *first);
+      if (posed_.lmi.has_objective && (!done_ || result_.holds())) minimise(left, *inside);
+      // More digits show no more of an interior that is there, whether it has decimals or not.
+      if (round.margin > kInterior) finish();
+    }
+    if (want == Want::point_or_multipliers && !done_ && !solved_.x.empty()) take_multipliers(left);
   }
 
   /// Decimals near a point of the face that the exact blocks take, or nearest to one where there
@@ -261,18 +254,25 @@ class FacialReduction {
     }
   }
 
-  /// The point is a minimum: no solution has an objective below `least`.
-  void settle(double least) {
+  /// c_0 + c'x in the coordinates of the face.
+  verdict::Costs costs() const {
+    return verdict::on_face(faces_, verdict::exact_objective(posed_.inequalities));
+  }
+
+  /// The objective is the same at all points of the face.
+  void settle_constant() {
     if (!posed_.lmi.has_objective) return;
+    const auto constant = costs().front();
     result_.question.goal = lmi::Goal::objective;
-    result_.least = least;
+    result_.reached = static_cast<double>(constant.mid);
+    if (!guessed_) result_.least = numbers::low_end(constant);
   }
 
   /// Whether the gains are within the bound, or within ten times those of the point inside.
   bool has_small_gains(const std::vector<double>& x) const {
     constexpr double kMore = 10;
     const auto& bound = posed_.choices().gain_bound;
-    if (!bound) return true;
+    if (!bound || !result_.holds()) return true;
     return gain_at(x) <= std::max(*bound, kMore * gain_at(result_.x));
   }
 
@@ -283,52 +283,149 @@ class FacialReduction {
     return largest_gain(of, values);
   }
 
+  struct Minimum {
+    sdp::Solution solution;
+    std::vector<double> y;
+    double value = 0;
+    std::optional<double> least;
+    double cost_unit = 1;
+  };
+
+  /// By a solver; none where there is none, or it was not found.
+  std::optional<Minimum> minimum_of(const Left& left) {
+    std::optional<Minimum> best;
+    lmi::Formulation formulation = lmi::pose_objective(left.lmi, {}, posed_.choices().margin);
+    formulation.only_strict = true;
+    lmi::assemble(left.lmi, {}, {}, formulation);
+    for (const Effort& effort :
+         {Effort{"auto", 1e-10}, Effort{"auto", 1e-8}, Effort{"quad", 1e-14}}) {
+      Minimum found{solve_(formulation.problem, effort), {}, 0, {}, formulation.cost_unit};
+      if (found.solution.status == sdp::Status::dual_infeasible) result_.unbounded = true;
+      if (!is_near_optimal(found.solution)) continue;
+      found.y = lmi::read_back(left.lmi, formulation, found.solution);
+      if (!is_finite(found.y)) continue;
+      found.value = left.lmi.objective_at(found.y);
+      found.least = bound_of(left, formulation, found.solution);
+      const bool closed =
+          found.least && lmi::is_narrow_bracket(*found.least, found.value, formulation);
+      if (!best || (found.least && (!best->least || *found.least > *best->least)))
+        best = std::move(found);
+      if (closed || guessed_) break;
+    }
+    return best;
+  }
+
+  /// Shown by weak duality on the face.
+  std::optional<double> bound_of(const Left& left, const lmi::Formulation& formulation,
+                                 const sdp::Solution& solution) const {
+    if (guessed_) return std::nullopt;
+    std::vector<verdict::ExactBlock<DoubleDouble>> blocks;
+    for (std::size_t k = 0; k < left.blocks.size(); ++k) {
+      const RationalBlock& block = faces_.blocks()[left.blocks[k]];
+      if (!block.exact) return std::nullopt;
+      blocks.push_back(
+          verdict::exact_block(block, formulation.balance, k, formulation.free_variables.kept[k]));
+    }
+    verdict::Costs of = costs();
+    for (std::size_t i = 0; i < of.size(); ++i)
+      of[i] =
+          numbers::scaled(of[i], formulation.cost_unit *
+                                     (i == 0 ? 1 : formulation.balance.unit(static_cast<int>(i))));
+    const auto least = verdict::lower_bound(
+        blocks, verdict::multipliers_of(formulation, blocks.size(), solution), std::move(of));
+    if (!least) return std::nullopt;
+    return *least / formulation.cost_unit;
+  }
+
   /// From a point inside to the least objective on the face: as near as decimals hold.
   void minimise(const Left& left, const std::vector<double>& inside) {
-    const std::vector<double>& c = left.lmi.objective;
-    if (std::all_of(c.begin(), c.end(), [](double value) { return value == 0; }))
-      return settle(left.lmi.objective_constant);
+    const verdict::Costs of = costs();
+    if (std::all_of(of.begin() + 1, of.end(), [](const auto& cost) { return cost.is_zero(); }))
+      return settle_constant();
     if (!lmi::has_minimum(left.lmi, {})) return;
-    const auto formulation = lmi::formulate_objective(left.lmi, {}, posed_.choices().margin);
-    Attempt minimum;
-    minimum.solution = solve_(formulation.problem, {"auto", 1e-10});
-    if (!minimum.is_near_optimal()) return;
-    const auto least = lmi::read_back(left.lmi, formulation, minimum.solution);
+    auto minimum = minimum_of(left);
+    if (!minimum) return;
+    result_.reached = minimum->value;
+    result_.formulation.cost_unit = minimum->cost_unit;
     for (const double e :
          {0.0, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1}) {
-      std::vector<double> y = least;
-      for (std::size_t i = 0; i < y.size(); ++i) y[i] += e * (inside[i] - least[i]);
-      if (!std::all_of(y.begin(), y.end(), [](double value) { return std::isfinite(value); }))
-        return;
+      std::vector<double> y = minimum->y;
+      for (std::size_t i = 0; i < y.size(); ++i) y[i] += e * (inside[i] - y[i]);
       auto found = decimals(y, 16);
       if (!found || !verdict::all_hold(found->margins) || !has_small_gains(found->x)) continue;
+      result_.point = true;
       result_.x = std::move(found->x);
       result_.margins = std::move(found->margins);
-      solved_ = std::move(minimum.solution);
-      return settle(lmi::objective_lower_bound(left.lmi, {}, formulation, solved_));
+      solved_ = std::move(minimum->solution);
+      result_.question.goal = lmi::Goal::objective;
+      result_.least = minimum->least;
+      return finish();
     }
   }
 
-  void take_multipliers(const Left& left, const lmi::Formulation& formulation) {
+  /// A matrix for each block of the face, of what `of` says for those that were solved.
+  template <class Of>
+  verdict::FoundMultipliers on_blocks(const Left& left, const Of& of) const {
     verdict::FoundMultipliers found;
     for (const RationalBlock& block : faces_.blocks()) {
       found.Y.push_back(
           numbers::MatrixOf<DoubleDouble>::Constant(block.size, block.size, DoubleDouble(0)));
       found.rows.emplace_back(static_cast<std::size_t>(block.size), 0);
     }
-    const verdict::Multipliers Y =
-        verdict::multipliers_of(formulation, left.blocks.size(), solved_);
-    for (std::size_t k = 0; k < Y.size(); ++k) {
+    for (std::size_t k = 0; k < left.blocks.size(); ++k) {
       const std::size_t at = left.blocks[k];
-      const auto& kept = formulation.free_variables.kept[k];
-      found.rows[at] = formulation.balance.rows[k];
-      for (std::size_t i = 0; i < kept.size(); ++i)
-        for (std::size_t j = 0; j < kept.size(); ++j)
-          found.Y[at](kept[i], kept[j]) =
-              Y[k](static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+      const auto& kept = posed_left_.free_variables.kept[k];
+      found.rows[at] = posed_left_.balance.rows[k];
+      found.Y[at](kept, kept) = of(k);
     }
-    if (formulation.homogenised) found.v = solved_.Y.values[Y.size()][0];
-    const verdict::ExactMultipliers exact = verdict::exact_multipliers(faces_, found);
+    return found;
+  }
+
+  verdict::FoundMultipliers multipliers(const Left& left) const {
+    const verdict::Multipliers Y =
+        verdict::multipliers_of(posed_left_, left.blocks.size(), solved_);
+    verdict::FoundMultipliers found = on_blocks(left, [&](std::size_t k) { return Y[k]; });
+    if (posed_left_.homogenised) found.v = solved_.Y.values[Y.size()][0];
+    return found;
+  }
+
+  /// Projectors onto the kernels of the blocks at the point of the largest margin.
+  verdict::FoundMultipliers kernels(const Left& left) const {
+    constexpr double kSmall = 1e-6;
+    const double one = posed_left_.homogenised ? solved_.x[solved_.x.size() - 2] : 1;
+    std::vector<numbers::SymmetricEigen> eigen;
+    double largest = 0;
+    for (const lmi::BalancedBlock& block : posed_left_.blocks) {
+      eigen.emplace_back(lmi::value_of(block, solved_.x, one));
+      if (block.size > 0) largest = std::max(largest, eigen.back().values().maxCoeff());
+    }
+    return on_blocks(left, [&](std::size_t k) -> numbers::MatrixOf<DoubleDouble> {
+      const Eigen::Index count = (eigen[k].values().array() < kSmall * largest).count();
+      const numbers::Matrix K = eigen[k].vectors().leftCols(count);
+      return (K * K.transpose()).eval().cast<DoubleDouble>();
+    });
+  }
+
+  /// Where no multipliers are exact: the kernels, in fractions near them. What holds on the face
+  /// holds; that the face is all is shown by multipliers on it, or not at all.
+  void guess(const Left& left) {
+    for (const double relative : {1e-10, 1e-7, 1e-4}) {
+      const auto face = verdict::fractions_near(faces_, kernels(left), relative);
+      if (!face) continue;
+      const bool shown = verdict::are_exact_on(faces_, *face, multipliers(left));
+      Faces whole = faces_;
+      faces_.note("kernels near the largest margin leave equality on their range");
+      faces_.restrict_to(*face);
+      if (!faces_.excluded()) {
+        guessed_ |= !shown;
+        return;
+      }
+      faces_ = std::move(whole);
+    }
+  }
+
+  void take_multipliers(const Left& left) {
+    const verdict::ExactMultipliers exact = verdict::exact_multipliers(faces_, multipliers(left));
     if (exact.say == verdict::ExactMultipliers::Say::nothing) return;
     std::string on;
     for (const verdict::FaceOfBlock& face : exact.faces)
@@ -360,7 +457,9 @@ class FacialReduction {
   std::vector<RationalBlock> stated_;
   Faces faces_;
   Attempt result_;
-  sdp::Solution solved_;  ///< the first round of what was left last
+  sdp::Solution solved_;         ///< the first round of what was left last
+  lmi::Formulation posed_left_;  ///< and its program
+  bool guessed_ = false;         ///< that the face holds all solutions is not shown
   bool done_ = false;
 };
 
@@ -377,12 +476,7 @@ bool states_equations(const lmi::Lmi& lmi) {
   });
 }
 
-std::optional<Attempt> attempt_on_equations(const Posed& posed, const Solve& solve) {
-  return FacialReduction(posed, solve).run_plain();
-}
-
 std::optional<Attempt> attempt_facial_reduction(const Posed& posed, const Solve& solve) {
-  if (posed.lmi.unknowns > kMostUnknowns || posed.lmi.rows() > kMostRows) return std::nullopt;
   return FacialReduction(posed, solve).run();
 }
 

@@ -2,10 +2,13 @@
 // spare: a point on their common face whose decimals hold, a chain of exact multipliers that
 // excludes every solution, or nothing.
 //
-//   plain steps; nothing left to choose: the point, or a no
-//   the largest margin on the face, in 31 digits: its point, rounded to decimals on the face;
-//   from there to the least objective on the face, where one is stated
-//   the multipliers made exact: a no, or a smaller face, and again; once more in 100 digits
+//   plain steps, equations among them; nothing left to choose: the point, or a no
+//   the largest margin on the face, in double and in 31 digits: its point, rounded to decimals on
+//   the face; from there to the least objective on the face, where one is stated, with a lower bound
+//   that weak duality shows there
+//   the multipliers made exact: a no, or a smaller face, and again
+//   the kernels of the blocks at that point in fractions nearby: a smaller face, shown by exact
+//   multipliers on it or only guessed, and again; once more in 100 digits
 #pragma once
 
 #include <optional>
@@ -16,10 +19,6 @@ namespace gainsmith::design {
 
 /// Whether a block states equations: an element of its diagonal is 0 for all unknowns.
 bool states_equations(const lmi::Lmi& lmi);
-
-/// The plain steps alone, and the largest margin of what they leave in double: a point that holds,
-/// or a no; otherwise none.
-std::optional<Attempt> attempt_on_equations(const Posed& posed, const Solve& solve);
 
 /// None when nothing came of it; without a point and a no what it found is in left_open.
 std::optional<Attempt> attempt_facial_reduction(const Posed& posed, const Solve& solve);

@@ -102,7 +102,9 @@ void find_bounds(const model::Instance& instance, const model::Gains& gains,
   const Changed wider = changed(with_wider_bound(instance, kWider), solver);
   const Changed any = changed(without_gain_bound(instance), solver);
   const auto is_better = [&](const Changed& found) {
-    return found.unbounded || (found.minimum && *found.minimum < *gains.objective_lower_bound);
+    return found.unbounded ||
+           (found.minimum &&
+            *found.minimum < gains.objective_lower_bound.value_or(*gains.objective));
   };
   if (!is_better(wider) && !is_better(any)) return;
   limits.wider_gains = wider;

@@ -1,6 +1,7 @@
 #include "design/semidefinite_program.h"
 
 #include "base/number.h"
+#include "design/facial_reduction.h"
 #include "lmi/formulation.h"
 
 namespace gainsmith::design {
@@ -23,8 +24,9 @@ std::vector<std::string> goal_remarks(const lmi::Lmi& lmi, const lmi::Formulatio
       "Objective of the problem = (c'x)/" + brief(formulation.cost_unit, 17) +
       (lmi.objective_constant == 0 ? "" : " + " + brief(lmi.objective_constant, 17)) + "."};
   if (formulation.shift != 0)
-    remarks.push_back("Inequalities hold with a margin: B >= " + brief(formulation.shift, 17) +
-                      " I in these units.");
+    remarks.push_back(
+        std::string(formulation.only_strict ? "Strict inequalities" : "Inequalities") +
+        " hold with a margin: B >= " + brief(formulation.shift, 17) + " I in these units.");
   return remarks;
 }
 
@@ -61,8 +63,11 @@ SemidefiniteProgram semidefinite_program(const model::Instance& instance) {
   const lmi::Lmi lmi = lmi::compile(inequalities);
   const lmi::GainBounds bounds = lmi::gain_bounds(inequalities, lmi);
   lmi::Formulation formulation = lmi::has_minimum(lmi, bounds)
-                                     ? lmi::formulate_objective(lmi, bounds, choices.margin)
-                                     : lmi::formulate_interior(lmi, bounds, {});
+                                     ? lmi::pose_objective(lmi, bounds, choices.margin)
+                                     : lmi::pose_interior(lmi, bounds);
+  // Beside equations what is not strict may have no margin at all.
+  formulation.only_strict = states_equations(lmi);
+  lmi::assemble(lmi, bounds, {}, formulation);
   return {std::move(formulation.problem), remarks(inequalities, lmi, formulation)};
 }
 

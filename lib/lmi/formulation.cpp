@@ -119,7 +119,8 @@ void assemble_objective(const Lmi& lmi, const std::vector<const Block*>& blocks,
       if (k < lmi.blocks.size() && e.row == e.column)
         traces[static_cast<std::size_t>(e.unknown)] += e.value;
     const int added = assembler.add(result.blocks[k], 0, 1);
-    for (int r = 0; k < lmi.blocks.size() && r < result.blocks[k].size; ++r)
+    const bool shifted = k < lmi.blocks.size() && (blocks[k]->strict || !result.only_strict);
+    for (int r = 0; shifted && r < result.blocks[k].size; ++r)
       assembler.add_entry(0, added, r, r, -result.shift);
   }
   for (int i = 1; lmi.has_objective && i <= lmi.unknowns; ++i)
@@ -304,6 +305,11 @@ Formulation in_units_of_solution(const Lmi& lmi, const GainBounds& bounds,
         largest[i] > 0 ? -std::ilogb(largest[i]) : formulation.balance.unknowns[i];
   result.cost_unit = cost_unit_of(lmi, balance);
   return result;
+}
+
+bool is_narrow_bracket(double low, double high, const Formulation& formulation) {
+  constexpr double kPart = 1e-6, kOfUnit = 1e-9;
+  return high - low <= std::max(kPart * std::abs(high), kOfUnit / formulation.cost_unit);
 }
 
 double objective_lower_bound(const Lmi& lmi, const GainBounds& bounds,

@@ -45,6 +45,7 @@ struct Formulation {
   Goal goal = Goal::objective;
   Balance balance;               ///< of the blocks of the Lmi, then of the gain bounds
   double shift = 0;              ///< objective
+  bool only_strict = false;      ///< objective: blocks with >= are shifted by nothing
   double weight = 0;             ///< objective
   double cost_unit = 1;          ///< objective: costs of the problem by those of the Lmi, 2^k
   bool homogenised = false;      ///< interior: x_0 comes before s, which is the last variable
@@ -117,7 +118,12 @@ std::optional<Round> next_round(const Lmi& lmi, const GainBounds& bounds,
 Formulation in_units_of_solution(const Lmi& lmi, const GainBounds& bounds,
                                  const Formulation& formulation, const std::vector<double>& x);
 
-/// A lower bound on the objective without margins by weak duality with the dual solution Y,
+/// Whether an optimum between these values of the objective is known to 1e-6 of its size, or, near
+/// 0, to 1e-9 of the unit of the costs.
+bool is_narrow_bracket(double low, double high, const Formulation& formulation);
+
+/// An estimate, which nothing shows (verdict/weak_duality.h), of a lower bound on the objective
+/// without margins, by weak duality with the dual solution Y,
 ///   c'x >= r_0 + sum_i r_i x_i - w sum_k tr(B_k(x)),
 ///   r_i = c_i + w sum_k tr(B_ki) - sum_k <B_ki, Y_k>,   c_0 = 0,  w the weight,
 /// for every x that satisfies the inequalities and is like the solution: no |x_i| is more than

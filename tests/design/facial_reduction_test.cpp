@@ -62,5 +62,61 @@ TEST(FacialReduction, WithoutAMinimumThePointIsOnlyFeasible) {
   EXPECT_FALSE(gains.objective_lower_bound);
 }
 
+void expect_minimum(const model::Gains& gains, double least, const std::string& what) {
+  ASSERT_EQ(gains.verdict, model::Verdict::yes) << what << ": " << gains.solver.message;
+  EXPECT_EQ(gains.solver.status, "optimal") << what << ": " << gains.solver.message;
+  const double size = std::abs(least);
+  EXPECT_NEAR(*gains.objective, least, 1e-6 * size) << what;
+  ASSERT_TRUE(gains.objective_lower_bound) << what;
+  EXPECT_NEAR(*gains.objective_lower_bound, least, 1e-6 * size) << what;
+  EXPECT_LE(*gains.objective_lower_bound, least + 1e-15 * size) << what;
+}
+
+/// -X(1, 1) is least for X = v v' with v the projection of e_1, v'v = 1: 1/n - 1.
+TEST(FacialReduction, CentredGramMatricesHaveTheirMinimum) {
+  for (int n = 3; n <= 7; ++n) {
+    const std::string order = std::to_string(n);
+    for (const char* margin : {"", "synthesis: {margin: 1e-7}\n"})
+      expect_minimum(
+          solve("  unknowns: {X: symmetric " + order +
+                    "}\n  require: {psd: X >= 0, centred: \"X*ones(" + order + ", 1) == zeros(" +
+                    order + ", 1)\", total: trace(X) == 1}\n  minimize: -X(1, 1)\n",
+                margin),
+          1.0 / n - 1, order + margin);
+  }
+}
+
+/// The Laplacian of a path or a cycle whose weights have the sum 1: its second eigenvalue is largest
+/// for weights i (n - i) / sum, 1 / sum in all; for equal weights, 2 (1 - cos(2 pi / n)) / n in all.
+TEST(FacialReduction, LaplaciansHaveTheirLargestSecondEigenvalue) {
+  for (int n = 3; n <= 6; ++n) {
+    for (const bool cycle : {false, true}) {
+      const int edges = cycle ? n : n - 1;
+      numbers::Matrix B = numbers::Matrix::Zero(n, edges);
+      for (int e = 0; e < edges; ++e) {
+        B(e, e) = 1;
+        B((e + 1) % n, e) = -1;
+      }
+      double sum = 0;
+      for (int i = 1; i < n; ++i) sum += 0.5 * i * (n - i);
+      const double most = cycle ? 2 * (1 - std::cos(2 * std::acos(-1.0) / n)) / n : 1 / sum;
+      expect_minimum(
+          solve("  data: {B: n x m}\n  unknowns: {w: m, g: scalar}\n  require: {connected: "
+                "\"B*diag(w)*B' >= g*(eye(n) - ones(n)/n)\", weights: diag(w) >= 0, total: "
+                "\"ones(1, m)*w == 1\"}\n"
+                "  minimize: -g\n",
+                "data: {B: " + tests::matrix_yaml(B) + "}\n"),
+          -most, std::to_string(n) + (cycle ? " in a cycle" : " in a row"));
+    }
+  }
+}
+
+/// [1, -1; -1, 1] (1 - g/2) >= 0.
+TEST(FacialReduction, AnObjectiveOfAnEquationAndAFaceIsFound) {
+  expect_minimum(solve("  unknowns: {x: scalar, g: scalar}\n  require: {psd: \"[x, -x; -x, x] >= "
+                       "g*(eye(2) - ones(2)/2)\", eq: x == 1}\n  minimize: -g\n"),
+                 -2, "face");
+}
+
 }  // namespace
 }  // namespace gainsmith::design
