@@ -99,10 +99,13 @@ TEST(WeakDuality, NoMultipliersShowWhatIsFalse) {
       const Matrix Y = R * R + std::pow(10.0, -k % 8) * Matrix::Identity(n, n);
       const auto bound = of.bound(Y);
       shown += bound.has_value() ? 1 : 0;
-      if (bound) EXPECT_LE(Rational(*bound), of.at(eigen.vectors().col(0)));
+      if (bound) {
+        EXPECT_LE(Rational(*bound), of.at(eigen.vectors().col(0)));
+      }
       // A multiple of the identity is off by a multiple of C.
-      if (const auto far = of.bound(Matrix::Identity(n, n)))
+      if (const auto far = of.bound(Matrix::Identity(n, n))) {
         EXPECT_LE(Rational(*far), of.at(eigen.vectors().col(0)));
+      }
     }
   EXPECT_GT(shown, 0);
 }
