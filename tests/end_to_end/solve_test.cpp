@@ -118,6 +118,23 @@ TEST(SolveTest, AnExportedProblemHasTheSameOptimum) {
   EXPECT_NEAR(objective / std::stod(unit[1]), expected, 1e-6 * expected);
 }
 
+/// An equation has no margin, and X >= 0 with X*1 == 0 has none: nothing in the file asks for one. -X(1, 1)
+/// is least for a projection: -2/3.
+TEST(SolveTest, AnExportedProblemWithEquationsIsFeasible) {
+  const Folder folder;
+  const std::string yaml = folder.file(
+      "p.yaml",
+      "problem: p\nmethod:\n  method: m\n  unknowns: {X: symmetric 3}\n  require: {psd: X >= 0, "
+      "centred: \"X*ones(3, 1) == zeros(3, 1)\", total: trace(X) == 1}\n  minimize: -X(1, 1)\nno "
+      "campaign: "
+      "static\n");
+  const std::string file = folder.path("p.dat-s");
+  const Outcome synthesized = gainsmith({"synth", yaml, "--json", "--sdpa", file});
+  ASSERT_EQ(synthesized.exit, 0) << synthesized.err;
+  EXPECT_NEAR(synthesized.json()["objective"].get<double>(), -2.0 / 3, 1e-6);
+  EXPECT_NE(gainsmith({"solve", file}).exit, 1);
+}
+
 /// The comments of the file say how its x gives the scalars of the problem: here x > 4 and y <
 /// -1e-3 with the least x/1000 - y + 7.
 TEST(SolveTest, CommentsOfAnExportedProblemGiveItsUnknowns) {
