@@ -256,8 +256,11 @@ bool EventDoubts::fires(std::size_t event, const std::vector<Guard>& guards, con
     return std::abs(value) <= guard.error + rate * at.time_error;
   };
   if (watch_.crossing[event]) {
-    const double value = element(*watch_.crossing[event], values, 0);
-    return is_near(guards.front(), value) || (value > 0) != (guards.front().before > 0);
+    EventFunction& crossing = *watch_.crossing[event];
+    const double value = element(crossing, values, 0);
+    // None where jumps alone change it.
+    return (!guards.empty() && is_near(guards.front(), value)) ||
+           (value > 0) != (element(crossing, at.before, 0) > 0);
   }
   EventCondition& condition = *watch_.when[event];
   if (condition(values)) return true;

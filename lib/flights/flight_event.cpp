@@ -289,6 +289,9 @@ class EventFinder {
     }
     for (const WatchedCondition& set : pack_.flow_sets)
       add({is_.number(0), is_.no(truth(set, sides).certain)}, -1);
+    // What crosses 0 at nearly the same time may come first.
+    for (const std::size_t e : made_.crossings)
+      due.sure = is_.both(due.sure, sides[pack_.events[e].crossing->watch].known);
     return due;
   }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "expr/branches.h"
+#include "hybrid/rounding_terms.h"
 #include "hybrid/tolerances.h"
 #include "numerics/golden_section.h"
 #include "ode/step_range.h"
@@ -27,7 +28,9 @@ namespace {
 /// such vectors. A form of a sum, (x - z)'*P*(x - z), is a term: its rounding is small where it is.
 class TermSizes {
  public:
-  explicit TermSizes(Program& program) : program_(program) {}
+  /// `of_sign`: of what is compared with 0, where the rounding inside of a size counts.
+  explicit TermSizes(Program& program, bool of_sign = false)
+      : program_(program), of_sign_(of_sign) {}
 
   int of(int at) {
     const Instruction here = program_.code[static_cast<std::size_t>(at)];
@@ -51,6 +54,14 @@ class TermSizes {
       case Op::transpose:
       case Op::blocks:
         if (has_sum(at)) return rearranged(here);
+        break;
+      case Op::abs:
+        if (of_sign_) return of(operands[0]);
+        break;
+      case Op::norm:
+      case Op::maximum:
+      case Op::minimum:
+        if (of_sign_) return of_size(here);
         break;
       default:
         break;
@@ -106,6 +117,11 @@ class TermSizes {
     program_.code.push_back(std::move(here));
     return static_cast<int>(program_.code.size()) - 1;
   }
+  int of_size(const Instruction& here) {
+    std::vector<int> sizes;
+    for (const int operand : here.operands) sizes.push_back(of(operand));
+    return made(here.op == Op::norm ? Op::norm : Op::maximum, std::move(sizes), here);
+  }
   int made(Op op, std::vector<int> operands, const Instruction& like) {
     const auto shape =
         op == Op::abs ? program_.code[static_cast<std::size_t>(operands[0])].shape : like.shape;
@@ -114,6 +130,7 @@ class TermSizes {
   }
 
   Program& program_;
+  bool of_sign_;
 };
 
 /// An element of a function; not a number where it has no value.
@@ -225,6 +242,11 @@ bool may_wave(const Program& program) {
 
 Program absolute_terms(Program program) {
   program.result = TermSizes(program).of(program.result);
+  return program;
+}
+
+Program terms_of_sign(Program program) {
+  program.result = TermSizes(program, true).of(program.result);
   return program;
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/number.h"
 #include "hybrid/affine.h"
+#include "hybrid/rounding_terms.h"
 #include "ode/tolerances.h"
 
 namespace gainsmith::hybrid {
@@ -46,7 +47,7 @@ EventFunction::EventFunction(const expr::Program& program, const System& system)
       waves_(may_wave(program)),
       value_(program, system),
       elements_(value_.elements()),
-      terms_program_(std::make_unique<const expr::Program>(absolute_terms(program))),
+      terms_program_(std::make_unique<const expr::Program>(terms_of_sign(program))),
       terms_(*terms_program_, system),
       breaks_(program, system.layout, system.constants,
               [&](const std::string& name) { return system.is_moving(name); }) {}

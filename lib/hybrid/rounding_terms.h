@@ -12,4 +12,8 @@ namespace gainsmith::hybrid {
 /// only chooses and arranges values.
 std::optional<expr::Program> rounding_terms(const expr::Program& program);
 
+/// absolute_terms (breaks.h) of a text whose sign matters: those of abs(u), norm(u) and max(u, v) are
+/// made of those of u and v.
+expr::Program terms_of_sign(expr::Program program);
+
 }  // namespace gainsmith::hybrid

@@ -15,9 +15,11 @@ bool LaneSet::settle(std::size_t l) {
       lane.claims[c].at(lane.t, reading(c, l, start_, coarse_start_), lane.jumped);
     if (lane.claims[c].open()) return open(Why::claim);
   }
-  if (lane.jumped)
-    if (const auto& crossing = pack_.events[*lane.jumped].crossing)
-      lane.signs[*lane.jumped] = side_of(*crossing, lane);
+  // All of them at the start: an event that comes first may lead others through 0.
+  for (std::size_t e = 0; e < pack_.events.size(); ++e)
+    if (const auto& crossing = pack_.events[e].crossing;
+        crossing && (lane.fresh || lane.jumped == e))
+      lane.signs[e] = side_of(*crossing, lane);
   lane.fresh = false;
   lane.jumped.reset();
   return go_on(l);
@@ -55,7 +57,8 @@ std::int8_t LaneSet::leaving_side(std::size_t w, std::size_t l) const {
 bool LaneSet::leave_zero(std::size_t w, std::size_t l) {
   PackLane& lane = *lanes_[l];
   lane.sides[w] = leaving_side(w, l);
-  if (lane.sides[w] == 0) return open(Why::sign);
+  // To a condition it is 0 here.
+  if (lane.sides[w] == 0 || in_condition_[w] != 0) return open(Why::sign);
   for (std::size_t e = 0; e < pack_.events.size(); ++e) {
     const auto& crossing = pack_.events[e].crossing;
     if (!crossing || crossing->watch != w) continue;
@@ -71,7 +74,8 @@ std::optional<bool> LaneSet::set_branches(std::size_t l) {
     const Watch& watch = pack_.watches[w];
     if (watch.branches.empty()) continue;
     std::int8_t& side = lanes_[l]->sides[w];
-    if (side == 0 && watch.moves) side = sign_of(start_.at(PackSystem::watch_rates, w, l));
+    if (side == 0 && watch.moves && in_condition_[w] == 0 && !is_crossing_[w])
+      side = sign_of(start_.at(PackSystem::watch_rates, w, l));
     if (side == 0 && watch.moves) {
       why_ = Why::sign;
       return std::nullopt;
@@ -122,8 +126,8 @@ bool LaneSet::find_due(std::size_t l) {
     bool due = false;
     if (event.crossing) {
       const std::int8_t side = side_of(*event.crossing, lane);
-      if (side == 0) return open(Why::sign);
-      if (lane.signs[e] != 0 && side != lane.signs[e]) {
+      if (side == 0 || lane.signs[e] == 0) return open(Why::sign);
+      if (side != lane.signs[e]) {
         lane.crossed[e] = static_cast<char>(is_wanted(e, side));
         if (lane.crossed[e] != 0 && turns_back(event.crossing->watch, l)) return open(Why::order);
       }
@@ -179,6 +183,7 @@ bool LaneSet::begin_flow(std::size_t l) {
       lane.sides[w] = leaving_side(w, l);
   if (lane.moved) {
     move(l, coarse_, coarse_start_, -lane.coarse_shift);
+    move(l, fine_, start_, -lane.fine_shift);
     lane.moved = false;
   }
   lane.stop = std::min({horizon_, lane.clocks.next(), lane.noise.next()});
@@ -219,12 +224,17 @@ bool LaneSet::arrive_at_root(std::size_t l, std::size_t target) {
   if (!find_due(l)) return false;
   const Watch& watch = pack_.watches[target];
   if (!lane.due && watch.branches.empty()) return true;
-  // The other run is moved to its root, and not to what is left of the difference in the finer one:
-  // then they differ by what that makes of the time of the event.
-  lane.coarse_shift = -coarse_start_.at(PackSystem::watch_values, target, l) /
-                      coarse_start_.at(PackSystem::watch_rates, target, l);
-  if (!std::isfinite(lane.coarse_shift)) return open(Why::sign);
+  // Each run is moved to its own root: then they differ by what that makes of the time of the event,
+  // and what is left of the root is no sign of anything else that comes to 0 with it.
+  const auto shift = [&](const LanePoint& seen) {
+    return -seen.at(PackSystem::watch_values, target, l) /
+           seen.at(PackSystem::watch_rates, target, l);
+  };
+  lane.coarse_shift = shift(coarse_start_);
+  lane.fine_shift = shift(start_);
+  if (!std::isfinite(lane.coarse_shift + lane.fine_shift)) return open(Why::sign);
   move(l, coarse_, start_, lane.coarse_shift);
+  move(l, fine_, start_, lane.fine_shift);
   lane.moved = true;
   // The next flow may be about as long.
   if (lane.due)

@@ -48,6 +48,9 @@ LaneSet::LaneSet(const PackSystem& pack)
   set_by_jumps_ = set_by_jumps(*pack.system);
   find_clock_elements();
   is_crossing_.assign(pack.watches.size(), false);
+  in_condition_.assign(pack.watches.size(), 0);
+  for (const PackEvent& event : pack.events)
+    if (event.when) mark(*event.when, in_condition_);
   for (std::size_t e = 0; e < pack.events.size(); ++e) {
     if (pack.events[e].crossing) is_crossing_[pack.events[e].crossing->watch] = true;
     ends_in_zeno_ = ends_in_zeno_ || !pack.system->has_clock(e);

@@ -220,6 +220,7 @@ class LaneSet {
   LanePoint middle_, end_, coarse_at_end_, quarter_, three_quarters_;
   bool ends_in_zeno_ = false;              ///< whether events without a clock may accumulate
   std::vector<bool> is_crossing_;          ///< by watch: of rises, falls, crosses
+  std::vector<char> in_condition_;         ///< by watch: of `when`
   std::vector<std::size_t> set_by_jumps_;  ///< elements
   std::vector<std::size_t> times_;
   std::vector<std::vector<std::size_t>> since_, left_;  ///< by event: elements

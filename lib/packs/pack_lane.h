@@ -65,8 +65,8 @@ struct PackLane {
   std::vector<char> crossed, spent, happened;  ///< by event
   std::optional<std::size_t> due;              ///< the event that jumps
   std::optional<std::size_t> jumped;           ///< that has jumped, of which no claim knows yet
-  bool moved = false;  ///< the coarser run along its flow to its root, by this time
-  double coarse_shift = 0;
+  bool moved = false;  ///< both runs along their flows to their roots, by these times
+  double coarse_shift = 0, fine_shift = 0;
   std::vector<ClaimLane> claims;
   std::vector<ClaimLane> claims_before;  ///< this step, to come back to
   hybrid::ZenoDetector zeno;

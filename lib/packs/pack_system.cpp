@@ -6,6 +6,7 @@
 #include "expr/branches.h"
 #include "expr/square_of_norm.h"
 #include "hybrid/breaks.h"
+#include "hybrid/rounding_terms.h"
 #include "numbers/scalar_rules.h"
 #include "ode/dormand_prince.h"
 #include "packs/jump_code.h"
@@ -194,7 +195,7 @@ class PointCode {
   /// Watches all elements; what is watched already, or its opposite, is not watched again.
   std::vector<Watched> watch(const expr::Program& difference) {
     const numbers::TracedMatrix value = texts_.moving(difference, x_, rates_);
-    const Nodes terms = texts_.value(hybrid::absolute_terms(difference), x_).value;
+    const Nodes terms = texts_.value(hybrid::terms_of_sign(difference), x_).value;
     const bool moves =
         std::any_of(difference.inputs.begin(), difference.inputs.end(),
                     [&](const expr::Input& one) { return pack_.system->is_moving(one.name); });

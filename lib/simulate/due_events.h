@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -16,9 +17,12 @@ class DueEvents {
   /// What is known of an event besides its text.
   struct Mark {
     bool spent = false;  ///< `when`: not due until its condition has been false
-    /// The last of e that was not 0; 0 where the start or a jump led e to exactly 0.
+    /// The last of e that was not 0; 0 where the start or a jump led e to 0, but for rounding.
     int sign = 0;
     bool crossed = false;  ///< in the direction of the event, and due
+    /// Since when it is, where e has not left its rounding yet; otherwise no time.
+    double since = -std::numeric_limits<double>::infinity();
+    int pending = 0;  ///< a sign against that direction, which is rounding if something is due
   };
 
   DueEvents(const hybrid::System& system, EventWatch& watch, hybrid::EventClocks clocks,
@@ -41,7 +45,7 @@ class DueEvents {
  private:
   bool is_due(std::size_t event, const Eigen::VectorXd& values, double t);
   int sign_of(std::size_t event, const Eigen::VectorXd& values);
-  void note_sign(std::size_t event, int sign);
+  void note_sign(std::size_t event, const Eigen::VectorXd& values, double t);
 
   const hybrid::System* system_;
   EventWatch* watch_;

@@ -29,6 +29,18 @@ double line_root(const std::function<double(double)>& g, bool strict, double t, 
   return root;
 }
 
+/// What comes to 0 within one instant has done so at the last of its times, in the order of events.
+std::vector<double> last_of_instants(const std::vector<double>& times) {
+  std::vector<double> result;
+  for (const double t : times) {
+    if (!result.empty() && t - result.back() <= hybrid::kOneInstant * t)
+      result.back() = t;
+    else
+      result.push_back(t);
+  }
+  return result;
+}
+
 /// Of a turning point beyond a root that of the root, where something may happen.
 double time_of(const ode::TurningPoint& turn, const std::vector<ode::Root>& roots) {
   double t = turn.t;
@@ -141,12 +153,12 @@ std::vector<double> EventWatch::crossings(
     }
   });
   std::sort(result.begin(), result.end());
-  return result;
+  return last_of_instants(result);
 }
 
 double EventWatch::next_line(const VectorField& field, double t, double last,
                              const VectorXd& values) {
-  double first = last;
+  std::vector<double> roots = {last};
   VectorXd point = values;
   const auto search = [&](hybrid::EventFunction& function, Sides sides) {
     if (!function.is_line()) return;
@@ -158,7 +170,7 @@ double EventWatch::next_line(const VectorField& field, double t, double last,
           if (at != t) field.fill(at, point);
           return function(point)(element);
         };
-        first = std::min(first, line_root(g, strict, t, first));
+        roots.push_back(line_root(g, strict, t, last));
       }
   };
   active_functions(values, [&](hybrid::EventFunction& function, Sides sides, const Role&) {
@@ -169,7 +181,8 @@ double EventWatch::next_line(const VectorField& field, double t, double last,
     if (!switches[k].rests())
       search(switches[k], {one.strict, one.kind != hybrid::Switch::Kind::where || !one.strict});
   }
-  return first;
+  std::sort(roots.begin(), roots.end());
+  return last_of_instants(roots).front();
 }
 
 }  // namespace gainsmith::simulate

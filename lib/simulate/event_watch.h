@@ -29,10 +29,10 @@ class EventWatch {
   std::vector<FlowSet> flow_sets;
   std::vector<hybrid::EventFunction> switches;
 
-  /// The times just after all zero crossings on a step, in order: those of events and of `while`
-  /// that may decide something from `values` on, the values at the start of the step. `turn` is
-  /// given the turning points within `near` of their terms, and those that come nearest. `hidden`,
-  /// at the start of a flow: the first CrossingsOnStep::hidden_turn, if any.
+  /// The times just after all zero crossings on a step, in order, the last of each instant: those
+  /// of events and of `while` that may decide something from `values` on, the values at the start of
+  /// the step. `turn` is given the turning points within `near` of their terms, and those that come
+  /// nearest. `hidden`, at the start of a flow: the first CrossingsOnStep::hidden_turn, if any.
   std::vector<double> crossings(
       const StepValues& inside, const Eigen::VectorXd& values, double near,
       const std::function<void(const hybrid::NearTurn&, bool reached)>& turn,
@@ -42,12 +42,12 @@ class EventWatch {
   /// that `crossings` has searched last.
   bool is_noise(std::size_t event, const Eigen::VectorXd& values);
   /// A jump leads to values that have no rounding of a step.
-  void forget_step() { rounding_.assign(rounding_.size(), 0); }
+  void forget_step(std::size_t event) { rounding_[event] = 0; }
 
   /// The function that a turning point is of.
   hybrid::EventFunction& function_of(const hybrid::NearTurn& turn);
 
-  /// The first time in (t, last] at which a function that is affine in what is steady crosses
+  /// The first instant in (t, last] at which a function that is affine in what is steady crosses
   /// zero; `last` when there is none.
   double next_line(const VectorField& field, double t, double last, const Eigen::VectorXd& values);
 

@@ -10,7 +10,8 @@
 //   rises, falls, crosses
 //             due once when the sign of e has changed in that direction, by flow or by a jump of
 //             another event; the last sign counts that was not 0. Where the start or a jump led e
-//             to exactly 0 it changes its sign when it leaves 0
+//             to 0, but for rounding, it changes its sign when it leaves 0. A root is met once: within
+//             its rounding e does not come back, whatever else happens at it
 //   every, at due at their times; times of several clocks that differ by rounding alone are one
 //             instant
 //

@@ -296,6 +296,7 @@ hybrid::DenseStep VectorField::step(double from, double to, const numbers::Matri
 
 void VectorField::set_lines(hybrid::DenseStep& step) const {
   for (const Line& line : lines_) {
+    step.coefficients.row(line.element).setZero();  // what rounding has left of higher degrees, too
     step.coefficients(line.element, 0) = (line.at(step.from) + line.at(step.to)) / 2;
     step.coefficients(line.element, 1) = (line.at(step.to) - line.at(step.from)) / 2;
   }

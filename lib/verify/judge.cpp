@@ -56,11 +56,13 @@ RunVerdict last_verdict(const Track& track, const std::vector<ClaimCheck>& check
   return verdict;
 }
 
-/// A run repeated: what of it was decided before stays so.
+/// A run repeated: what of it was decided before stays so, and as far as it went if it says the same.
 RunVerdict with_decided(const RunVerdict& before, RunVerdict again) {
   if (before.unfinished()) return again;
   for (std::size_t i = 0; i < again.findings.size(); ++i)
-    if (!before.findings[i].undecided()) again.findings[i] = before.findings[i];
+    if (!before.findings[i].undecided() &&
+        before.findings[i].judgement != again.findings[i].judgement)
+      again.findings[i] = before.findings[i];
   if (!again.unfinished()) again.judgement = worst_of(again.findings);
   return again;
 }

@@ -70,6 +70,16 @@ TEST(EventDoubts, EventsThatLieApartAreCertain) {
   EXPECT_FALSE(Runs(two_events("1e-6", "p + 1", "2*p")).doubt());
 }
 
+/// `after` is a crossing that the jump of `first` causes, and no flow.
+TEST(EventDoubts, ACrossingByAJumpBesideAnotherEvent) {
+  EventProblem problem = two_events("-1e-15", "p + 1", "p + 1");
+  problem.state("q", {}, "0").jump("first", {{"q", "1"}});
+  problem.crossing(EventKind::rises, "after", "q - 0.5").jump("after", {{"p", "p - 3"}});
+  Runs runs(problem);
+  EXPECT_FALSE(runs.doubt());
+  EXPECT_EQ(tests::jumps_of(runs.fine).size(), 3U);
+}
+
 /// x(1) = sin(t) turns at 1, which the guard x(1) - 1 only just reaches.
 TEST(EventDoubts, ATurningPointWithinTheErrorIsUncertain) {
   EventProblem problem;

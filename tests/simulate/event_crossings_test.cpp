@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "simulate/event_runs.h"
 #include "support/event_problem.h"
@@ -117,6 +118,55 @@ TEST(EventRun, AnEventWhoseMapLeadsToZeroMayComeAgainAtOnce) {
   const hybrid::Trajectory run = simulate(problem.system(), 3);
   EXPECT_EQ(run.ending, hybrid::Ending::chattering) << run.message;
   EXPECT_NEAR(run.end, 1, 1e-9);
+}
+
+// Two inertias with a gap between them: contact begins and ends in turn, and each takes its time.
+TEST(EventRun, ARootThatABranchOfTheFlowSharesIsMetOnce) {
+  for (int k = 0; k < 12; ++k) {
+    EventProblem problem;
+    problem.state("p", {2, 1}, "[0; 0]").state("w", {2, 1}, "[0; 0]");
+    problem.let("r", "p(1) - p(2)").let("s", "1000*(r - 0.1)").let("l", "1000*(r + 0.1)");
+    problem.let("d", "5*(w(1) - w(2))");
+    problem.let("tau", "where(r > 0.1, max(s + d, 0), where(r < -0.1, min(l + d, 0), 0))");
+    problem.flow("p", "w").flow(
+        "w", "[10*sin(" + std::to_string(1.8 + 0.05 * k) + "*t) - tau; (tau - 0.5*w(2))/0.5]");
+    problem.crossing(EventKind::rises, "touch", "abs(r) - 0.1");
+    problem.crossing(EventKind::falls, "leave", "abs(r) - 0.1");
+    const hybrid::Trajectory run = simulate(problem.system(), 10);
+    const auto jumps = jumps_of(run);
+    ASSERT_GT(jumps.size(), 20U);
+    for (std::size_t n = 0; n < jumps.size(); ++n) {
+      EXPECT_EQ(jumps[n].event, n % 2) << k << ", t = " << jumps[n].t;
+      EXPECT_GT(jumps[n].t, n == 0 ? 0 : jumps[n - 1].t + 1e-3) << k;
+    }
+  }
+}
+
+// x comes from -1 and is at -0.5 when `push` takes it back to -1: |x| - 0.5 has not fallen below 0.
+TEST(EventRun, AnEventOnTheSameSurfaceThatTurnsBackIsNoCrossing) {
+  for (int k = 0; k < 20; ++k) {
+    EventProblem problem;
+    problem.state("x", {}, "-1 - " + std::to_string(0.013 * k))
+        .flow("x", "0.7")
+        .state("n", {}, "0");
+    problem.crossing(EventKind::rises, "up", "abs(x) - 0.5").jump("up", {{"n", "n + 1"}});
+    problem.when("push", "x >= -0.5").jump("push", {{"x", "x - 0.5"}});
+    const hybrid::System system = problem.system();
+    const hybrid::Trajectory run = simulate(system, 3);
+    EXPECT_GE(jump_times(run, 1).size(), 2U);
+    EXPECT_EQ(jump_times(run, 0).size(), 0U) << k;
+  }
+}
+
+// 0.1 + 0.2 is 0.3 and an ulp.
+TEST(EventRun, WhatAJumpLeadsToIsZeroButForRounding) {
+  for (const bool rises : {true, false}) {
+    EventProblem problem;
+    problem.state("x", {}, "0").flow("x", rises ? "1" : "-1");
+    problem.at("push", {"0.1"}).jump("push", {{"x", "0.1 + 0.2"}});
+    problem.crossing(EventKind::rises, "up", "x - 0.3").jump("up", {{"x", "-10"}});
+    EXPECT_EQ(jump_times(simulate(problem.system(), 1), 1).size(), rises ? 1U : 0U);
+  }
 }
 
 }  // namespace

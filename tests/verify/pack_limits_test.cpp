@@ -74,6 +74,41 @@ TEST(UnusualRuns, AreLeftOpen) {
 
 /// What was once decided wrongly, or never: what packs do not leave open is as careful runs are.
 const PackCase kDelicate[] = {
+    {"a crossing by the jump of an earlier event at the start", R"yaml(problem: p
+method:
+  method: m
+  events: {a: {when: plant.x >= 1}, b: {falls: plant.x - 0.5}}
+  plant:
+    state: {x: scalar}
+    flow: {x: -0.01*sin(x)}
+    at: {a: {x: x - 2}}
+  claims: {c: {below: count(b), bound: 0.5}}
+campaign: {runs: 96, horizon: 0.3, initial: {x: {box: [0.6, 1.2]}}}
+)yaml"},
+    {"an alarm that the first sample sets off", R"yaml(problem: p
+method:
+  method: m
+  events: {sample: {every: 0.5, first: 0}, alarm: {rises: xh - 1}}
+  plant: {state: {x: scalar}, output: {y: {value: x, at: sample}}, flow: {x: -0.1*sin(x)}}
+  observer:
+    state: {xh: {shape: scalar, start: 0}}
+    flow: {xh: -0.1*sin(xh)}
+    at: {sample: {xh: xh + 0.8*(y - xh)}}
+  claims: {c: {below: count(alarm), bound: 0.5}}
+campaign: {runs: 96, horizon: 0.4, initial: {x: {box: [1, 1.6]}}}
+)yaml"},
+    // From x(2) = -1 it leads to 1.
+    {"a jump that leads from one surface to another", R"yaml(problem: p
+method:
+  method: m
+  events: {d: {when: plant.x(2) < -1}, b: {when: plant.x(2) > 1 and plant.n < 3}}
+  plant:
+    state: {x: {shape: 2}, n: {shape: scalar, start: 0}}
+    flow: {x: "[x(2); 3.01*cos(5*t) - x(1)]"}
+    at: {d: {x: "[x(1); -x(2)]"}, b: {x: "[-x(1); x(2) - 0.5]", n: n + 1}}
+  claims: {c: {below: plant.n, bound: 1.5}}
+campaign: {runs: 96, horizon: 2, initial: {x: {box: [-1.5, 1.5]}}}
+)yaml"},
     {"a flow that slides along a switch", R"yaml(problem: p
 method:
   method: m
