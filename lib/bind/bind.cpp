@@ -32,6 +32,11 @@ int Recorder::rank(const expr::Program& matrix, const expr::Program* tolerance) 
   return found;
 }
 
+std::vector<int> Recorder::units(const expr::Program& A, const expr::Program& C) const {
+  units_found.push_back({A, C, numbers::KnownDoubles(values).units(A, C)});
+  return units_found.back().exponents;
+}
+
 Binding::Binding(std::shared_ptr<const model::Problem> problem, const model::Overrides& overriding,
                  Checks checking)
     : source(std::move(problem)),
@@ -47,9 +52,13 @@ Binding::Binding(std::shared_ptr<const model::Problem> problem, const model::Ove
   design->method_place = source->method_place;
   design->synthesis = source->synthesis;
   design->source = source;
-  design->statement = {method().name, method().text,
-                       std::filesystem::path(source->file).filename().string(), source->text, "",
-                       source->settings, source->files};
+  design->statement = {method().name,
+                       method().text,
+                       std::filesystem::path(source->file).filename().string(),
+                       source->text,
+                       "",
+                       source->settings,
+                       source->files};
   design->statement.hash = statement_hash(design->statement);
   names->known.known = recorder;
 }
@@ -71,6 +80,7 @@ model::Instance bound(Binding binding) {
   check_shown(binding);
   finish_dynamics(binding);
   binding.design->ranks = binding.recorder->ranks;
+  binding.design->units = binding.recorder->units_found;
   binding.design->names = binding.names;
   override_gain_bound(*binding.design, binding.overrides, binding.recorder->values);
   return {binding.design, binding.overrides, binding.recorder->values};

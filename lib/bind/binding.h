@@ -20,13 +20,15 @@ struct Names {
   expr::Scope results;  ///< and the objective
 };
 
-/// The values of data and parameters so far. Notes the ranks that were asked for.
+/// The values of data and parameters so far. Notes the ranks and units that were asked for.
 struct Recorder : expr::KnownValues {
   numbers::Values values;
   mutable std::vector<model::Design::Rank> ranks;
+  mutable std::vector<model::Design::Units> units_found;
 
   double number(const expr::Program& program) const override;
   int rank(const expr::Program& matrix, const expr::Program* tolerance) const override;
+  std::vector<int> units(const expr::Program& A, const expr::Program& C) const override;
 };
 
 /// What is asked of values besides data and assumptions: that ranges have ends in order, and that

@@ -54,7 +54,11 @@ bool has_same_shapes(const model::Design& design, const numbers::Values& values)
     return doubles.number(*known.tolerance) >= 0 &&
            doubles.rank(known.matrix, &*known.tolerance) == known.rank;
   };
-  return std::all_of(design.unknowns.begin(), design.unknowns.end(), is_same_degree) &&
+  const auto has_same_units = [&](const model::Design::Units& known) {
+    return doubles.units(known.A, known.C) == known.exponents;
+  };
+  return std::all_of(design.units.begin(), design.units.end(), has_same_units) &&
+         std::all_of(design.unknowns.begin(), design.unknowns.end(), is_same_degree) &&
          std::all_of(design.ranks.begin(), design.ranks.end(), is_same_rank);
 }
 
@@ -71,8 +75,8 @@ model::Instance evaluate(const model::DesignPtr& design, const model::Overrides&
       });
     }
   } catch (const InputError&) {
-    // The programs may be those of another rank.
-    if (design->ranks.empty()) throw;
+    // The programs may be those of another rank or unit.
+    if (design->ranks.empty() && design->units.empty()) throw;
   }
   return bind_again(*design, overrides);
 }

@@ -242,6 +242,8 @@ Bound Binder::bind_composed(const Expression& expression, const Node& node, Comp
       return observability(expression, node);
     case Composed::ctrb:
       return controllability(expression, node);
+    case Composed::units:
+      return units(expression, node);
     case Composed::rank:
       return rank(expression, node);
     case Composed::chol:

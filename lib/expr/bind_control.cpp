@@ -1,7 +1,11 @@
 // Functions of control that are made of operations, or represent one: ranks and subspaces,
 // eigenvalues of symmetric matrices, observability, sampling, and the equations of Lyapunov and
 // Riccati.
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <optional>
 #include <string>
 #include <utility>
@@ -92,6 +96,23 @@ int Binder::known_rank(const Expression& expression, const Node& node, int at) {
 Bound Binder::rank(const Expression& expression, const Node& node) {
   const int at = sized(expression, *node.children[0], bind(expression, *node.children[0]));
   return {number(expression, node, std::to_string(known_rank(expression, node, at)))};
+}
+
+Bound Binder::units(const Expression& expression, const Node& node) {
+  const int a = square_argument(expression, node, node.text);
+  const Node& outputs = *node.children[1];
+  const int c = sized(expression, outputs, bind(expression, outputs));
+  if (shape(c).cols != shape(a).rows)
+    materialise(expression, outputs, {c}, {shape(c).rows, shape(a).rows});
+  const std::string why = "the arguments of " + node.text;
+  const Program A = known_program(expression, *node.children[0], a, why);
+  const Program C = known_program(expression, outputs, c, why);
+  const Emitter make(*this, expression, node);
+  std::vector<int> diagonal;
+  for (const int exponent : scope_.known->units(A, C))
+    diagonal.push_back(
+        make.number(fmt::format("{:.{}e}", std::ldexp(1.0, exponent), std::abs(exponent))));
+  return {make(Op::diagonal_matrix, {make.blocks(diagonal, 1)})};
 }
 
 Bound Binder::basis(const Expression& expression, const Node& node, Op op) {

@@ -184,6 +184,7 @@ class Binder {
   // bind_control.cpp
   Bound basis(const Expression& expression, const Node& node, Op op);
   Bound rank(const Expression& expression, const Node& node);
+  Bound units(const Expression& expression, const Node& node);
   /// Of the instruction `at`, the first argument of f(M, tol).
   int known_rank(const Expression& expression, const Node& node, int at);
   Bound complement(const Expression& expression, const Node& node);

@@ -37,6 +37,8 @@ class KnownValues {
   /// The number of singular values above tolerance * the largest one; without a tolerance above
   /// rounding.
   virtual int rank(const Program& matrix, const Program* tolerance) const = 0;
+  /// Exponents of two of the units in which A, n x n, and C, p x n, are near 1 (numerics/balance.h).
+  virtual std::vector<int> units(const Program& A, const Program& C) const = 0;
 };
 
 /// "derivative(P)": under this name a scope has the derivative of a function, where it has one.

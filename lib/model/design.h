@@ -252,6 +252,12 @@ struct Design {
     int rank = 0;
   };
 
+  /// The same of units of states, which are numbers of the programs.
+  struct Units {
+    expr::Program A, C;
+    std::vector<int> exponents;
+  };
+
   std::string name;  ///< of the problem
   std::string file;
   std::string method;
@@ -288,6 +294,7 @@ struct Design {
   std::vector<Figure> compare;  ///< figures shown for all observers side by side
 
   std::vector<Rank> ranks;
+  std::vector<Units> units;
   std::shared_ptr<const Problem> source;
   std::shared_ptr<const bind::Names> names;
 };

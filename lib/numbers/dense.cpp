@@ -92,15 +92,21 @@ Vector symmetric_units(const Matrix& M) {
   return d;
 }
 
+Inverse inverse_by_lu(const Matrix& M) {
+  const Eigen::PartialPivLU<Matrix> lu(M);
+  Inverse found{lu.inverse(), 0};
+  // The estimate passes over a pivot that is 0.
+  if (found.matrix.allFinite()) found.condition = lu.rcond();
+  return found;
+}
+
 }  // namespace
 
 Inverse inverse(const Matrix& M) {
   const Vector d = symmetric_units(M);
-  const Eigen::PartialPivLU<Matrix> lu(d.asDiagonal() * M * d.asDiagonal());
-  Inverse found{d.asDiagonal() * lu.inverse() * d.asDiagonal(), 0};
-  // The estimate passes over a pivot that is 0.
-  if (found.matrix.allFinite()) found.condition = lu.rcond();
-  return found;
+  Inverse plain = inverse_by_lu(d.asDiagonal() * M * d.asDiagonal());
+  plain.matrix = d.asDiagonal() * plain.matrix * d.asDiagonal();
+  return in_better_units(std::move(plain), M, inverse_by_lu, scale);
 }
 
 ComplexMatrix complex_inverse(const ComplexMatrix& M) {

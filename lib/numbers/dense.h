@@ -2,10 +2,13 @@
 // rooms that use them. Symmetric matrices are read in their lower triangle.
 #pragma once
 
+#include <cmath>
 #include <complex>
+#include <limits>
 #include <memory>
 
 #include "numbers/matrix.h"
+#include "numerics/balance.h"
 
 namespace gainsmith::numbers {
 
@@ -79,12 +82,29 @@ Svd full_svd(const Matrix& M);
 
 /// The inverse by LU with pivots, and an estimate of the reciprocal condition in the 1-norm: not
 /// above rounding, or NaN, when M is singular. Of a symmetric M with a diagonal > 0 both in units
-/// in which the diagonal is near 1. M must not be empty.
+/// in which the diagonal is near 1, of others in_better_units(). M must not be empty.
 struct Inverse {
   Matrix matrix;
   double condition = 0;
 };
 Inverse inverse(const Matrix& M);
+
+/// An inverse of M with its reciprocal condition: `plain`, or where half of the digits are lost,
+/// that of M with balanced rows and columns, if that is better. invert(M) is the inverse of the one
+/// type for both.
+template <class Found, class S, class Invert, class Scale>
+Found in_better_units(Found plain, const MatrixOf<S>& M, const Invert& invert, const Scale& scale) {
+  using std::abs;
+  using std::sqrt;
+  if (plain.condition > sqrt(std::numeric_limits<S>::epsilon())) return plain;
+  auto [rows, columns] =
+      numerics::equilibrium(M.unaryExpr([](const S& x) { return static_cast<double>(abs(x)); }));
+  Found found = invert(numerics::in_units(M, rows, columns, scale));
+  for (auto* units : {&rows, &columns})
+    for (int& unit : *units) unit = -unit;
+  found.matrix = numerics::in_units(found.matrix, columns, rows, scale);
+  return found.condition > plain.condition ? found : plain;
+}
 
 /// Of a square matrix, in no order.
 ComplexVector eigenvalues(const Matrix& M);

@@ -3,6 +3,7 @@
 #include "numbers/dense.h"
 #include "numbers/foundation.h"
 #include "numbers/real_rules.h"
+#include "numerics/balance.h"
 
 namespace gainsmith::numbers {
 
@@ -19,6 +20,10 @@ double KnownDoubles::number(const expr::Program& program) const {
 
 int KnownDoubles::rank(const expr::Program& matrix, const expr::Program* tolerance) const {
   return numerical_rank(evaluate(matrix, values_), tolerance != nullptr ? number(*tolerance) : -1);
+}
+
+std::vector<int> KnownDoubles::units(const expr::Program& A, const expr::Program& C) const {
+  return numerics::units(evaluate(A, values_).cwiseAbs(), evaluate(C, values_).cwiseAbs());
 }
 
 int numerical_rank(const Matrix& matrix, double tolerance) {

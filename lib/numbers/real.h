@@ -50,6 +50,7 @@ class KnownDoubles : public expr::KnownValues {
 
   double number(const expr::Program& program) const override;
   int rank(const expr::Program& matrix, const expr::Program* tolerance) const override;
+  std::vector<int> units(const expr::Program& A, const expr::Program& C) const override;
 
  private:
   Values values_;

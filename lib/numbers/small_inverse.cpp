@@ -10,8 +10,8 @@ namespace gainsmith::numbers {
 namespace {
 
 constexpr Eigen::Index kLargest = 8;
-/// Twice what inverse() takes for singular (real.h).
-constexpr double kPlainCondition = 2e-15;
+/// Where inverse() tries other units: twice the root of epsilon.
+constexpr double kPlainCondition = 0x1p-25;
 
 using Square = std::array<std::array<double, kLargest>, kLargest>;
 using Units = std::array<double, kLargest>;

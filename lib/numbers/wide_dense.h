@@ -16,8 +16,8 @@
 
 namespace gainsmith::numbers {
 
-/// The inverse by Gauss and Jordan with pivots in the column, and the reciprocal condition in the
-/// 1-norm: 0 when a pivot is 0. M must not be empty.
+/// The inverse by Gauss and Jordan with pivots in the column, in_better_units(), and the reciprocal
+/// condition in the 1-norm: 0 when a pivot is 0. M must not be empty.
 template <class S>
 struct WideInverse {
   MatrixOf<S> matrix;
@@ -30,7 +30,7 @@ S norm_1(const MatrixOf<S>& M) {
 }
 
 template <class S>
-WideInverse<S> wide_inverse(const MatrixOf<S>& M) {
+WideInverse<S> inverse_by_gauss(const MatrixOf<S>& M) {
   using std::abs;
   const Eigen::Index n = M.rows();
   MatrixOf<S> left = M;
@@ -60,6 +60,12 @@ WideInverse<S> wide_inverse(const MatrixOf<S>& M) {
     }
   }
   return {right, S(1) / (norm_1(M) * norm_1(right))};
+}
+
+template <class S>
+WideInverse<S> wide_inverse(const MatrixOf<S>& M) {
+  return in_better_units(inverse_by_gauss<S>(M), M, inverse_by_gauss<S>,
+                         [](const S& x, int exponent) { return times_power_of_two(x, exponent); });
 }
 
 /// M = U diag(s) V' with square orthogonal U and V. The decomposition in double, made sharp: where

@@ -29,9 +29,12 @@ Graph reachable(const Matrix& sizes) {
   return reach;
 }
 
-/// The x that minimises sum (log2 |A_ij| + x_j - x_i)^2, with x = 0 for the first state of each
-/// connected part: Gaussian elimination from the last state to the first.
-Vector least_squares(const Matrix& sizes) {
+// Halves are common in integer data: they all have to round in the same direction.
+constexpr double kPastHalf = 0.5 + 0.0137;
+
+/// The x that minimises sum (log2 |A_ij| + x_j - x_i)^2, with x = 0 for the first `fixed` states and
+/// the first of each other connected part: Gaussian elimination from the last state to the first.
+Vector least_squares(const Matrix& sizes, Index fixed = 0) {
   const Index n = sizes.rows();
   Matrix normal = Matrix::Zero(n, n);
   Vector right = Vector::Zero(n);
@@ -49,7 +52,7 @@ Vector least_squares(const Matrix& sizes) {
   // A state that nothing earlier is left to connect with is the first of its part.
   std::vector<bool> first(static_cast<std::size_t>(n), false);
   for (Index k = n - 1; k >= 0; --k) {
-    if ((normal.row(k).head(k).array() == 0).all()) {
+    if (k < fixed || (normal.row(k).head(k).array() == 0).all()) {
       first[static_cast<std::size_t>(k)] = true;
       continue;
     }
@@ -74,8 +77,6 @@ class Balance {
         sizes_(sizes),
         reach_(reachable(sizes)),
         exponents_(static_cast<std::size_t>(n_), 0) {
-    // Halves are common in integer data: they all have to round in the same direction.
-    constexpr double kPastHalf = 0.5 + 0.0137;
     const Vector units = least_squares(sizes);
     for (Index i = 0; i < n_; ++i) multiply(i, exponent_below(units(i) + kPastHalf));
     balance_parts();
@@ -160,7 +161,34 @@ class Balance {
   std::vector<int> exponents_;
 };
 
+/// The exponents of least_squares() but for the first `skipped`; none where a size is not finite.
+std::vector<int> rounded_units(const Matrix& sizes, Index fixed, Index skipped) {
+  std::vector<int> exponents;
+  const Vector all = sizes.allFinite() ? least_squares(sizes, fixed) : Vector::Zero(sizes.rows());
+  for (Index i = skipped; i < all.size(); ++i)
+    exponents.push_back(exponent_below(all(i) + kPastHalf));
+  return exponents;
+}
+
 }  // namespace
+
+std::vector<int> units(const Matrix& A, const Matrix& C) {
+  const Index n = A.rows(), p = C.rows();
+  Matrix sizes = Matrix::Zero(p + n, p + n);
+  sizes.topRightCorner(p, n) = C;
+  sizes.bottomRightCorner(n, n) = A;
+  return rounded_units(sizes, p, p);
+}
+
+Equilibrium equilibrium(const Matrix& M) {
+  const Index n = M.rows();
+  Matrix sizes = Matrix::Zero(2 * n, 2 * n);
+  sizes.topRightCorner(n, n) = M;
+  std::vector<int> rows = rounded_units(sizes, 0, 0);
+  const std::vector<int> columns(rows.begin() + n, rows.end());
+  rows.resize(static_cast<std::size_t>(n));
+  return {rows, columns};
+}
 
 std::vector<int> balance(const Matrix& sizes) {
   const std::vector<int> none(static_cast<std::size_t>(sizes.rows()), 0);

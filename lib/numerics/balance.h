@@ -17,15 +17,36 @@ namespace gainsmith::numerics {
 /// first state of each connected part as it is. All zero where a size is not finite.
 std::vector<int> balance(const Matrix& sizes);
 
-/// D^-1 A D, with exponents from balance(); D A D^-1 with their negatives.
+/// Exponents e with D^-1 A D and C D near 1, D = diag(2^e): they minimise
+///   sum (log2 |D^-1 A D|_ij)^2 + sum (log2 |C D|_kj)^2   over i != j and elements that are not 0,
+/// from the sizes |A|, n x n, and |C|, p x n, of outputs whose units stay as they are (Curtis & Reid
+/// 1972). The first state of a connected part without outputs stays as it is. In other units of the
+/// states that are powers of two D^-1 A D and C D are the same bit for bit. All zero where a size is
+/// not finite.
+std::vector<int> units(const Matrix& A, const Matrix& C);
+
+/// Of the rows and columns of M, n x n: 2^-rows M 2^columns is near 1 in the same sense.
+struct Equilibrium {
+  std::vector<int> rows, columns;
+};
+Equilibrium equilibrium(const Matrix& sizes);
+
+/// 2^-rows A 2^columns.
 template <class S, class Scale>
-MatrixOf<S> in_units(const MatrixOf<S>& A, const std::vector<int>& exponents, const Scale& scale) {
+MatrixOf<S> in_units(const MatrixOf<S>& A, const std::vector<int>& rows,
+                     const std::vector<int>& columns, const Scale& scale) {
   MatrixOf<S> result(A.rows(), A.cols());
   for (Eigen::Index j = 0; j < A.cols(); ++j)
     for (Eigen::Index i = 0; i < A.rows(); ++i)
-      result(i, j) = scale(
-          A(i, j), exponents[static_cast<std::size_t>(j)] - exponents[static_cast<std::size_t>(i)]);
+      result(i, j) =
+          scale(A(i, j), columns[static_cast<std::size_t>(j)] - rows[static_cast<std::size_t>(i)]);
   return result;
+}
+
+/// D^-1 A D, with exponents from balance(); D A D^-1 with their negatives.
+template <class S, class Scale>
+MatrixOf<S> in_units(const MatrixOf<S>& A, const std::vector<int>& exponents, const Scale& scale) {
+  return in_units(A, exponents, exponents, scale);
 }
 
 }  // namespace gainsmith::numerics

@@ -53,9 +53,18 @@ INSTANTIATE_TEST_SUITE_P(
             "  J: [[0, 0, 1], [0, 1, 0], [0, 0, 1]]\n  T1: 0.3\n  T2: 1\n" +
                 kStarts,
             ""},
+        Own{"clock_in_seconds", "hybrid-kalman-like",
+            "data: {F: 'zeros(2)', Hc: [1, 0], J: eye(2), Hd: [0, 299792458], T1: 0.9, T2: 1.1}\n"
+            "campaign: {runs: 5, horizon: 20, initial: {x: {box: [[-1, -1e-6], [1, 1e-6]]}}}\n",
+            ""},
+        Own{"unseen_at_one_length", "hybrid-kalman-like",
+            "data:\n  F: [[-0.5, 0, 0], [0, 0, 2], [0, -2, 0]]\n  Hc: [1, 0, 0]\n"
+            "  J: [[0.9, 1, 0], [0, 1, 0], [0, 0, 1]]\n  T1: 1\n  T2: 2.5\n" +
+                kStarts,
+            "uniformly observable cannot hold"},
         Own{"never_shown", "hybrid-kalman-like",
             "data: {F: [[-1, 0], [0, 0.5]], Hc: [1, 0], J: eye(2), T1: 0.3, T2: 1}\n" + kStarts,
-            "the assumption 'uniformly observable'"},
+            "uniformly observable cannot hold"},
         Own{"jumps_without_flows", "hybrid-kalman-like",
             "data: {F: [[0, 1], [-1, 0]], Hc: 'zeros(1, 2)', J: [[0.9, 0.5], [-0.5, 0.9]], Hd: [1, "
             "0], T1: 0, T2: 0.4}\n" +
@@ -63,7 +72,7 @@ INSTANTIATE_TEST_SUITE_P(
             ""},
         Own{"jumps_without_flows_show_nothing", "hybrid-kalman-like",
             "data: {F: [[0, 1], [-1, 0]], Hc: [1, 0], J: eye(2), T1: 0, T2: 0.4}\n" + kStarts,
-            "the assumption 'uniformly observable'"},
+            "uniformly observable cannot hold"},
         Own{"turning_rate", "hybrid-kalman-like-varying",
             "data:\n  known(t): 2 + sin(t)\n  F(v): '[0, -v; v, 0]'\n  Hc(v): '[1, 0]'\n"
             "  J(v): '[1, 0; 0, v/2]'\n  T1: 0.3\n  T2: 1\n" +
@@ -125,7 +134,7 @@ INSTANTIATE_TEST_SUITE_P(
             "data:\n  F: 'blkdiag(0, [0, -1; 1, 0])'\n  Hc: [1, 0, 0]\n  J: eye(3)\n"
             "  Hd: [0, 0, 0]\n  T1: 0.5\n  T2: 1\n" +
                 kStarts,
-            "the assumption 'backward distinguishable'"}),
+            "backward distinguishable cannot hold"}),
     name_of);
 
 const std::string kBall =

@@ -108,6 +108,30 @@ TEST_P(Dense, InverseExponentialAndEigenvalues) {
   EXPECT_LT((complex_inverse(Z) * Z - ComplexMatrix::Identity(n, n)).norm(), 1e-12);
 }
 
+TEST_P(Dense, InversesInAnyUnits) {
+  // Well conditioned, with units that are not: to double 1 / condition is 1e-30 and less.
+  const auto inverse_of = [](const Matrix& X) { return numbers::inverse(X).matrix; };
+  const Matrix well = M + 4 * Matrix::Identity(n, n);
+  Vector rows(n), columns(n);
+  for (int i = 0; i < n; ++i) {
+    rows(i) = std::ldexp(1.0, 37 * (i % 3) - 40);
+    columns(i) = std::ldexp(1.0, 20 - 43 * (i % 2));
+  }
+  const Matrix X = rows.asDiagonal() * well * columns.asDiagonal();
+  const Matrix found = columns.asDiagonal() * inverse_of(X) * rows.asDiagonal();
+  EXPECT_LT((found - inverse_of(well)).norm(), 1e-13);
+  EXPECT_GT(numbers::inverse(X).condition, 1e-4);
+  // Symmetric but for a last place.
+  Matrix almost = rows.asDiagonal() * P * rows.asDiagonal();
+  almost(1, 0) = std::nextafter(almost(1, 0), 0);
+  EXPECT_LT((rows.asDiagonal() * inverse_of(almost) * rows.asDiagonal() - inverse_of(P)).norm(),
+            1e-12);
+  // What is singular stays so.
+  Matrix singular = X;
+  singular.row(0) = singular.row(1) * 0.25;
+  EXPECT_FALSE(numbers::inverse(singular).condition > 1e-15);
+}
+
 INSTANTIATE_TEST_SUITE_P(Sizes, Dense, testing::Values(2, 3, 7));
 
 }  // namespace
