@@ -283,9 +283,7 @@ TEST(HostileNames, PrintableOnesStayTexts) {
             "{" +
             quoted +
             ": {xh: xh/2}}}\n"
-            "  claims: {" +
-            quoted +
-            ": {below: norm(x), bound: 9}}\n"
+            "  claims: {small: {below: norm(x), bound: 9}}\n"
             "data: {A: [[-1, 0], [0, -2]], C: [[1, 0]], L: [[1], [0]]}\nreport: {" +
             quoted +
             ": trace(P)}\n"

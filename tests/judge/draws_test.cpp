@@ -43,7 +43,7 @@ DynamicsText sampled() {
       .noise("u", model::Dynamics::NoiseKind::uniform, {"0", "1"})
       .drawn_at("maybe")
       .noise("g", model::Dynamics::NoiseKind::normal,
-             {"[1; 0; -1]", "[4, 1.9, 2; 1.9, 1, 1; 2, 1, 1]"})
+             {"[1; 0; -1]", "[4, 1.9, 1.9; 1.9, 1, 1; 1.9, 1, 1]"})
       .covariance()
       .drawn_every("0.3")
       .noise("l", model::Dynamics::NoiseKind::lognormal, {"[2; -3]", "[0.5; 0.1]"})

@@ -33,19 +33,6 @@ method:
     error: {shrinks: norm(x), to: 0.5}
 campaign: {runs: 160, horizon: 3, initial: {x: {box: [-2, 3]}}}
 )yaml"},
-        {"starts around a center", R"yaml(problem: p
-method:
-  method: m
-  plant:
-    state: {x: {shape: 2}, z: {shape: 1}}
-    flow: {x: "[-0.1, 1; -1, -0.1]*x", z: -z}
-    jump: {x: "[0.6, 0.5; -0.9, 0.75]*x + [0.1; 0]*z"}
-  timer: {tau: {reset: [0.1, 0.6], first: [0, 0.6]}}
-  claims:
-    falls: {nonincreasing: "x'*x"}
-    error: {shrinks: norm(x), to: 0.5}
-campaign: {runs: 160, horizon: 3, initial: {x: {normal: {mean: [1, 0], covariance: "[1, 1; 1, 1]"}}, z: {lognormal: 0.5}}}
-)yaml"},
         {"an observer whose error does not depend on its plant", R"yaml(problem: p
 method:
   method: m
@@ -149,6 +136,19 @@ campaign: {runs: 160, horizon: 3, initial: {x: {box: [-2, 3]}}}
         {"a mode that lives next to jumps alone",
          with(with(made[1].text, "[0.5; 0.1]*th\", th: -2*th", "[2000; 400]*th\", th: -8000*th"),
               "[0.5; 0.2]*(y", "[0.4; 0.2]*(y")});
+    made.push_back({"starts around a center", R"yaml(problem: p
+method:
+  method: m
+  plant:
+    state: {x: {shape: 2}, z: {shape: 1}}
+    flow: {x: "[-0.1, 1; -1, -0.1]*x", z: -z}
+    jump: {x: "[0.6, 0.5; -0.9, 0.75]*x + [0.1; 0]*z"}
+  timer: {tau: {reset: [0.1, 0.6], first: [0, 0.6]}}
+  claims:
+    falls: {nonincreasing: "x'*x"}
+    error: {shrinks: norm(x), to: 0.5}
+campaign: {runs: 160, horizon: 3, initial: {x: {normal: {mean: [1, 0], covariance: "[1, 1; 1, 1]"}}, z: {lognormal: 0.5}}}
+)yaml"});
     return made;
   }();
   return cases;
