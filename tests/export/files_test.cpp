@@ -229,11 +229,11 @@ TEST(ExportFiles, UnitsStandBesideTheirNames) {
     EXPECT_TRUE(has(c, words)) << words << "\n" << c;
   const std::string matlab = matlab_file(made, "m");
   for (const char* words :
-       {"[3; 0]);  % xh [rad, rad/s]\n", "the event sample. Units: y [rad].\n", "% out [V*/A]\n"})
+       {"[3; 0]);  % xh [rad, rad/s]\n", "the event sample. Units: y [rad].\n", "% out [V* /A]\n"})
     EXPECT_TRUE(has(matlab, words)) << words << "\n" << matlab;
   const std::string python = python_file(made, "m");
   for (const char* words :
-       {"dtype=float)  # rad, rad/s\n", "        # Units: y [rad].\n", "        # Units: V*/A\n"})
+       {"dtype=float)  # rad, rad/s\n", "        # Units: y [rad].\n", "        # Units: V* /A\n"})
     EXPECT_TRUE(has(python, words)) << words << "\n" << python;
 }
 
