@@ -8,33 +8,32 @@ namespace {
 
 /// Bytes of the one at the beginning; 0: it is none.
 std::size_t control_length(std::string_view text) {
-  const auto byte = [&](std::size_t k) {
-    return k < text.size() ? static_cast<unsigned char>(text[k]) : 0U;
+  const auto within = [&](std::size_t k, unsigned low, unsigned high) {
+    const unsigned byte = k < text.size() ? static_cast<unsigned char>(text[k]) : 0U;
+    return low <= byte && byte <= high;
   };
-  if (byte(0) < 0x20 || byte(0) == 0x7F) return 1;
-  if (byte(0) == 0xC2 && byte(1) >= 0x80 && byte(1) < 0xA0) return 2;
-  const bool separates = byte(1) == 0x80 && byte(2) >= 0xA8 && byte(2) <= 0xAE;
-  const bool marks = byte(1) == 0x80 && (byte(2) == 0x8E || byte(2) == 0x8F);
-  const bool isolates = byte(1) == 0x81 && byte(2) >= 0xA6 && byte(2) <= 0xA9;
-  return byte(0) == 0xE2 && (separates || marks || isolates) ? 3 : 0;
+  if (within(0, 0, 0x1F) || within(0, 0x7F, 0x7F)) return 1;
+  if (within(0, 0xC2, 0xC2) && within(1, 0x80, 0x9F)) return 2;
+  const bool marks = within(1, 0x80, 0x80) && (within(2, 0x8E, 0x8F) || within(2, 0xA8, 0xAE));
+  const bool isolates = within(1, 0x81, 0x81) && within(2, 0xA6, 0xA9);
+  return within(0, 0xE2, 0xE2) && (marks || isolates) ? 3 : 0;
 }
 
 }  // namespace
 
 std::size_t control_character(std::string_view utf8, std::string_view allowed) {
   for (std::size_t at = 0; at < utf8.size(); ++at)
-    if (allowed.find(utf8[at]) == std::string_view::npos && control_length(utf8.substr(at)) > 0)
-      return at;
+    if (allowed.find(utf8[at]) == allowed.npos && control_length(utf8.substr(at)) > 0) return at;
   return std::string_view::npos;
 }
 
 std::string visible(std::string_view utf8, std::string_view allowed) {
   std::string text;
-  for (std::size_t at; (at = control_character(utf8, allowed)) != std::string_view::npos;) {
+  for (std::size_t at; (at = control_character(utf8, allowed)) != utf8.npos;) {
     text += utf8.substr(0, at);
-    const std::size_t end = at + control_length(utf8.substr(at));
-    for (; at < end; ++at) text += fmt::format("\\x{:02x}", static_cast<unsigned char>(utf8[at]));
-    utf8.remove_prefix(end);
+    const std::string_view found = utf8.substr(at, control_length(utf8.substr(at)));
+    for (const char c : found) text += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
+    utf8.remove_prefix(at + found.size());
   }
   return text.append(utf8);
 }

@@ -72,11 +72,9 @@ std::vector<model::Formula> ellipsoid(const Binding& binding, const model::Initi
 
 model::Design::Start start(const Binding& binding, const model::InitialValue& initial) {
   const expr::Scope& scope = binding.names->running;
-  model::Design::Start bound{state_of(*binding.design, initial.state),
-                             initial.kind,
-                             {},
-                             initial.place,
-                             initial.covariance};
+  model::Design::Start bound{
+      state_of(*binding.design, initial.state), initial.kind, {}, initial.place};
+  bound.covariance = initial.covariance;
   if (bound.state == binding.design->states.size())
     throw no_state(binding, initial.state, initial.place);
   const expr::Shape state = binding.design->states[bound.state].shape;
@@ -84,27 +82,29 @@ model::Design::Start start(const Binding& binding, const model::InitialValue& in
     bound.values = ellipsoid(binding, initial, state);
     return bound;
   }
-  const bool around = has_center(initial.kind);
-  const bool pair = around || initial.kind == model::StartKind::box;
+  if (has_center(initial.kind)) {
+    for (const model::Value& given : initial.values)
+      bound.values.push_back(value(given, scope, std::nullopt));
+    check_spread(bound.values, initial.covariance, state, "the state " + initial.state);
+    return bound;
+  }
   for (const model::Value& given : initial.values) {
-    if (!pair) {
+    if (initial.kind != model::StartKind::box) {
       bound.values.push_back(value(given, scope, state));
       continue;
     }
     model::Formula end = value(given, scope, std::nullopt);
     const expr::Shape shape = end.program.shape();
     const bool turned = given.flat && shape == expr::Shape{state.cols, state.rows};
-    const bool any = initial.covariance && !bound.values.empty();
-    if (shape != state && !shape.is_scalar() && !turned && !any)
+    if (shape != state && !shape.is_scalar() && !turned)
       throw InputError(given.place, "a bound of the state " + initial.state +
                                         " must be a number or " + to_string(state) + "; found " +
                                         to_string(shape));
-    bound.values.push_back(shape.is_scalar() || any ? std::move(end) : value(given, scope, state));
+    bound.values.push_back(shape.is_scalar() ? std::move(end) : value(given, scope, state));
   }
-  if (around) check_spread(bound.values, initial.covariance, state, initial.state);
-  const bool enough = pair                                     ? bound.values.size() == 2
-                      : initial.kind == model::StartKind::list ? !bound.values.empty()
-                                                               : bound.values.size() == 1;
+  const bool enough = initial.kind == model::StartKind::list  ? !bound.values.empty()
+                      : initial.kind == model::StartKind::box ? bound.values.size() == 2
+                                                              : bound.values.size() == 1;
   if (!enough)
     throw InputError(initial.place, "the initial value of " + initial.state + " is incomplete");
   if (initial.kind == model::StartKind::box) check_box(binding, bound, initial);

@@ -41,10 +41,8 @@ void check_spread(const std::vector<model::Formula>& values, bool covariance, ex
                                : spread == of || spread.is_scalar();
   if (fits && (center == of || center.is_scalar())) return;
   throw InputError(values[fits ? 0 : 1].place,
-                   what + " is " + to_string(of) + ": expected " +
-                       (fits || !covariance ? "a number or as many"
-                                            : "a covariance n x n of a column with n elements") +
-                       ", found " + to_string(fits ? center : spread));
+                   what + " is " + to_string(of) + ": " + to_string(fits ? center : spread) +
+                       (covariance && !fits ? " is no covariance of a column" : " does not fit"));
 }
 
 model::Range range(const model::ScalarRange& range, const expr::Scope& scope) {

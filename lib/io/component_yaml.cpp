@@ -257,14 +257,13 @@ Component component(const YamlFile& file, const YamlItem& item,
 }
 
 std::optional<Spread> spread(const YamlFile& file, YamlMap& map, const std::string& mean,
-                             const std::string& median, bool column) {
+                             const std::string& median) {
   const auto normal = map.find("normal");
   const auto lognormal = map.find("lognormal");
   if (!normal && !lognormal) return std::nullopt;
   const YamlItem& item = normal ? *normal : *lognormal;
   if (normal && lognormal) throw InputError(item.place, "either normal or lognormal, not both");
   const auto value = [&](const YamlItem& one) {
-    if (!column) return value_of(file, one);
     return model::Value{one.key, matrix_of(file, one), false, file.place(one.value)};
   };
   const expr::Text otherwise = expr::Text::generated(normal ? mean : median, item.place);

@@ -33,8 +33,8 @@ struct Spread {
   std::vector<model::Value> values;
   bool covariance = false;
 };
-/// None: the mapping has neither. `column`: a flat list is one.
+/// None: the mapping has neither. Flat lists are columns.
 std::optional<Spread> spread(const YamlFile& file, YamlMap& map, const std::string& mean,
-                             const std::string& median, bool column = false);
+                             const std::string& median);
 
 }  // namespace gainsmith::io

@@ -75,7 +75,7 @@ model::NoiseText noise(const YamlFile& file, const YamlItem& item) {
   model::NoiseText result;
   result.name = item.key;
   result.place = item.place;
-  const auto around = spread(file, map, "0", "1", true);
+  const auto around = spread(file, map, "0", "1");
   const auto uniform = map.find("uniform");
   const auto sinusoid = map.find("sinusoid");
   const auto event = map.find("new at");

@@ -215,7 +215,7 @@ model::Method method_from(const YamlFile& file, const YAML::Node& node,
   method.file = file.file(node);
   const auto name =
       problem.empty() ? std::optional<YamlItem>(map.require("method")) : map.find("method");
-  method.name = name ? file.name(name->value, "method") : problem;
+  method.name = name ? file.string(name->value, "method", "") : problem;
   method.source = optional_string(file, map.find("source"));
   method.summary = optional_string(file, map.find("summary"));
   if (const auto task = map.find("task")) method.task = task_of(file, *task);

@@ -352,7 +352,7 @@ model::Problem parse_problem(const std::string& text, const std::string& file,
   model::Problem problem;
   problem.file = file;
   problem.text = text;
-  problem.name = yaml.name(map.require("problem").value, "problem");
+  problem.name = yaml.string(map.require("problem").value, "problem", "");
   const YamlItem method = map.require("method");
   problem.method_place = method.place;
   problem.method = method_of(yaml, method, problem.name, library);

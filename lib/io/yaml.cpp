@@ -327,7 +327,8 @@ bool YamlFile::is_written(const YAML::Node& null) const {
   return at < text_.size() && (text_[at] == '~' || text_[at] == 'n' || text_[at] == 'N');
 }
 
-std::string YamlFile::string(const YAML::Node& node, const std::string& what) const {
+std::string YamlFile::string(const YAML::Node& node, const std::string& what,
+                             std::string_view allowed) const {
   if (!node.IsScalar()) {
     const std::string found = node.IsMap()        ? "a mapping"
                               : node.IsSequence() ? "a list"
@@ -335,12 +336,7 @@ std::string YamlFile::string(const YAML::Node& node, const std::string& what) co
                                                   : "nothing";
     throw InputError(place(node), what + ": expected a text, found " + found);
   }
-  refuse_control(node.Scalar(), "\n\t", what, place(node));
-  return node.Scalar();
-}
-
-std::string YamlFile::name(const YAML::Node& node, const std::string& what) const {
-  refuse_control(string(node, what), "", what, place(node));
+  refuse_control(node.Scalar(), allowed, what, place(node));
   return node.Scalar();
 }
 
@@ -441,7 +437,7 @@ YamlMap::YamlMap(const YamlFile& file, const YAML::Node& node, std::string what)
                                   : node.IsNull()   ? "nothing"
                                                     : "'" + shortened(node.Scalar()) + "'"));
   for (const auto& entry : node) {
-    const std::string key = file.name(entry.first, what_ + ": a key");
+    const std::string key = file.string(entry.first, what_ + ": a key", "");
     const Place place = file.place(entry.first);
     for (const YamlItem& earlier : items_)
       if (earlier.key == key)

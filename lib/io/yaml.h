@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -47,9 +48,9 @@ class YamlFile {
   /// The scalar with the place of each of its characters, however it is quoted or folded.
   expr::Text scalar(const YAML::Node& node, const std::string& what) const;
   expr::Expression expression(const YAML::Node& node, const std::string& what) const;
-  std::string string(const YAML::Node& node, const std::string& what) const;
-  /// A text on one line.
-  std::string name(const YAML::Node& node, const std::string& what) const;
+  /// Without control characters other than those of `allowed`: of a name none.
+  std::string string(const YAML::Node& node, const std::string& what,
+                     std::string_view allowed = "\n\t") const;
   /// A number written as such (not an expression).
   double number(const YAML::Node& node, const std::string& what) const;
   /// A number above 0.

@@ -225,20 +225,13 @@ NoiseRange Texts::noise_range(const Dynamics::Noise& one) const {
     }
     return range;
   }
-  // A draw from 53 random bits lies within 8.6 deviations, each of the independent parts of a sum.
-  numbers::Matrix reach = 10 * fitted(one.values[1]).cwiseAbs();
-  if (one.covariance)
-    reach = 10 * std::sqrt(static_cast<double>(one.shape.rows)) *
-            constant(one.values[1]).diagonal().cwiseAbs().cwiseSqrt();
+  // A draw from 53 random bits lies within 8.6 deviations; sums and exponentials have no range.
   const numbers::Matrix center = fitted(one.values[0]);
+  numbers::Matrix reach = numbers::Matrix::Constant(center.rows(), center.cols(), HUGE_VAL);
+  if (one.kind == Dynamics::NoiseKind::normal && !one.covariance)
+    reach = 10 * fitted(one.values[1]).cwiseAbs();
   range.low = center - reach;
   range.high = center + reach;
-  if (one.kind == Dynamics::NoiseKind::lognormal) {
-    const numbers::Matrix factor = reach.array().exp();
-    const numbers::Matrix ends[] = {center.cwiseProduct(factor), center.cwiseQuotient(factor)};
-    range.low = ends[0].cwiseMin(ends[1]);
-    range.high = ends[0].cwiseMax(ends[1]);
-  }
   return range;
 }
 

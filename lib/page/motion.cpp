@@ -88,10 +88,10 @@ class Motion {
     std::string how = drawn_text(one.kind, one.covariance);
     if (!one.event.empty()) how += ", new at " + quoted(one.event);
     if (one.every) how += ", new every " + formula(of(*one.every));
+    const bool plain = one.kind == NoiseKind::uniform;
     std::string math = one.values.empty() ? ""
-                       : one.kind == NoiseKind::uniform
-                           ? range_mathml(one.values, notation_)
-                           : range_mathml(one.values, notation_, "(", ")");
+                                          : range_mathml(one.values, notation_, plain ? "[" : "(",
+                                                         plain ? "]" : ")");
     if (!one.sinusoid.empty()) {
       how = "a sinusoid";
       std::vector<std::string> parts;

@@ -190,7 +190,7 @@ TEST(EventDraws, ABadSpreadIsRefusedAtItsPlace) {
                   "positive semidefinite"),
         std::pair("{normal: {covariance: \"[1, 0.5, 0; 0, 1, 0; 0, 0, 1]\"}}", "symmetric"),
         std::pair("{lognormal: {covariance: -Q}}", "positive semidefinite"),
-        std::pair("{normal: {covariance: eye(2)}}", "expected a covariance n x n"),
+        std::pair("{normal: {covariance: eye(2)}}", "no covariance of a column"),
         std::pair("{normal: [1, -2, 3]}", "negative"), std::pair("{normal: [1, 2]}", "3 x 1"),
         std::pair("{normal: {mean: [1, 2], deviation: 1}}", "3 x 1")}) {
     SCOPED_TRACE(spread);
