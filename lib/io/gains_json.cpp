@@ -210,6 +210,7 @@ model::Margin margin_of(const JsonReader& reader) {
 }
 
 model::CertificateRecord certificate_of(const JsonReader& reader, model::Gains& gains) {
+  if (reader.has("shows")) (void)reader.at("shows").text();  // follows from the others
   return {reader.at("exact").truth(), reader.at("backward_error").number(),
           reader.at("digits").whole(), matrices_of(reader.at("multipliers"), gains),
           reader.has("about") ? reader.at("about").text() : "problem"};
