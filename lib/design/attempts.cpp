@@ -163,7 +163,10 @@ struct Attempts {
     return ask(climb, interior({}, {"quad", 1e-22}));
   }
   static std::optional<Attempt> facial_reduction(const Climb& climb) {
-    return measured(climb, attempt_facial_reduction(climb.posed_, climb.solve_));
+    auto found = measured(climb, attempt_facial_reduction(climb.posed_, {}, climb.solve_));
+    if (!found || !found->holds() || climb.is_yes(*found)) return found;
+    auto within = attempt_facial_reduction(climb.posed_, climb.bounds_, climb.solve_);
+    return within && within->holds() ? std::move(within) : std::move(found);
   }
   static std::optional<Attempt> measured(const Climb& climb, std::optional<Attempt> found) {
     if (found) found = measured(climb, std::move(*found));

@@ -25,11 +25,26 @@ using verdict::RationalBlock;
 constexpr int kMostUnknowns = 100;
 constexpr int kMostRows = 120;
 
-std::vector<std::string> names_of(const lmi::Lmi& lmi) {
+std::vector<std::string> names_of(const lmi::Lmi& lmi, const lmi::GainBounds& bounds) {
   std::vector<std::string> names;
-  for (const lmi::Block& block : lmi.blocks)
-    names.push_back(block.name + (block.point.empty() ? "" : " at " + block.point));
+  for (const auto* list : {&lmi.blocks, &bounds.blocks})
+    for (const lmi::Block& block : *list)
+      names.push_back(block.name + (block.point.empty() ? "" : " at " + block.point));
   return names;
+}
+
+/// The bounds last, as their doubles are.
+std::vector<RationalBlock> blocks_of(const Posed& posed, const lmi::GainBounds& bounds) {
+  auto blocks = verdict::rational_blocks(posed.inequalities, posed.lmi.blocks);
+  for (const lmi::Block& of : bounds.blocks) {
+    RationalBlock& block = blocks.emplace_back();
+    block.size = of.size;
+    block.strict = of.strict;
+    for (const auto& [i, matrix] : of.terms)
+      block.terms.emplace_back(
+          i, numbers::Matrix(matrix).unaryExpr([](double x) { return Rational(x); }));
+  }
+  return blocks;
 }
 
 /// What is left, as blocks that a solver can be asked about.
@@ -80,12 +95,12 @@ Left left_of(const Faces& faces, const lmi::Lmi& stated) {
 
 class FacialReduction {
  public:
-  FacialReduction(const Posed& posed, const Solve& solve)
+  FacialReduction(const Posed& posed, const lmi::GainBounds& bounds, const Solve& solve)
       : posed_(posed),
         solve_(solve),
-        stated_(verdict::rational_blocks(posed.inequalities, posed.lmi.blocks)),
-        faces_(stated_, names_of(posed.lmi), posed.lmi.unknowns) {
-    result_.question = {lmi::Goal::interior, {}, {"quad", 1e-22}, 0};
+        stated_(blocks_of(posed, bounds)),
+        faces_(stated_, names_of(posed.lmi, bounds), posed.lmi.unknowns + bounds.scalars) {
+    result_.question = {lmi::Goal::interior, bounds, {"quad", 1e-22}, 0};
     result_.formulation = lmi::pose_interior(posed.lmi, {});
   }
 
@@ -150,7 +165,9 @@ class FacialReduction {
     const std::size_t steps = faces_.steps();
     // Of the whole space double was asked before.
     if (steps > 0) solve_left(left, {}, Want::point);
-    if (!posed_.wide || left.lmi.unknowns > kMostUnknowns || left.lmi.rows() > kMostRows)
+    // Of bounds nothing but a point is asked.
+    if (!posed_.wide || !result_.question.bounds.blocks.empty() ||
+        left.lmi.unknowns > kMostUnknowns || left.lmi.rows() > kMostRows)
       return finish();
     for (const Effort& effort : {Effort{"quad", 1e-22}, Effort{"100", 1e-40}}) {
       if (done_ || faces_.steps() > steps) return;
@@ -222,6 +239,8 @@ class FacialReduction {
     std::vector<double> units;
     for (int i = 1; i <= posed_.lmi.unknowns; ++i)
       units.push_back(result_.formulation.balance.unit(i));
+    const std::size_t unknowns = units.size();
+    units.resize(unknowns + static_cast<std::size_t>(result_.question.bounds.scalars), 1);
     const std::vector<Rational> exact(y.begin(), y.end());
     auto x = verdict::printable_point(faces_, exact, units, digits);
     std::vector<Rational> solution;
@@ -235,6 +254,7 @@ class FacialReduction {
       check.solution = &solution;
     }
     if (!x || !verdict::satisfies(stated_, solution)) return std::nullopt;
+    x->resize(unknowns);
     return Decimals{
         *x, verdict::compute_margins(posed_.inequalities, posed_.lmi, result_.formulation.balance,
                                      posed_.choices().margin, *x, check)};
@@ -476,8 +496,9 @@ bool states_equations(const lmi::Lmi& lmi) {
   });
 }
 
-std::optional<Attempt> attempt_facial_reduction(const Posed& posed, const Solve& solve) {
-  return FacialReduction(posed, solve).run();
+std::optional<Attempt> attempt_facial_reduction(const Posed& posed, const lmi::GainBounds& bounds,
+                                                const Solve& solve) {
+  return FacialReduction(posed, bounds, solve).run();
 }
 
 }  // namespace gainsmith::design

@@ -20,7 +20,9 @@ namespace gainsmith::design {
 /// Whether a block states equations: an element of its diagonal is 0 for all unknowns.
 bool states_equations(const lmi::Lmi& lmi);
 
-/// None when nothing came of it; without a point and a no what it found is in left_open.
-std::optional<Attempt> attempt_facial_reduction(const Posed& posed, const Solve& solve);
+/// None when nothing came of it; without a point and a no what it found is in left_open. With bounds
+/// on gains: a point within them, by the plain steps alone, or nothing that counts.
+std::optional<Attempt> attempt_facial_reduction(const Posed& posed, const lmi::GainBounds& bounds,
+                                                const Solve& solve);
 
 }  // namespace gainsmith::design
