@@ -95,7 +95,7 @@ def main():
     write_seeds(os.path.join(folder, "json_fuzz.seeds"), JSONS)
     write_seeds(os.path.join(folder, "npy_fuzz.seeds"), NPYS)
     write_seeds(os.path.join(folder, "mat_fuzz.seeds"),
-                [open(path, "rb").read() for path in sorted(glob.glob(os.path.join(tree, "tests/data/*.mat")))])
+                [open(path, "rb").read() for path in sorted(glob.glob(os.path.join(tree, "tests/data/*-v6.mat")))])
 
     functions = re.findall(r'^FUNCTION\([^"]*"(\w+)"', read(os.path.join(tree, "lib/expr/operations.def")), re.M)
     if not functions:

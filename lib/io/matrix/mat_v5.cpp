@@ -16,6 +16,10 @@ namespace {
 
 constexpr std::size_t kTag = 8;  ///< a type and a length
 
+std::string_view behind_tag(std::string_view bytes) {
+  return bytes.substr(std::min(kTag, bytes.size()));
+}
+
 /// Reads a variable part by part.
 class PartReader {
  public:
@@ -75,50 +79,39 @@ model::StatedMatrix matrix_of_v5(std::string_view bytes, bool big_endian, const 
   const auto refuse = [&](const std::string& why) {
     throw InputError(place, path + ": the file is " + why);
   };
-  struct Stored {
-    std::string_view bytes;
-    bool compressed = false;
-  };
-  std::vector<Stored> stored;
-  std::vector<MatVariable> found;
+  std::vector<MatVariable> found;  // their values are all of their bytes, as they are stored
   int count = 0;
   for (std::string_view rest = bytes.substr(kFileHeader); !rest.empty();) {
     const std::string variable = "variable " + std::to_string(++count);
     const PartReader tag(rest, big_endian);
-    if (rest.size() < kTag) refuse("cut off at the beginning of " + variable);
     const std::uint32_t type = tag.word(rest), length = tag.word(rest, 4);
-    rest.remove_prefix(kTag);
+    rest.remove_prefix(std::min(kTag, rest.size()));
     if (type != MAT_T_MATRIX && type != MAT_T_COMPRESSED)
       refuse("damaged: " + variable + " is of no known kind");
     if (rest.size() < length)
       refuse("cut off within " + variable + ": " + std::to_string(rest.size()) + " of its " +
              std::to_string(length) + " bytes are there");
+    const std::string_view stored = rest.substr(0, length);
+    rest.remove_prefix(length);
     const bool compressed = type == MAT_T_COMPRESSED;
-    const std::string text =
-        compressed ? inflate(rest.substr(0, length), kLongestHeader) : std::string();
-    if (compressed && (text.size() < kTag || tag.word(text) != MAT_T_MATRIX))
-      refuse("damaged: " + variable + " cannot be decompressed");
-    PartReader parts(compressed ? std::string_view(text).substr(kTag) : rest.substr(0, length),
-                     big_endian);
+    const std::string text = compressed ? inflate(stored, kLongestHeader) : std::string();
+    PartReader parts(compressed ? behind_tag(text) : stored, big_endian);
     MatVariable header = parts.header();
     if (!parts.is_whole()) refuse("damaged: " + variable + " begins with no header");
+    header.values = {static_cast<int>(type), stored, big_endian};
     // MATLAB writes what classes of its own need without a name.
-    if (!header.name.empty()) {
-      stored.push_back({rest.substr(0, length), compressed});
-      found.push_back(std::move(header));
-    }
-    rest.remove_prefix(length);
+    if (!header.name.empty()) found.push_back(std::move(header));
   }
   std::string text;
   return matrix_of_variable(found, name, path, place, [&](std::size_t index) {
-    std::string_view body = stored[index].bytes;
-    if (stored[index].compressed) {
+    std::string_view body = found[index].values.bytes;
+    if (found[index].values.type == MAT_T_COMPRESSED) {
       const std::string tag = inflate(body, kTag);
       const std::size_t length = kTag + PartReader(tag, big_endian).word(tag, 4);
       if (length <= kLongest) text = inflate(body, length + 1);
       if (text.size() != length)
         refuse("damaged: " + found[index].name + " cannot be decompressed");
-      body = std::string_view(text).substr(kTag);
+      body = behind_tag(text);
     }
     PartReader parts(body, big_endian);
     MatVariable variable = parts.header();

@@ -90,16 +90,11 @@ std::size_t index_of(const std::vector<MatVariable>& found, const std::string& n
 /// Why a variable is no real matrix; empty when it is one.
 std::string refusal(const MatVariable& variable) {
   const std::string& name = variable.name;
-  switch (variable.kind) {
-    case MAT_C_STRUCT:
-      return "is a struct; save its field as a variable: A = " + name + ".A; save('-v7', ...)";
-    case MAT_C_CELL:
-      return "is a cell array; save its cell as a variable: A = " + name + "{1}; save('-v7', ...)";
-    case MAT_C_CHAR:
-      return "is a text, not a matrix";
-    default:
-      break;
-  }
+  if (variable.kind == MAT_C_STRUCT)
+    return "is a struct; save its field as a variable: A = " + name + ".A; save('-v7', ...)";
+  if (variable.kind == MAT_C_CELL)
+    return "is a cell array; save its cell as a variable: A = " + name + "{1}; save('-v7', ...)";
+  if (variable.kind == MAT_C_CHAR) return "is a text, not a matrix";
   if (variable.kind < MAT_C_SPARSE || variable.kind > MAT_C_UINT64)
     return "is no matrix; of a model 'sys' save the matrices: [A, B, C, D] = ssdata(sys)";
   if (variable.complex) return "is complex; save real(" + name + ") and imag(" + name + ")";
