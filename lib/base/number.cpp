@@ -29,7 +29,8 @@ bool has_vast_exponent(std::string_view text) {
   text.remove_prefix(e + (text.substr(e + 1).starts_with('+') ? 2 : 1));
   int exponent = 0;
   const auto read = std::from_chars(text.data(), text.data() + text.size(), exponent);
-  return read.ec == std::errc::result_out_of_range || std::abs(exponent) > kMostExponent;
+  return read.ec == std::errc::result_out_of_range || exponent < -kMostExponent ||
+         exponent > kMostExponent;
 }
 
 }  // namespace
