@@ -18,7 +18,7 @@ bool is_exact_decimal(const std::string& decimal) {
     const char c = decimal[i];
     if (c == 'e' || c == 'E') {
       const long stated = std::strtol(decimal.c_str() + i + 1, nullptr, 10);
-      if (std::abs(stated) > 1000) return false;
+      if (stated < -1000 || stated > 1000) return false;
       exponent += stated;
       break;
     }

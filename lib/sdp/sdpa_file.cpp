@@ -156,14 +156,14 @@ double Scanner::rest() const {
       fraction = fraction || c != '0';
     }
   }
-  if (!fraction && p >= position_ && digits <= 15) return 0;
+  if (mantissa.hi() == 0 || (!fraction && p >= position_ && digits <= 15)) return 0;
   if (p < position_) {
     int written = 0;
     p += text_[p + 1] == '+' ? 2 : 1;
     std::from_chars(text_.data() + p, text_.data() + position_, written);
     exponent += written;
   }
-  if (mantissa.hi() == 0 || std::abs(exponent) > kLargestExponent) return 0;
+  if (std::abs(exponent) > kLargestExponent) return 0;
   DoubleDouble power(1), square(10);
   for (int e = std::abs(exponent); e > 0; e /= 2, square *= square)
     if (e % 2 == 1) power *= square;

@@ -65,7 +65,7 @@ void Mutator::set_length(std::string& bytes, std::size_t at) {
 }
 
 void Mutator::set_number(std::string& bytes, std::size_t at) {
-  constexpr std::array<std::string_view, 10> kEnds = {"0",
+  constexpr std::array<std::string_view, 11> kEnds = {"0",
                                                       "1",
                                                       "-1",
                                                       "2147483648",
@@ -74,7 +74,8 @@ void Mutator::set_number(std::string& bytes, std::size_t at) {
                                                       "1e-2147483648",
                                                       "1e400",
                                                       "1e-400",
-                                                      "250001"};
+                                                      "250001",
+                                                      "0.0e-2147483648"};
   constexpr std::string_view kDigits = "0123456789";
   const std::size_t begin = bytes.find_first_of(kDigits, at);
   if (begin == std::string::npos) return;

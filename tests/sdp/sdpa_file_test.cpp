@@ -85,6 +85,12 @@ TEST(SdpaFile, KeepsWhatRoundingTakesFromADecimal) {
   EXPECT_EQ(f[4].rest, -905969664.0);  // the double nearest to 1e25 is 10000000000000000905969664
 }
 
+TEST(SdpaFile, AZeroMayHaveAnyExponent) {
+  const Problem problem = read_sdpa("1\n1\n-1\n0.0e-2147483648\n1 1 1 1 2\n", "f");
+  EXPECT_EQ(problem.c, (std::vector<double>{0}));
+  EXPECT_EQ(problem.c_rest, (std::vector<double>{0}));
+}
+
 TEST(SdpaFile, RefusesTheSamePlaceTwiceAndBothTriangles) {
   const std::string head = "1\n1\n2\n1.0\n";
   EXPECT_NE(error_of(head + "1 1 1 2 1\n1 1 1 1 1\n1 1 1 2 1\n")
