@@ -18,10 +18,11 @@ namespace {
 
 using tests::input_error;
 
-/// R has two columns where T1 > 1, otherwise one; X has the degree 1 up to rate = 2, else 3.
+/// R has two columns where T1 > 1, otherwise one; U is diag([1, 2^-k]) for T1 near 2^k; X has the degree 1 up to rate = 2, else 3.
 const std::string kMethod = changed(
     changed(changed(kSmallMethod, "  M: {",
-                    "  R: {shape: n x r, default: \"orth(diag([1; max(T1 - 1, 0)]))\"}\n  M: {"),
+                    "  R: {shape: n x r, default: \"orth(diag([1; max(T1 - 1, 0)]))\"}\n"
+                    "  U: {shape: n x n, default: \"units([0, T1; 0, 0], [1, 0])\"}\n  M: {"),
             "X: n x m", "X: {shape: n x m, of: tau, degree: \"where(rate > 2, 3, 1)\"}, Z: r x m"),
     "gains: {K: b'*P, A: A}", "gains: {K: b'*P, A: A, G(t): inv(P)*X(t)}");
 
@@ -47,6 +48,8 @@ model::Overrides random_overrides(std::mt19937& random) {
 std::vector<int> shapes_of(const model::Design& design) {
   std::vector<int> numbers;
   for (const model::Design::Rank& rank : design.ranks) numbers.push_back(rank.rank);
+  for (const model::Design::Units& units : design.units)
+    numbers.insert(numbers.end(), units.exponents.begin(), units.exponents.end());
   for (const model::Design::Unknown& unknown : design.unknowns) {
     numbers.push_back(unknown.degree);
     numbers.push_back(unknown.shape.rows);
@@ -94,6 +97,13 @@ TEST(Evaluation, WithoutOverridesGoesBackToTheProblem) {
   const model::Instance back = evaluate(other.design);
   EXPECT_EQ(polynomials(*back.design).at(0).size(), 2U);
   EXPECT_EQ(back.values, small.instance.values);
+}
+
+TEST(Evaluation, UnitsFollowTheirArguments) {
+  const Small small(kSmallProblem, kMethod);
+  EXPECT_EQ(small.instance.values.at("U"), (numbers::Matrix{{1, 0}, {0, 2}}));
+  EXPECT_EQ(evaluate(small.instance.design, {{"T1", 4.25}}).values.at("U"),
+            (numbers::Matrix{{1, 0}, {0, 0.25}}));
 }
 
 /// The programs of another rank may fail where those of this one do not.

@@ -181,6 +181,16 @@ TEST_F(ControlWords, OnlyDefiniteMatricesHaveACholeskyFactor) {
   EXPECT_EQ(world("chol([4, 2; 2, 10])"), (Matrix{{2, 0}, {1, 3}}));
 }
 
+TEST_F(ControlWords, UnitsArePowersOfTwo) {
+  // A flow in m3/s beside a pressure in Pa; what no output leads to is beside the first of its kind.
+  EXPECT_EQ(world("units([0, 1e9, 0, 0; 1e-9, 5, 0, 0; 0, 0, 1, 64; 0, 0, 0, 2], [1, 0, 0, 0])"),
+            (Matrix{{1, 0, 0, 0}, {0, 0x1p-30, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 0x1p-6}}));
+  EXPECT_EQ(world("units(zeros(2), [2^70, 0; 0, 0])"), (Matrix{{0x1p-70, 0}, {0, 1}}));
+  world.scope.symbols["X"] = {{2, 2}, false};
+  expect("1 + units(X, [1, 0])", 11, "must not depend on 'X'");
+  expect("units(eye(2), [1, 0, 0])", 15, "1 x 3");
+}
+
 /// X = 0 solves the equation too, but does not stabilise.
 TEST_F(ControlWords, WeightsNeedNotSeeUnstableModes) {
   EXPECT_EQ(world("dare(2, 1, 0, 1)")(0, 0), 3);
