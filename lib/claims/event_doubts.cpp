@@ -46,18 +46,16 @@ EventDoubts::EventDoubts(const hybrid::System& system)
       watch_(system),
       maps_(system),
       are_independent_(system.dynamics),
-      steps_(system.dynamics.events.size()) {
+      breaks_(system.dynamics.events.size()) {
   for (std::size_t e = 0; e < system.dynamics.events.size(); ++e)
     has_clocks_ = has_clocks_ || system.has_clock(e);
-  const auto moves = [&](const std::string& name) { return system.slot(name).has_value(); };
+  const auto moves = [&](const std::string& name) { return system.layout.moves(name); };
   for (const model::Dynamics::Reaction& reaction : system.dynamics.reactions)
     for (const model::Dynamics::Pass& pass : reaction.passes)
-      for (const model::Dynamics::Assignment& one : pass.map)
-        for (expr::Branch& branch : expr::branches_of(one.value.program, moves)) {
-          if (!branch.jumps) continue;
-          branches_.push_back(std::move(branch));
-          steps_[reaction.event].emplace_back(branches_.back().difference, system);
-        }
+      for (const model::Dynamics::Assignment& one : pass.map) {
+        hybrid::Breaks breaks(one.value.program, system.layout, system.constants, moves);
+        if (!breaks.none()) breaks_[reaction.event].push_back(std::move(breaks));
+      }
 }
 
 VectorXd EventDoubts::whole(const VectorXd& variables) const {
@@ -145,39 +143,34 @@ std::optional<EventDoubts::Instant> EventDoubts::instant(std::size_t jump) {
   return at;
 }
 
-/// Whether the event is where it is at other values too, on the same side of its guard.
+/// Whether values lie on the side of the guard on which the event happens.
 bool EventDoubts::stays(const Instant& at, const VectorXd& values) {
   if (watch_.only_if[at.event] && !(*watch_.only_if[at.event])(values)) return false;
   if (watch_.when[at.event]) return (*watch_.when[at.event])(values);
-  EventFunction* const crossing = watch_.crossing[at.event] ? &*watch_.crossing[at.event] : nullptr;
-  return crossing == nullptr || element(*crossing, values, 0) * element(*crossing, at.now, 0) >= 0;
+  auto& crossing = watch_.crossing[at.event];
+  return !crossing || element(*crossing, values, 0) * element(*crossing, at.now, 0) >= 0;
 }
 
 /// Whether the maps of the event jump within the errors of the values before: a text that they
 /// branch on is as near to 0, and what they do differs as much within the errors as within 64 times
 /// of them. Of what is smooth it grows as they do, of a root by 8.
 bool EventDoubts::is_on_step(const Instant& at) {
-  const double factor = error_factor(*system_);
-  const auto is_near = [&](EventFunction& step) {
-    for (Index e = 0; e < step.size(); ++e) {
-      const double value = element(step, at.now, e);
-      const double difference = std::abs(value - element(step, at.twin, e));
-      if (std::abs(value) <= factor * difference + noise_of(step, at.now, e)) return true;
-    }
+  const VectorXd errors = errors_of(at.now, at.twin, error_factor(*system_));
+  const auto is_near = [&](hybrid::Breaks& breaks) {
+    for (std::size_t k = 0; k < breaks.differences().size(); ++k)
+      if (!breaks.is_far(k, at.now, errors, 1)) return true;
     return false;
   };
-  std::vector<EventFunction>& steps = steps_[at.event];
-  if (std::none_of(steps.begin(), steps.end(), is_near)) return false;
-  const VectorXd errors = errors_of(at.now, at.twin, factor);
+  if (std::ranges::none_of(breaks_[at.event], is_near)) return false;
   try {
     const VectorXd after = maps_(at.event, at.lost, at.now);
     const auto change = [&](double times) {
       VectorXd largest = VectorXd::Zero(errors.size());
       for (Index bit = 1; bit < 2 * errors.size(); bit *= 2)
-        for (const int sign : {1, -1}) {
+        for (const double sign : {times, -times}) {
           VectorXd moved = at.now;
           for (Index e = 0; e < moved.size(); ++e)
-            moved(e) += ((e & bit) != 0 ? -sign : sign) * times * errors(e);
+            moved(e) += ((e & bit) != 0 ? -sign : sign) * errors(e);
           if (stays(at, moved))
             largest = largest.cwiseMax((maps_(at.event, at.lost, moved) - after).cwiseAbs());
         }
@@ -334,7 +327,7 @@ std::optional<EventDoubts::Doubt> EventDoubts::first(const hybrid::Trajectory& r
 std::optional<std::string> EventDoubts::of_jump(std::size_t jump) {
   const auto& events = system_->dynamics.events;
   const std::size_t own = std::get<TwinJump>(twins_->parts[jump]).jump->event;
-  if (events.size() < 2 && steps_[own].empty()) return std::nullopt;
+  if (events.size() < 2 && breaks_[own].empty()) return std::nullopt;
   auto at = instant(jump);
   if (!at) return std::nullopt;
   if (is_on_step(*at))

@@ -13,14 +13,12 @@
 #pragma once
 
 #include <cstddef>
-#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "claims/independence.h"
 #include "claims/twin_parts.h"
-#include "expr/branches.h"
 #include "simulate/event_watch.h"
 #include "simulate/jump_maps.h"
 
@@ -86,8 +84,7 @@ class EventDoubts {
   simulate::EventWatch watch_;
   simulate::JumpMaps maps_;
   Independence are_independent_;
-  std::deque<expr::Branch> branches_;
-  std::vector<std::vector<hybrid::EventFunction>> steps_;  ///< by event: where its maps jump
+  std::vector<std::vector<hybrid::Breaks>> breaks_;  ///< by event: of its maps that branch
   bool has_clocks_ = false;
   const TwinParts* twins_ = nullptr;
   std::vector<std::size_t> next_clock_;      ///< by part: the next jump of a clock in its instant

@@ -29,13 +29,15 @@ double certain_end(const TwinParts& parts, double end) {
 
 std::string TwinRun::unknown(double until, const std::vector<Index>& elements,
                              const hybrid::System& system) const {
-  if (until >= certain) return doubt;
+  double first = certain;
+  std::string why = doubt;
   for (const Index e : elements)
-    if (until >= parted(e))
-      return "t = " + brief(parted(e)) +
-             ": rounding and errors of integration have grown to the size of " +
-             system.element_name(e);
-  return "";
+    if (parted(e) < first) {
+      first = parted(e);
+      why = "t = " + brief(first) + ": its errors have grown to the size of " +
+            system.element_name(e);
+    }
+  return until >= first ? why : "";
 }
 
 TwinRun TwinRuns::operator()(std::uint64_t seed, std::uint64_t run, double usual, double factor) {
@@ -43,6 +45,7 @@ TwinRun TwinRuns::operator()(std::uint64_t seed, std::uint64_t run, double usual
   simulate::Accuracy coarser = setup_->accuracy(usual, factor);
   coarser.longest = accuracy.longest / ode::kShorter;
   TwinRun result;
+  if (!setup_->system.affine) result.accuracy = accuracy.relative;
   result.run = simulator_.run(seed, run, accuracy);
   result.twin = simulator_.run(seed, run, coarser, {}, 0);
   check_stop();

@@ -16,6 +16,7 @@ namespace gainsmith::claims {
 /// places (simulate/last_places.h).
 struct TwinRun {
   hybrid::Trajectory run, twin;
+  double accuracy = 0;  ///< of the run, relative; 0 where flows are exact
   /// Until when it is certain which events happen, and why not from there on.
   double certain = std::numeric_limits<double>::infinity();
   std::string doubt;

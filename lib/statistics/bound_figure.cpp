@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/unit_roundoff.h"
+#include "base/whole_number.h"
 #include "claims/independence.h"
 
 namespace gainsmith::statistics {
@@ -75,11 +76,10 @@ Estimate BoundFigure::of(const claims::TwinRun& runs) {
     const double value = *result.value;
     const double difference = *other == value ? 0 : std::abs(*other - value);
     const double own = number_->own_error(runs.run) + rounding(value, twin);
-    // What is the same in a run that is moved in all last places is not made of them.
-    result.error = own;
-    if (difference != 0)
-      result.error +=
-          claims::error_factor(setup_->system) * difference + 8 * kUnitRoundoff * std::abs(value);
+    result.error = own + claims::error_factor(setup_->system) * difference;
+    if (result.error == 0 && (is_exact_whole(value) || std::isinf(value))) return result;
+    const double relative = 8 * kUnitRoundoff + (difference == 0 ? 0 : runs.accuracy);
+    result.error += relative * std::abs(value);
     if (!result.known()) result.why = "it changes without bounds within the errors of the run";
   }
   if (!result.why.empty()) result.error = kUnknown;

@@ -14,8 +14,8 @@
 namespace gainsmith::statistics {
 
 /// The number of a figure with an estimate of its error: four times the difference of the two runs
-/// (64 times where flows are exact, claims/twin_parts.h), and what the computation of the figure
-/// rounds. Where that leaves open on which side of a step a value lies, as of a number that is
+/// (64 times where flows are exact, claims/twin_parts.h), the accuracy of the run, and what the
+/// computation of the figure rounds. Where that leaves open on which side of a step a value lies, as of a number that is
 /// rounded, the error reaches both.
 struct Estimate {
   std::optional<double> value;  ///< none: the run has no such number

@@ -61,7 +61,7 @@ RunDifferences run_differences(const model::Instance& instance, const model::Gai
       text += ", found " + said(found, runs.run.end);
       if (found.known() && !(over <= found.error))
         result.different.push_back(text);
-      else if (!(over + found.error <= 8 * kUnitRoundoff * std::abs(is)))
+      else if (!(over + found.error <= 16 * kUnitRoundoff * std::abs(is)))
         result.undecided.push_back(found.known() ? text + ": its error does not decide" : text);
     };
     const auto within = [&](const model::Formula& formula, const char* words, double sign) {
