@@ -256,13 +256,7 @@ std::optional<double> FigureOf::integral(const Trajectory& run, const Rate& rate
 }
 
 double FigureOf::own_error(const Trajectory& run) {
-  using Kind = model::FigureKind;
-  if (kind_ == Kind::integral || kind_ == Kind::rms) {
-    const auto size = integral(run, [](double value) { return std::abs(value); });
-    const double length = kind_ == Kind::rms ? numbers_.back() - numbers_.front() : 1;
-    return kExactAgreement * size.value_or(0) / length;
-  }
-  if (kind_ != Kind::settles) return 0;
+  if (kind_ != model::FigureKind::settles) return 0;
   const double level = numbers_.front();
   const double low = settled(run, level * (1 + kExactAgreement));
   const double high = settled(run, level * (1 - kExactAgreement));

@@ -34,7 +34,7 @@ class FigureOf {
   double until() const { return until_; }
   /// The variables that its number is the value at, in the last run; empty: not at one moment.
   const Eigen::VectorXd& moment() const { return moment_; }
-  /// What its computation on that run may be off by.
+  /// What it changes by where a value comes within its errors of the level below which it settles.
   double own_error(const hybrid::Trajectory& run);
   std::optional<RunValue>& value() { return value_; }
   /// Of the last run; only of figures `nees` and `nis` they have a meaning.

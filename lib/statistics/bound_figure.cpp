@@ -34,8 +34,6 @@ std::vector<Eigen::Index> guarding(std::size_t event, const hybrid::System& syst
 
 }  // namespace
 
-bool Estimate::known() const { return std::isfinite(error); }
-
 BoundFigure::BoundFigure(const model::Figure& figure, const claims::RunSetup& setup)
     : setup_(&setup) {
   std::optional<claims::RunValue> value;
@@ -58,6 +56,8 @@ BoundFigure::BoundFigure(const model::Figure& figure, const claims::RunSetup& se
   number_.emplace(figure.kind, std::move(value), std::move(constants), figure.event, figure.count,
                   figure.after, passes);
   if (is_of_event(figure.kind)) elements_ = guarding(figure.event, setup.system);
+  is_at_guard_ =
+      figure.kind == model::FigureKind::at_event && !setup.system.has_clock(figure.event);
   if (passes) elements_.push_back(*passes);
   if (!program_) return;
   claims::RunValue& reads = *number_->value();
@@ -93,7 +93,7 @@ double BoundFigure::rounding(double value, const Eigen::VectorXd& twin) {
   const Eigen::VectorXd all = claims::errors_of(x, twin, claims::error_factor(setup_->system));
   Eigen::VectorXd error = Eigen::VectorXd::Zero(x.size());
   for (const Eigen::Index e : number_->value()->used()) error(e) = all(e);
-  if (error.isZero(0) || !ball_->is_open(x, error)) return ball_->rounding(x);
+  if (is_at_guard_ || error.isZero(0) || !ball_->is_open(x, error)) return ball_->rounding(x);
   const claims::Bounded hull = ball_->hull(x, error);
   return hull.bound + std::abs(hull.value - value);
 }

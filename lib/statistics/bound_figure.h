@@ -1,6 +1,7 @@
 // Internal to verify: a figure of a design with the values of a setup.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,7 +23,7 @@ struct Estimate {
   double error = 0;             ///< infinite: the number is not known
   std::string why;              ///< ... as
 
-  bool known() const;
+  bool known() const { return std::isfinite(error); }
 };
 
 class BoundFigure {
@@ -45,6 +46,9 @@ class BoundFigure {
   std::optional<claims::FigureOf> number_;
   std::optional<claims::TextBall> ball_;  ///< of the program
   std::vector<Eigen::Index> elements_;    ///< of the variables that decide about it
+  /// Whether it is at an event that happens on one side of a guard: texts that branch there do so
+  /// on that side.
+  bool is_at_guard_ = false;
 };
 
 }  // namespace gainsmith::statistics
