@@ -121,9 +121,9 @@ class Job {
  private:
   void make(JobResult& result) {
     const design::SearchRequest request = wanted_search(instance_);
-    const model::Gains gains =
-        design::synthesize_searched(instance_, request, options_.threads, {});
+    model::Gains gains = design::synthesize_searched(instance_, request, options_.threads, {});
     if (is_stopping()) throw Interrupted("interrupted while gains were searched");
+    find_error(instance_, gains);
     instance_ = bind::evaluate(instance_.design, gains.searched);
     const auto campaign = verify_and_write(gains);
     result.differences = design::differences(

@@ -150,7 +150,8 @@ ExitCode optimize(const OptimizeOptions& options) {
     throw InputError({options.problem},
                      "nothing to optimise over: give --over NAME=LOW:HIGH, or write search: {over: "
                      "{NAME: [low, high]}} into the problem");
-  const model::Gains gains = search(options, instance, request);
+  model::Gains gains = search(options, instance, request);
+  find_error(instance, gains);
   const Telling telling;
   write_result(gains, options.output,
                options.json ? io::to_text(json_without_statement(gains)) : synthesis_summary(gains),

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <system_error>
@@ -90,7 +91,8 @@ ExitCode exit_of_synthesis(const model::Gains& gains) {
 
 ExitCode exit_of_search(const model::Gains& gains) {
   const bool finished = gains.search && gains.search->finished;
-  return stop_requested && !finished ? ExitCode::undecided : exit_of(gains.verdict);
+  const bool known = !gains.search || std::isfinite(gains.search->error.value_or(0));
+  return (stop_requested && !finished) || !known ? ExitCode::undecided : exit_of(gains.verdict);
 }
 
 }  // namespace gainsmith::app

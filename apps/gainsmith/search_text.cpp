@@ -1,6 +1,7 @@
 #include "gainsmith/search_text.h"
 
 #include <fmt/format.h>
+#include <cmath>
 
 #include "base/known_digits.h"
 #include "base/number.h"
@@ -72,7 +73,10 @@ std::string search_text(const model::Gains& gains) {
   const bool bracket =
       search.figure.starts_with("largest ") || search.figure.starts_with("smallest ");
   std::string text;
-  if (search.value)
+  if (search.error && std::isinf(*search.error))
+    text = fmt::format("search      {}: not known, as its runs are uncertain at the best point\n",
+                       search.figure);
+  else if (search.value)
     text = fmt::format("search      {} = {}{}\n", search.figure,
                        brief(*search.value, kDigits, search.error.value_or(0)),
                        bracket ? " is feasible, every margin recomputed" : "");

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "base/stop.h"
+#include "bind/instance.h"
 #include "verify/run_measure.h"
 
 namespace gainsmith::app {
@@ -37,10 +39,17 @@ design::SearchRequest wanted_search(const model::Instance& instance) {
   if (runs > 1) request.measure_name += fmt::format(", mean of {} runs", runs);
   // A text is bound again when values change a shape: the figure is that of the instance's design.
   request.measure = [runs](const model::Instance& at, const model::Gains& gains) {
-    const auto found = verify::mean_figure(at, gains, *at.design->search->run_figure, runs);
-    return found ? std::optional(design::Measured{found->value, found->bound}) : std::nullopt;
+    return verify::mean_figure(at, gains, *at.design->search->run_figure, runs);
   };
   return request;
+}
+
+void find_error(const model::Instance& instance, model::Gains& gains) {
+  const auto& search = instance.design->search;
+  if (!search || !search->run_figure || !gains.search || !gains.search->value) return;
+  const Concluding concluding;
+  const model::Instance at = bind::evaluate(instance.design, gains.searched);
+  gains.search->error = verify::mean_error(at, gains, *at.design->search->run_figure, search->runs);
 }
 
 }  // namespace gainsmith::app

@@ -9,4 +9,7 @@ namespace gainsmith::app {
 /// measure refers to is held by `instance`'s design, which must outlive the request.
 design::SearchRequest wanted_search(const model::Instance& instance);
 
+/// Sets the error of what a search found, where it is a figure of runs.
+void find_error(const model::Instance& instance, model::Gains& gains);
+
 }  // namespace gainsmith::app

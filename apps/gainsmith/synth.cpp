@@ -82,6 +82,7 @@ ExitCode synth(const SynthOptions& options) {
     const Allowance work(std::numeric_limits<double>::infinity());
     model::Gains found = design::synthesize_searched(instance, request, options.threads, {});
     spent = work.spent();
+    find_error(instance, found);
     return found;
   }();
   {

@@ -153,10 +153,7 @@ class OuterSearch {
 
   /// The figure of gains, without the sign that makes it a minimum.
   std::optional<double> value(const model::Instance& instance, const model::Gains& gains) const {
-    if (request_.measure) {
-      const auto found = request_.measure(instance, gains);
-      return found ? std::optional(found->value) : std::nullopt;
-    }
+    if (request_.measure) return request_.measure(instance, gains);
     if (request_.minimize) {
       const auto found = Results(instance, gains).value(*request_.minimize);
       return found ? std::optional((*found)(0, 0)) : std::nullopt;
@@ -256,9 +253,6 @@ class OuterSearch {
     const bool stated = request_.extreme || request_.minimize || request_.measure;
     if (best && !stated && !gains.objective) record.figure = "margin";
     record.value = record.figure == "margin" && best ? std::optional(-*best) : best;
-    if (best && request_.measure)
-      if (const auto found = request_.measure(bind::evaluate(own_.design, gains.searched), gains))
-        record.error = found->error;
     record.joint_refinement = std::move(refined);
     for (const SearchedScalar& scalar : request_.over) {
       record.over.push_back(scalar.name);
@@ -284,7 +278,7 @@ class OuterSearch {
       ranges += (ranges.empty() ? "" : ", ") + scalar.name + " in [" + brief(scalar.axis.low) +
                 ", " + brief(scalar.axis.high) + "]";
     const std::string what =
-        request_.measure ? "point at which the runs know a finite '" + request_.measure_name + "'"
+        request_.measure ? "point at which the runs have a finite '" + request_.measure_name + "'"
                          : "feasible point";
     gains.solver.message = "no " + what + " was found for " + ranges;
     if (const std::string hidden = hidden_mode_text(own_); !hidden.empty())

@@ -18,14 +18,9 @@ struct SearchedScalar {
   search::Axis axis;
 };
 
-struct Measured {
-  double value = 0;
-  double error = 0;
-};
-
-/// A figure of runs with gains: none where a run has no such number, or does not know it.
+/// A figure of runs with gains: none where a run has no such number.
 using Measure =
-    std::function<std::optional<Measured>(const model::Instance&, const model::Gains& gains)>;
+    std::function<std::optional<double>(const model::Instance&, const model::Gains& gains)>;
 
 /// The figure is `extreme` when it is there, then `measure` and `minimize`, then the method's
 /// objective, and without an objective the margin: the smallest one of the strict inequalities, as

@@ -68,7 +68,7 @@ constexpr std::array kKeysOfRefinement = {
 constexpr std::array kKeysOfSearch = {
     Key{"figure", "text", "what was searched", kRequired},
     Key{"value", "number | nothing", "of the figure", kRequired},
-    Key{"error", "number", "of the value, of a figure of runs"},
+    Key{"error", "number | nothing", "of the value, of a figure of runs"},
     Key{"beyond", "number | nothing", "the nearest value that is infeasible", kRequired},
     Key{"open", "[number]", "undecided values", kRequired},
     Key{"breaks", "[number]", "infeasible values inside", kRequired},

@@ -1,5 +1,7 @@
 #include "io/gains_json.h"
 
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "io/json_reader.h"
@@ -103,7 +105,7 @@ Json search_json(const model::Gains& gains, const model::SearchRecord& search) {
                  {"breaks", search.breaks},         {"over", search.over},
                  {"at_end", search.at_end},         {"evaluations", search.evaluations},
                  {"feasible", search.feasible},     {"finished", search.finished}};
-  if (search.error) result["error"] = *search.error;
+  if (search.error) result["error"] = std::isfinite(*search.error) ? Json(*search.error) : Json();
   if (const auto& refinement = search.joint_refinement)
     result["joint_refinement"] = {{"before", refinement->before},
                                   {"after", number(refinement->after)},
@@ -228,7 +230,8 @@ model::SearchRecord search_of(const JsonReader& reader, model::Gains& gains) {
   model::SearchRecord search;
   search.figure = reader.at("figure").text();
   search.value = number(reader.at("value"));
-  if (reader.has("error")) search.error = reader.at("error").number();
+  if (reader.has("error"))
+    search.error = number(reader.at("error")).value_or(std::numeric_limits<double>::infinity());
   search.beyond = number(reader.at("beyond"));
   search.open = numbers(reader.at("open"));
   search.breaks = numbers(reader.at("breaks"));

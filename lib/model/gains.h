@@ -105,7 +105,7 @@ struct RefinementRecord {
 struct SearchRecord {
   std::string figure;           ///< "largest T2", "objective", "trace(P1)", "margin"
   std::optional<double> value;  ///< of the figure; none when nothing feasible was found
-  std::optional<double> error;  ///< of it, where it is of runs
+  std::optional<double> error;  ///< of it, where it is of runs; infinite: it is not known
   std::optional<double>
       beyond;  ///< the nearest value beyond it that is infeasible by a checked certificate
   std::vector<double> open;    ///< undecided or refused ones next to `value` and `beyond`, or empty

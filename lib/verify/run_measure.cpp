@@ -2,27 +2,40 @@
 
 #include <cmath>
 
+#include "base/stop.h"
 #include "bind/stated.h"
 #include "statistics/bound_figure.h"
 
 namespace gainsmith::verify {
 
-std::optional<claims::Bounded> mean_figure(const model::Instance& instance,
-                                           const model::Gains& gains, const model::Figure& figure,
-                                           std::uint64_t runs) {
+std::optional<double> mean_figure(const model::Instance& instance, const model::Gains& gains,
+                                  const model::Figure& figure, std::uint64_t runs) {
   const auto setup = claims::make_run_setup(bind::run_texts(instance, gains));
-  claims::TwinRuns make(*setup);
+  simulate::Simulator simulator(setup->system, setup->scenario);
   statistics::BoundFigure bound(figure, *setup);
-  claims::Bounded sum;
+  const simulate::Accuracy accuracy = setup->accuracy(claims::kAccuracyOfMany);
+  double sum = 0;
   for (std::uint64_t run = 0; run < runs; ++run) {
-    const statistics::Estimate found = bound.of(
-        make(instance.design->campaign.seed, run, claims::kAccuracyOfMany, 1 / claims::kSharper));
-    if (!found.known() || !found.value || !std::isfinite(*found.value)) return std::nullopt;
-    sum.value += *found.value;
-    sum.bound += found.error;
+    const auto trajectory = simulator.run(instance.design->campaign.seed, run, accuracy);
+    check_stop();
+    const auto number = bound.of(trajectory);
+    if (!number || !std::isfinite(*number)) return std::nullopt;
+    sum += *number;
   }
-  const auto count = static_cast<double>(runs);
-  return claims::Bounded{sum.value / count, sum.bound / count};
+  return sum / static_cast<double>(runs);
+}
+
+double mean_error(const model::Instance& instance, const model::Gains& gains,
+                  const model::Figure& figure, std::uint64_t runs) {
+  const auto setup = claims::make_run_setup(bind::run_texts(instance, gains));
+  claims::TwinRuns twins(*setup);
+  statistics::BoundFigure bound(figure, *setup);
+  constexpr double kCoarser = 1 / claims::kSharper;
+  double sum = 0;
+  for (std::uint64_t run = 0; run < runs; ++run)
+    sum += bound.of(twins(instance.design->campaign.seed, run, claims::kAccuracyOfMany, kCoarser))
+               .error;
+  return sum / static_cast<double>(runs);
 }
 
 }  // namespace gainsmith::verify

@@ -6,17 +6,19 @@
 #include <functional>
 #include <optional>
 
-#include "claims/track.h"
 #include "model/gains.h"
 #include "model/instance.h"
 
 namespace gainsmith::verify {
 
-/// (1/n) sum_k figure(run k), k = 0 ... n - 1, integrated to 1e-8: enough to tell values apart; and
-/// the mean of the errors (statistics/bound_figure.h), by runs integrated to 1e-6. None where a run
-/// has no such number, or an infinite one, or one that is not known: a value that never settles.
-std::optional<claims::Bounded> mean_figure(const model::Instance& instance,
-                                           const model::Gains& gains, const model::Figure& figure,
-                                           std::uint64_t runs);
+/// (1/n) sum_k figure(run k), k = 0 ... n - 1, integrated to 1e-8: enough to tell values apart.
+/// None where a run has no such number, or an infinite one: a value that never settles.
+std::optional<double> mean_figure(const model::Instance& instance, const model::Gains& gains,
+                                  const model::Figure& figure, std::uint64_t runs);
+
+/// The mean of the errors (statistics/bound_figure.h) of these numbers; infinite where one is not
+/// known.
+double mean_error(const model::Instance& instance, const model::Gains& gains,
+                  const model::Figure& figure, std::uint64_t runs);
 
 }  // namespace gainsmith::verify

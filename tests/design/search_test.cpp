@@ -48,9 +48,8 @@ TEST(Search, AMeasureIsMinimisedAcrossItsJumps) {
   request.measure = [](const model::Instance& at, const model::Gains& gains) {
     const double a = at.values.at("a")(0, 0), b = at.values.at("b")(0, 0);
     EXPECT_EQ((*gains.find("K"))(0, 0), a * b);
-    if (b > 0.9) return std::optional<Measured>();
-    const double value = (a > 2.6 ? 0.0 : 5.0) + (a - 2) * (a - 2) + std::floor(4 * b) + b * b;
-    return std::optional(Measured{value, 1e-3 * value});
+    if (b > 0.9) return std::optional<double>();
+    return std::optional((a > 2.6 ? 0.0 : 5.0) + (a - 2) * (a - 2) + std::floor(4 * b) + b * b);
   };
   const auto found = [&](unsigned threads) {
     return synthesize_searched(problem.instance, request, threads, {});
@@ -62,7 +61,6 @@ TEST(Search, AMeasureIsMinimisedAcrossItsJumps) {
   EXPECT_NEAR(gains.searched.at("b"), 0, 1e-3);
   EXPECT_EQ(gains.search->figure, "staircase");
   EXPECT_NEAR(gains.search->value.value(), 0.36, 2e-3);
-  EXPECT_EQ(gains.search->error.value(), 1e-3 * *gains.search->value);
   EXPECT_LE(gains.search->evaluations, 300);
   EXPECT_LT(gains.search->feasible, gains.search->evaluations);
   EXPECT_EQ(found(2).searched, gains.searched);
@@ -73,7 +71,7 @@ TEST(Search, AMeasureWithoutAnyValueDecidesNothing) {
   SearchRequest request = request_of(problem.instance);
   request.measure_name = "nothing";
   request.measure = [](const model::Instance&, const model::Gains&) {
-    return std::optional<Measured>();
+    return std::optional<double>();
   };
   request.evaluations = 20;
   const model::Gains gains = synthesize_searched(problem.instance, request, 1, {});
