@@ -198,7 +198,7 @@ class FacialReduction {
   void solve_left(const Left& left, const Effort& effort, Want want) {
     constexpr int kMostRounds = 4;
     constexpr double kRises = 1.5;
-    constexpr double kInterior = 1e-6;  // what double leaves of none is far below
+    constexpr double kRoots = 3, kRounding = 1e-10;
     lmi::Round round;
     std::optional<std::vector<double>> inside;
     posed_left_ = {};
@@ -218,11 +218,14 @@ class FacialReduction {
       if (faces_.steps() == 0 || !next || next->margin <= round.margin * kRises) break;
       round = *next;
     }
+    // What the tolerance leaves of no interior is as large as its root.
+    const bool interior = round.margin > std::max(kRoots * std::sqrt(effort.tolerance), kRounding);
     if (faces_.steps() > 0 && inside && is_finite(*inside)) {
       try_point(*inside);
-      if (posed_.lmi.has_objective && (!done_ || result_.holds())) minimise(left, *inside);
-      // More digits show no more of an interior that is there, whether it has decimals or not.
-      if (round.margin > kInterior) finish();
+      const bool fails = done_ && !result_.holds();
+      if (posed_.lmi.has_objective && interior && !fails) minimise(left, *inside);
+      // An optimum wants the face that has an interior; more digits show no more of one that is there.
+      if (!fails && (interior || posed_.lmi.has_objective)) done_ = interior;
     }
     if (want == Want::point_or_multipliers && !done_ && !solved_.x.empty()) take_multipliers(left);
   }

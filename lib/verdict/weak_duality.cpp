@@ -19,25 +19,32 @@ using Eigen::Index;
 using numbers::Matrix;
 using numbers::Vector;
 using Quad = numbers::MatrixOf<DoubleDouble>;
-using Factored = std::vector<FactoredBlock<DoubleDouble>>;
 using BlockList = std::vector<ExactBlock<DoubleDouble>>;
+
+/// Multipliers that are not 0, with factors near them that tell their sizes.
+struct Factored {
+  std::vector<FactoredBlock<DoubleDouble>> blocks;
+  std::vector<Quad> Y;
+};
 
 /// Y_k with `lift` of its mean eigenvalue more; none where that is not positive definite.
 std::optional<Factored> factors_of(const BlockList& blocks, const Multipliers& Y, double lift) {
   Factored result;
   for (std::size_t k = 0; k < blocks.size(); ++k) {
-    Matrix y = Y[k].unaryExpr([](const DoubleDouble& x) { return as<double>(x); });
-    if (!(y.trace() > 0)) continue;
-    y.diagonal().array() += lift * y.trace() / static_cast<double>(y.rows());
-    const numbers::Cholesky factor(y);
+    if (!(Y[k].trace() > DoubleDouble(0))) continue;
+    Quad y = Y[k];
+    y.diagonal().array() += DoubleDouble(lift / static_cast<double>(y.rows())) * y.trace();
+    const numbers::Cholesky factor(
+        y.unaryExpr([](const DoubleDouble& x) { return as<double>(x); }));
     if (!factor) return std::nullopt;
-    result.push_back({&blocks[k], factor.lower()});
+    result.blocks.push_back({&blocks[k], factor.lower()});
+    result.Y.push_back(std::move(y));
   }
   return result;
 }
 
 /// r_i, r_0 = c_0 - sum_k <B_k0, Y_k> among them.
-ResidualsInDouble slacks_of(const Factored& blocks, const Costs& costs) {
+ResidualsInDouble slacks_of(const Factored& of, const Costs& costs) {
   constexpr double kRounding = 1e-24;  // more than a million operations in 31 digits leave
   std::vector<DoubleDouble> r;
   Vector error(std::ssize(costs));
@@ -46,16 +53,13 @@ ResidualsInDouble slacks_of(const Factored& blocks, const Costs& costs) {
     r.push_back(c.mid);
     error[i] = c.rad + kRounding * upper(c.mid);
   }
-  for (const auto& [block, L] : blocks) {
-    const Quad wide = L.cast<DoubleDouble>();
-    const Quad Y = numbers::times<DoubleDouble>(wide, wide.transpose());
-    const Matrix sizes = L.cwiseAbs() * L.cwiseAbs().transpose() * (1 + 1e-12);
-    for (const auto& [i, elements] : block->terms)
+  for (std::size_t k = 0; k < of.Y.size(); ++k)
+    for (const auto& [i, elements] : of.blocks[k].block->terms)
       for (const auto& e : elements) {
-        r[static_cast<std::size_t>(i)] -= e.mid * Y(e.row, e.column);
-        error[i] += (kRounding * upper(e.mid) + e.rad) * sizes(e.row, e.column) * (1 + 1e-12);
+        const DoubleDouble& y = of.Y[k](e.row, e.column);
+        r[static_cast<std::size_t>(i)] -= e.mid * y;
+        error[i] += (kRounding * upper(e.mid) + e.rad) * upper(y) * (1 + 1e-12);
       }
-  }
   Vector rounded(error.size());
   for (Index i = 0; i < error.size(); ++i) {
     rounded[i] = as<double>(r[static_cast<std::size_t>(i)]);
@@ -124,21 +128,39 @@ std::optional<Move> move_of(const Scaled& of) {
   return Move{(z.norm() + z_error.norm()) / sigma * (1 + 1e-9), R * z};
 }
 
-/// L_k with L_k L_k' near Y_k + dY_k; none where rounding leaves no factor.
-std::optional<Factored> corrected(const Factored& blocks, const Scaled& by, const Vector& steps) {
+/// Products of numbers, of which double leaves what cancels.
+constexpr double kMostWideWork = 1e8;
+double work_of_images(const std::vector<FactoredBlock<DoubleDouble>>& blocks) {
+  double work = 0;
+  for (const auto& [block, L] : blocks)
+    work += static_cast<double>(block->terms.size()) * std::pow(static_cast<double>(L.rows()), 3);
+  return work;
+}
+
+/// Y_k - theta L_k L_k' >= 0: a factor of a little less in 31 digits.
+bool leaves_positive(const Factored& of, double theta) {
+  constexpr double kRounding = 1e-25;  // n (n + 2) of 31 digits
+  for (std::size_t k = 0; k < of.Y.size(); ++k) {
+    const Quad L = of.blocks[k].L.cast<DoubleDouble>();
+    Quad rest = of.Y[k] - DoubleDouble(theta) * numbers::times<DoubleDouble>(L, L.transpose());
+    rest.diagonal() -= DoubleDouble(kRounding) * of.Y[k].diagonal();
+    if (!cholesky(rest)) return false;
+  }
+  return true;
+}
+
+/// Y_k + dY_k, dY = L W L'.
+void correct(const Scaled& by, const Vector& steps, Factored& of) {
   const Vector moved = by.G * steps;
-  Factored result;
   Index at = 0;
-  for (const auto& [block, L] : blocks) {
-    Matrix W = Matrix::Identity(L.cols(), L.cols());
+  for (std::size_t k = 0; k < of.Y.size(); ++k) {
+    const Quad L = of.blocks[k].L.cast<DoubleDouble>();
+    Quad W(L.cols(), L.cols());
     for (Index c = 0; c < W.cols(); ++c)
       for (Index r = c; r < W.cols(); ++r, ++at)
-        W(r, c) += r == c ? moved[at] : moved[at] / std::sqrt(2.0);
-    const numbers::Cholesky factor(W);
-    if (!factor) return std::nullopt;
-    result.push_back({block, L * factor.lower()});
+        W(r, c) = W(c, r) = DoubleDouble(r == c ? moved[at] : moved[at] / std::sqrt(2.0));
+    of.Y[k] += numbers::times<DoubleDouble>(numbers::times<DoubleDouble>(L, W), L.transpose());
   }
-  return result;
 }
 
 BlockList blocks_of(const lmi::Inequalities& of, const lmi::Lmi& lmi, const lmi::GainBounds& bounds,
@@ -192,33 +214,34 @@ Costs on_face(const Faces& faces, const Costs& costs) {
 
 std::optional<double> lower_bound(const BlockList& blocks, const Multipliers& Y, Costs costs) {
   constexpr double kLifts[] = {0, 1e-15, 1e-13, 1e-11, 1e-9, 1e-7};
-  constexpr int kCorrections = 4;
-  constexpr double kNoLoss = 1e-9, kLittleLoss = 1e-4;
+  constexpr int kCorrections = 3;
+  constexpr double kNoLoss = 1e-15;
   int last = 0;
   for (const auto& block : blocks)
     if (!block.terms.empty()) last = std::max(last, block.terms.back().first);
   if (std::ssize(costs) <= last) costs.resize(static_cast<std::size_t>(last) + 1);
-  std::optional<double> best;
   for (const double lift : kLifts) {
-    auto factors = factors_of(blocks, Y, lift);
-    double theta = 1;
-    for (int k = 0; k < kCorrections && factors && theta > kNoLoss; ++k) {
-      const Images images = images_of(*factors, std::ssize(costs));
-      const ResidualsInDouble slacks = slacks_of(*factors, costs);
+    auto of = factors_of(blocks, Y, lift);
+    if (!of) continue;
+    const Images images = work_of_images(of->blocks) < kMostWideWork
+                              ? images_of<DoubleDouble>(of->blocks, std::ssize(costs))
+                              : images_of<double>(of->blocks, std::ssize(costs));
+    std::optional<double> best;
+    for (int k = 0; k < kCorrections; ++k) {
+      const ResidualsInDouble slacks = slacks_of(*of, costs);
       const auto by = in_unit_lengths(images, slacks);
       const auto move = by ? move_of(*by) : std::nullopt;
       if (!move) break;
-      theta = move->theta;
-      const double loss = theta * (images.G.col(0).norm() + images.error[0]) * (1 + 1e-12);
+      const double loss = move->theta * (images.G.col(0).norm() + images.error[0]) * (1 + 1e-12);
       const double low = slacks.r[0] - slacks.error[0] - loss;
-      const double rounding = 4 * kUnitRoundoff * (std::abs(slacks.r[0]) + loss);
-      if (theta <= 1 && std::isfinite(low) && (!best || low - rounding > *best))
-        best = low - rounding;
-      factors = corrected(*factors, *by, move->steps);
+      if (std::isfinite(low) && (!best || low > *best) && leaves_positive(*of, move->theta))
+        best = low - 4 * kUnitRoundoff * (std::abs(slacks.r[0]) + loss);
+      if (best && move->theta <= kNoLoss) break;
+      correct(*by, move->steps, *of);
     }
-    if (best && theta <= kLittleLoss) break;
+    if (best) return best;
   }
-  return best;
+  return std::nullopt;
 }
 
 std::optional<double> lower_bound(const lmi::Inequalities& of, const lmi::Lmi& lmi,

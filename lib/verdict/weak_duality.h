@@ -1,9 +1,9 @@
 // Lower bounds of an objective, shown by weak duality.
 //
-// Y_k = L_k L_k' >= 0 with residuals r_i = c_i - sum_k <B_ki, Y_k>, i >= 1. With the g_i and H of
-// exactness.h and r' H^-1 r = theta^2 <= 1,
-//   dY_k = sum_j (H^-1 r)_j Y_k B_kj Y_k
-// leaves no residual beside Y + dY >= (1 - theta) Y, so that for every x with all B_k(x) >= 0
+// Y_k with residuals r_i = c_i - sum_k <B_ki, Y_k>, i >= 1, and L_k with L_k L_k' near Y_k. With the
+// g_i and H of exactness.h, of L_k L_k', and r' H^-1 r = theta^2,
+//   dY_k = sum_j (H^-1 r)_j L_k L_k' B_kj L_k L_k'
+// leaves no residual. Where Y_k >= theta L_k L_k', Y + dY >= 0, so that for all x with B_k(x) >= 0
 //   c_0 + c'x >= c_0 - sum_k <B_k0, Y_k + dY_k> >= c_0 - sum_k <B_k0, Y_k> - theta |g_0|
 // whatever the size of x. With any R near H^-1/2, theta <= |R'r| / sigma, sigma the smallest singular
 // value of the matrix of the g_i times R; all rounded outward.
