@@ -43,7 +43,7 @@ struct Interrupted : Outcome {
 /// Runs gainsmith until it has used so many seconds of processor time, and `when` holds, and gives it the signal of Ctrl-C
 /// or another one.
 Interrupted interrupted(
-    const std::vector<std::string>& arguments, double seconds = 0.5, int signal = SIGINT,
+    const std::vector<std::string>& arguments, double seconds = 1, int signal = SIGINT,
     const std::function<bool()>& when = [] { return true; });
 
 /// A folder of its own for a test, empty at the start and removed at the end.
