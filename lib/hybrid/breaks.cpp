@@ -58,11 +58,6 @@ class TermSizes {
       case Op::abs:
         if (of_sign_) return of(operands[0]);
         break;
-      case Op::norm:
-      case Op::maximum:
-      case Op::minimum:
-        if (of_sign_) return of_size(here);
-        break;
       default:
         break;
     }
@@ -116,11 +111,6 @@ class TermSizes {
     for (int& operand : here.operands) operand = of(operand);
     program_.code.push_back(std::move(here));
     return static_cast<int>(program_.code.size()) - 1;
-  }
-  int of_size(const Instruction& here) {
-    std::vector<int> sizes;
-    for (const int operand : here.operands) sizes.push_back(of(operand));
-    return made(here.op == Op::norm ? Op::norm : Op::maximum, std::move(sizes), here);
   }
   int made(Op op, std::vector<int> operands, const Instruction& like) {
     const auto shape =

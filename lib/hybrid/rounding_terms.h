@@ -12,8 +12,7 @@ namespace gainsmith::hybrid {
 /// only chooses and arranges values.
 std::optional<expr::Program> rounding_terms(const expr::Program& program);
 
-/// absolute_terms (breaks.h) of a text whose sign matters: those of abs(u), norm(u) and max(u, v) are
-/// made of those of u and v.
+/// absolute_terms (breaks.h) of a text whose sign matters: those of abs(u) are those of u.
 expr::Program terms_of_sign(expr::Program program);
 
 }  // namespace gainsmith::hybrid
