@@ -78,8 +78,10 @@ class LaneSet {
     return static_cast<std::int8_t>(watched.factor * lane.sides[watched.watch]);
   }
   bool find_sides(std::size_t l);
+  /// Not at a root, to which both runs are moved.
   bool is_exact_zero(std::size_t w, std::size_t l) const {
-    return start_.at(PackSystem::watch_values, w, l) == 0 &&
+    return !(pack_.watches[w].moves && lanes_[l]->moved) &&
+           start_.at(PackSystem::watch_values, w, l) == 0 &&
            coarse_start_.at(PackSystem::watch_values, w, l) == 0;
   }
   /// To which it moves; 0: that is not certain.
