@@ -131,7 +131,8 @@ std::optional<double> CrossingsOnStep::leaves_zero(Index element) {
       const double middle = low + (high - low) / 2;
       (is_noise(middle) ? low : high) = middle;
     }
-    return high;
+    // Before that everything else may be noise that was 0 at the start.
+    return std::max(high, inside_.from() + ode::kFinest * (inside_.to() - inside_.from()));
   }
   return std::nullopt;
 }

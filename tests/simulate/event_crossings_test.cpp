@@ -84,10 +84,10 @@ TEST(EventRun, LeavingExactlyZeroIsACrossing) {
     ASSERT_EQ(jump_times(run, 0).size(), 1U);
     ASSERT_EQ(jump_times(run, 2).size(), 1U);
     ASSERT_EQ(jump_times(run, 3).size(), 2U);
-    EXPECT_NEAR(jump_times(run, 0)[0], 0, 1e-14);
-    EXPECT_NEAR(jump_times(run, 2)[0], 1, 1e-14);
-    EXPECT_NEAR(jump_times(run, 3)[0], 0, 1e-14);
-    EXPECT_NEAR(jump_times(run, 3)[1], 1, 1e-14);
+    EXPECT_NEAR(jump_times(run, 0)[0], 0, 1e-13);
+    EXPECT_NEAR(jump_times(run, 2)[0], 1, 1e-13);
+    EXPECT_NEAR(jump_times(run, 3)[0], 0, 1e-13);
+    EXPECT_NEAR(jump_times(run, 3)[1], 1, 1e-13);
   }
 }
 
