@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/file.h"
@@ -228,14 +229,32 @@ ExitCode draw_envelope(const SimulateOptions& options, const model::Design& desi
   return made < runs.size() ? ExitCode::undecided : ExitCode::yes;
 }
 
+/// "44 jumps (touch 24, off 20)": of each event, where there are several, in the order of their first.
+std::string jumps_text(const std::vector<std::string>& events) {
+  std::vector<std::pair<std::string, int>> counts;
+  int jumps = 0;
+  for (const std::string& event : events) {
+    if (event.empty()) continue;
+    ++jumps;
+    const auto known = std::find_if(counts.begin(), counts.end(),
+                                    [&](const auto& count) { return count.first == event; });
+    if (known == counts.end())
+      counts.emplace_back(event, 1);
+    else
+      ++known->second;
+  }
+  std::string text = fmt::format("{} jumps", jumps);
+  if (counts.size() < 2) return text;
+  for (std::size_t k = 0; k < counts.size(); ++k)
+    text += fmt::format("{}{} {}", k == 0 ? " (" : ", ", counts[k].first, counts[k].second);
+  return text + ")";
+}
+
 /// How a run ended, and its claims.
 std::string run_text(std::uint64_t seed, std::uint64_t run, const verify::Replay& replay) {
-  const auto jumps = std::count_if(
-      replay.run.parts.begin(), replay.run.parts.end(),
-      [](const auto& part) { return std::holds_alternative<hybrid::JumpPoint>(part); });
-  std::string text =
-      fmt::format("run {} of seed {}: {} points, {} jumps, ended at t = {}: {}\n", run, seed,
-                  replay.table.rows(), jumps, brief(replay.run.end), to_string(replay.run.ending));
+  std::string text = fmt::format("run {} of seed {}: {} points, {}, ended at t = {}: {}\n", run,
+                                 seed, replay.table.rows(), jumps_text(replay.events),
+                                 brief(replay.run.end), to_string(replay.run.ending));
   if (!replay.run.message.empty()) text += "  " + replay.run.message + "\n";
   for (const std::string& note : replay.run.notes) text += "  " + note + "\n";
   return text + claims_text(replay.claims, !is_complete(replay.run.ending));
