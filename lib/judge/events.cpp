@@ -73,9 +73,8 @@ Truth EventCheck::without_if(std::size_t event, double t, const Eigen::VectorXd&
   const int now = value > 0 ? 1 : value < 0 ? -1 : 0;
   const int certain = side_of(*texts.crossing, x, rounding);
   const EventKind kind = texts_.dynamics.events[event].kind;
-  // Within its rounding it may have left 0, or not yet.
-  if (fires(kind, memory.side, now)) return certain == now ? Truth::yes : Truth::unsure;
-  if (memory.side == 0 && leaves_zero(kind, now))
+  if (fires(kind, memory.side, now)) return Truth::yes;
+  if (memory.side == 0 && leaves_zero(kind, memory.at_zero ? now : certain))
     return memory.at_zero && certain == now ? Truth::yes : Truth::unsure;
   // Just before zero: the run may have stopped there by rounding.
   return certain == 0 && fires(kind, memory.side, -memory.side) ? Truth::unsure : Truth::no;
@@ -136,11 +135,7 @@ void EventCheck::jumped(std::size_t part, const hybrid::JumpPoint& jump) {
   for (std::size_t e = 0; e < memory_.size(); ++e) {
     if (!has_crossing(e)) continue;
     const bool comes_to_zero = is_zero(e, jump.after) && !is_zero(e, jump.before);
-    auto& crossing = *texts_.events[e].crossing;
-    const bool nearly = side_of(crossing, jump.after, rounding) == 0 &&
-                        side_of(crossing, jump.before, rounding) != 0;
-    if (e == jump.event || comes_to_zero || nearly)
-      forget_side(e, jump.after, rounding, comes_to_zero);
+    if (e == jump.event || comes_to_zero) forget_side(e, jump.after, rounding, comes_to_zero);
   }
   check_numbers(part, jump.t, jump.after);
 }
