@@ -133,14 +133,25 @@ std::optional<double> solver_objective(const Climb& climb) {
       lmi::read_back(climb.posed().lmi, minimum->formulation, minimum->solution));
 }
 
-/// A minimum is one where a bound shows it to 1e-6 of its size.
-void note_bracket(const Attempt& point, model::Gains& gains) {
+/// A minimum is one that a bound brackets to 1e-6 of its size: for all solutions, or for those whose
+/// unknowns are at most twice as large. A margin that was asked for has its price.
+void note_bracket(const Climb& climb, const Attempt& point, model::Gains& gains) {
   const auto& least = gains.objective_lower_bound;
-  if (least && lmi::is_narrow_bracket(*least, *gains.objective, point.formulation)) return;
-  gains.solver.status = "feasible";
+  const auto is_near = [&](double low) {
+    return lmi::is_narrow_bracket(low, *gains.objective, point.formulation);
+  };
+  if (least && is_near(*least)) return;
+  const bool is_priced = climb.posed().choices().margin > model::SynthesisOptions{}.margin;
+  const bool is_estimated =
+      !point.on_face && is_near(lmi::objective_lower_bound(climb.posed().lmi, point.question.bounds,
+                                                           point.formulation, point.solution));
+  if (!is_priced && !is_estimated) gains.solver.status = "feasible";
   gains.solver.add_message(
       least ? "the optimum is between the lower bound " + brief(*least, 10) + " and the objective"
-            : std::string("how near the objective is to the optimum is not shown"));
+      : is_estimated
+          ? std::string("the objective is the optimum of solutions at most twice as large; of all "
+                        "it is not shown")
+          : std::string("how near the objective is to the optimum is not shown"));
 }
 
 void note_objective(const Climb& climb, const Attempt& point, model::Gains& gains) {
@@ -164,7 +175,7 @@ void note_objective(const Climb& climb, const Attempt& point, model::Gains& gain
           "the least value of the objective is only approached, as unknowns and gains grow without "
           "end; this one is near it");
     else
-      note_bracket(point, gains);
+      note_bracket(climb, point, gains);
     return;
   }
   const Attempt* minimum = climb.find(AttemptKind::minimum);
