@@ -222,14 +222,17 @@ LoadedGains load_run(const std::filesystem::path& path, const std::vector<std::s
     return loaded;
   }
   const model::Instance instance = load_problem(path, set);
-  if (!instance.design->inequalities.empty() || !instance.design->unknowns.empty() ||
-      !instance.design->open.empty())
+  if (!instance.design->unknowns.empty() || !instance.design->open.empty())
     throw InputError({path.string()},
                      "the gains of this problem are not known yet: 'gainsmith synth " +
                          model::problem_words(path.string(), instance.design->statement.settings) +
                          " -o gains.json' first, then simulate or verify gains.json");
   refuse_without_campaign(*instance.design, path.string());
-  return {design::synthesize(instance, {}), instance};
+  model::Gains gains = design::synthesize(instance, {});
+  if (gains.verdict == model::Verdict::no)
+    throw InputError({path.string()}, "its inequalities do not hold: 'gainsmith synth " +
+                                          path.string() + "' says why");
+  return {std::move(gains), instance};
 }
 
 }  // namespace gainsmith::app

@@ -94,8 +94,8 @@ TEST(SynthTest, AYesMayBeAboutASolutionNearTheDecimals) {
   const Folder folder;
   const std::string path =
       folder.file("third.yaml",
-                  "problem: p\nmethod:\n  method: m\n  unknowns: {x: scalar}\n"
-                  "  require: {third: 3*x == 1, below: x < 1}\n  gains: {K: x}\n  minimize: x\n");
+                  "problem: p\nmethod:\n  method: m\n  unknowns: {x: scalar, k: scalar}\n"
+                  "  require: {third: 3*x == 1, below: x < k}\n  gains: {K: k}\n  minimize: k\n");
   const std::string gains = folder.path("gains.json");
   const Outcome said = gainsmith({"synth", path, "-o", gains});
   ASSERT_EQ(said.exit, 0) << said.out;
