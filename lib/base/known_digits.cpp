@@ -10,9 +10,10 @@ namespace gainsmith {
 std::string brief(double value, int digits, double error) {
   if (!(error > 0) || !std::isfinite(value)) return brief(value, digits);
   const double last = std::ceil(std::log10(2 * error));  // the place of the last digit
-  const double first = value == 0 ? last - 1 : std::floor(std::log10(std::abs(value)));
+  const double first = value == 0 ? last - 2 : std::floor(std::log10(std::abs(value)));
   if (first - last >= digits - 1) return brief(value, digits);
-  const std::string known = first < last ? "0" : brief(value, static_cast<int>(first - last) + 1);
+  const double place = std::floor(std::log10(error));
+  const std::string known = first < place ? "0" : brief(value, static_cast<int>(first - place) + 1);
   constexpr double kUp = 1.05;  // what two digits round
   return known + " +- " + brief(kUp * (error + std::abs(value - std::atof(known.c_str()))), 2);
 }

@@ -148,7 +148,10 @@ TEST(Brief, HasNoMoreDigitsThanAreKnown) {
     }
     const double shown = *parse_decimal(text.substr(behind + 4));
     EXPECT_GE(shown, std::abs(printed - value) + error * (1 - 1e-9)) << text << " " << value;
-    EXPECT_EQ(number, printed == 0 ? "0" : brief(printed, 6)) << "no digits but those that count";
+    const std::string digits = number.substr(0, number.find('e'));
+    EXPECT_LE(
+        std::count_if(digits.begin(), digits.end(), [](char c) { return c >= '0' && c <= '9'; }),
+        11);
     EXPECT_LE(std::abs(printed - value), 10 * error) << text;
   }
   EXPECT_EQ(brief(2.5, 6, 0), "2.5");
