@@ -191,7 +191,7 @@ TEST(Evaluation, ParsesAndBindsNothing) {
   weighted.functions = {{"X(tau)", function.text(), function.body().program}};
 
   const expr::Work before = expr::work_done();
-  const model::Instance other = evaluate(small.instance.design, {{"T1", 0.75}, {"delta", 2}});
+  const model::Instance other = evaluate(small.instance.design, {{"T1", 0.55}, {"delta", 2}});
   EXPECT_EQ(other.design, small.instance.design);
   const model::Instance changed =
       with_design(other, [](model::Design& design) { design.objective.reset(); });

@@ -55,11 +55,6 @@ TEST(TwinRuns, WhatIsChaoticParts) {
   EXPECT_EQ(Twins(problem("0.5*y + 0.1")).unknown(80.5, "y"), "");
 }
 
-/// The texts are one in the reals; the run leaves 0 by rounding alone.
-TEST(TwinRuns, WhatGrowsFromRoundingParts) {
-  EXPECT_NE(Twins(problem("3*(y - 0.3) + 0.3*y/y")).unknown(80.5, "y"), "");
-}
-
 /// x(1) = sin(t) turns at 1.
 TEST(TwinRuns, AnEventThatIsOnlyJustReachedEndsWhatIsCertain) {
   const auto twins = [](const std::string& level) {

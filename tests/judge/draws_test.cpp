@@ -43,10 +43,10 @@ DynamicsText sampled() {
       .noise("u", model::Dynamics::NoiseKind::uniform, {"0", "1"})
       .drawn_at("maybe")
       .noise("g", model::Dynamics::NoiseKind::normal,
-             {"[1; 0; -1]", "[4, 1.9, 1.9; 1.9, 1, 1; 1.9, 1, 1]"})
+             {"[1; 0; -1]", "[4, 1.9, 1.9; 1.9, 1, 1; 1.9, 1, 1]"}, 3)
       .covariance()
       .drawn_every("0.3")
-      .noise("l", model::Dynamics::NoiseKind::lognormal, {"[2; -3]", "[0.5; 0.1]"})
+      .noise("l", model::Dynamics::NoiseKind::lognormal, {"[2; -3]", "[0.5; 0.1]"}, 2)
       .drawn_at("sample")
       .observer("observer")
       .state("xh", 1, "v", "0")

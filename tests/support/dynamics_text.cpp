@@ -333,15 +333,17 @@ DynamicsText& DynamicsText::measured(const std::string& name, model::Between bet
 }
 
 DynamicsText& DynamicsText::noise(const std::string& name, Dynamics::NoiseKind kind,
-                                  const std::vector<std::string>& values) {
+                                  const std::vector<std::string>& values, int size) {
   Dynamics::Noise noise;
   noise.name = name;
   noise.kind = kind;
+  noise.shape = {size, 1};
   for (const std::string& text : values) noise.values.push_back(unbound(text));
   noise.place = kPlace;
   Dynamics::Variable variable;
   variable.kind = Kind::noise;
   variable.name = name;
+  variable.shape = noise.shape;
   variable.of = unbound_.noise.size();
   unbound_.noise.push_back(std::move(noise));
   return add(std::move(variable), "", "");

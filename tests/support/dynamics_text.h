@@ -59,9 +59,9 @@ class DynamicsText {
   DynamicsText& repeats(const std::string& event, const Pairs& map, const std::string& until,
                         const std::string& at_most, bool go_on = false);
 
-  /// normal, lognormal: the center and the deviation; uniform: the ends.
+  /// normal, lognormal: the center and the deviation; uniform: the ends. A column of `size`.
   DynamicsText& noise(const std::string& name, model::Dynamics::NoiseKind kind,
-                      const std::vector<std::string>& values);
+                      const std::vector<std::string>& values, int size = 1);
   /// Of the last noise: its deviation is a covariance.
   DynamicsText& covariance();
   /// Of the last noise: drawn anew at an event, or after each such time.

@@ -86,7 +86,7 @@ TEST_F(Measures, HaveErrors) {
     std::string text = decay("{at: {t: 1}, value: x}");
     text.replace(text.find("flow: {x: -k*x"), 14, "flow: {x: -k*x" + more);
     if (!more.empty())
-      text.replace(text.find("state: {"), 8, "state: {p: {shape: scalar, start: 0}, ");
+      text.replace(text.find("start: 1}"), 9, "start: 1}, p: {shape: scalar, start: 0}");
     const YamlProblem problem(text);
     const YamlProblem start(decay("{at: {t: 0}, value: x}"));
     const double truth = mean(start, 4).value() * std::exp(-2);
