@@ -118,10 +118,13 @@ std::optional<double> CrossingsOnStep::hidden_turn(Index element) {
   return std::max((1 + high) / 2, earliest);
 }
 
-std::optional<double> CrossingsOnStep::leaves_zero(Index element) {
-  const auto is_noise = [&](double t) { return std::abs(value(element, t)) <= noise_(element); };
+std::optional<double> CrossingsOnStep::leaves_zero(Index element, double rounding) {
   double low = inside_.from();
-  if (!is_noise(low)) return std::nullopt;
+  if (!(std::abs(value(element, low)) <= std::max(noise_(element), rounding))) return std::nullopt;
+  // Clearly beyond it, so that who evaluates again does not find it within.
+  const auto is_noise = [&](double t) {
+    return std::abs(value(element, t)) <= 2 * noise_(element);
+  };
   for (double high : times_) {
     if (is_noise(high)) {
       low = high;

@@ -29,8 +29,9 @@ class CrossingsOnStep {
   /// where it has hardly left the noise, so that a root may lie in it. Where its first slope is
   /// noise, the shortest part; none where all of it is noise, or where its text branches.
   std::optional<double> hidden_turn(Eigen::Index element);
-  /// Of an element that starts as noise: when it ceases to be.
-  std::optional<double> leaves_zero(Eigen::Index element);
+  /// Of an element that starts as noise, its own or the `rounding` of the step before: when it ceases
+  /// to be.
+  std::optional<double> leaves_zero(Eigen::Index element, double rounding);
   /// Of each element, what its terms may round to.
   const Eigen::VectorXd& noise() const { return noise_; }
 

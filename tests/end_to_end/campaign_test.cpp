@@ -301,5 +301,26 @@ TEST(CampaignTest, ARunThatEndsSaysWhy) {
   EXPECT_TRUE(has(outcome.out, "positive definite")) << outcome.out;
 }
 
+/// A fall that follows a rebound within one step, which starts below 0 by rounding: no bounce is missed.
+TEST(CampaignTest, ABallOnAVibratingTableStaysAboveIt) {
+  const Folder folder;
+  const std::string file = folder.file("p.yaml", R"yaml(problem: table
+method:
+  events: {hit: {falls: "h - 0.03*sin(20*t)"}}
+  plant:
+    state: {h: scalar, v: {shape: scalar, start: 0}}
+    flow:  {h: v, v: -9.81}
+    at:    {hit: {v: "-0.8*v + 1.08*cos(20*t)"}}
+  claims: {above: {above: "h - 0.03*sin(20*t)", bound: -0.001}}
+campaign: {runs: 24, horizon: 3, initial: {h: {box: [0.1, 0.5]}}}
+)yaml");
+  EXPECT_NE(gainsmith({"verify", file}).exit, 1);
+  for (int run = 0; run < 24; ++run) {
+    const Outcome one = gainsmith(
+        {"simulate", file, "--run", std::to_string(run), "--judge", "-o", folder.path("run.csv")});
+    EXPECT_FALSE(has(one.out, "crosses zero inside a flow")) << one.out;
+  }
+}
+
 }  // namespace
 }  // namespace gainsmith::tests
