@@ -38,7 +38,7 @@ if(GAINSMITH_STATIC)
   target_link_libraries(gainsmith_allocator INTERFACE "${GAINSMITH_JEMALLOC_ARCHIVE}" Threads::Threads ${CMAKE_DL_LIBS})
 endif()
 
-# Libraries that are loaded by what needs them, searches and .mat files: only their headers and the names of
+# Libraries that are loaded by the searches that need them: only their headers and the names of
 # the files that belong to these headers are built in.
 function(gainsmith_loaded name file)
   add_library(gainsmith_${name} INTERFACE)
@@ -52,4 +52,3 @@ function(gainsmith_loaded name file)
 endfunction()
 gainsmith_loaded(nlopt NLOPT)
 gainsmith_loaded(ipopt IPOPT)
-gainsmith_loaded(matio MATIO)

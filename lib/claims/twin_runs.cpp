@@ -27,6 +27,13 @@ double certain_end(const TwinParts& parts, double end) {
 
 }  // namespace
 
+double TwinRun::steps() const {
+  std::size_t count = 0;
+  for (const auto& part : run.parts)
+    if (const auto* flow = std::get_if<hybrid::FlowPiece>(&part)) count += flow->steps.size();
+  return static_cast<double>(count);
+}
+
 std::string TwinRun::unknown(double until, const std::vector<Index>& elements,
                              const hybrid::System& system) const {
   double first = certain;

@@ -24,6 +24,9 @@ struct TwinRun {
   /// they differ by more than a thousandth of its range so far (RunTracks). Infinite: never.
   Eigen::VectorXd parted;
 
+  /// Of the flows of the run.
+  double steps() const;
+
   /// Why what is read of some elements up to a time is not known; empty: it is.
   std::string unknown(double until, const std::vector<Eigen::Index>& elements,
                       const hybrid::System& system) const;

@@ -116,13 +116,11 @@ FigureText figure(const YamlFile& file, YamlMap& map, std::string* ending) {
     if (const auto item = map.find(key)) {
       ++found;
       result.kind = kind;
-      const bool of_event =
-          kind == FigureKind::count || kind == FigureKind::passes || kind == FigureKind::lost;
-      if (of_event)
+      if (model::is_whole(kind))
         result.event = file.string(item->value, key);
       else
         result.value = file.expression(item->value, key);
-      result.title = std::string(key) + " " + (of_event ? result.event : result.value->text->str());
+      result.title = std::string(key) + " " + (result.value ? result.value->text->str() : result.event);
     }
   const auto ended = ending == nullptr ? std::nullopt : map.find("ended");
   if (ended) {

@@ -39,6 +39,11 @@ enum class FigureKind {
   ended
 };
 
+/// Whether it is a number of events.
+constexpr bool is_whole(FigureKind kind) {
+  return kind == FigureKind::count || kind == FigureKind::passes || kind == FigureKind::lost;
+}
+
 /// A figure as read.
 struct FigureText {
   FigureKind kind = FigureKind::peak;

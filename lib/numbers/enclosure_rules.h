@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "base/stop.h"
@@ -123,9 +124,7 @@ struct EnclosureRules {
     out.mid = at[0].mid.block(row, column, rows, columns);
     out.rad = at[0].rad.block(row, column, rows, columns);
   }
-  void operator()(Is<Op::exp>, const At& at, Value& out) const {
-    map_balls([](const Ball<S>& x) { return ball::exp(x); }, at[0], out);
-  }
+  void operator()(Is<Op::exp>, const At& at, Value& out) const { each<ball::exp<S>>(at, out); }
   void operator()(Is<Op::log>, const At& at, Value& out) const {
     partly(
         Op::log, [](const Ball<S>& x) { return ball::log(x); }, at[0], out);
@@ -134,40 +133,22 @@ struct EnclosureRules {
     partly(
         Op::sqrt, [](const Ball<S>& x) { return ball::sqrt(x); }, at[0], out);
   }
-  void operator()(Is<Op::sin>, const At& at, Value& out) const {
-    map_balls([](const Ball<S>& x) { return ball::sin(x); }, at[0], out);
-  }
-  void operator()(Is<Op::cos>, const At& at, Value& out) const {
-    map_balls([](const Ball<S>& x) { return ball::cos(x); }, at[0], out);
-  }
-  void operator()(Is<Op::tanh>, const At& at, Value& out) const {
-    map_balls([](const Ball<S>& x) { return ball::tanh(x); }, at[0], out);
-  }
-  void operator()(Is<Op::abs>, const At& at, Value& out) const {
-    map_balls([](const Ball<S>& x) { return ball::abs(x); }, at[0], out);
-  }
-  void operator()(Is<Op::sign>, const At& at, Value& out) const {
-    map_balls([](const Ball<S>& x) { return ball::sign(x); }, at[0], out);
-  }
-  void operator()(Is<Op::floor>, const At& at, Value& out) const {
-    map_balls([](const Ball<S>& x) { return ball::floor(x); }, at[0], out);
-  }
+  void operator()(Is<Op::sin>, const At& at, Value& out) const { each<ball::sin<S>>(at, out); }
+  void operator()(Is<Op::cos>, const At& at, Value& out) const { each<ball::cos<S>>(at, out); }
+  void operator()(Is<Op::tanh>, const At& at, Value& out) const { each<ball::tanh<S>>(at, out); }
+  void operator()(Is<Op::abs>, const At& at, Value& out) const { each<ball::abs<S>>(at, out); }
+  void operator()(Is<Op::sign>, const At& at, Value& out) const { each<ball::sign<S>>(at, out); }
+  void operator()(Is<Op::floor>, const At& at, Value& out) const { each<ball::floor<S>>(at, out); }
   void operator()(Is<Op::mod>, const At& at, Value& out) const {
     refuse_zeros(at[1]);
-    map_balls([](const Ball<S>& a, const Ball<S>& b) { return ball::mod(a, b); }, at[0], at[1],
-              out);
+    each<ball::mod<S>>(at, out);
   }
-  void operator()(Is<Op::atan2>, const At& at, Value& out) const {
-    map_balls([](const Ball<S>& y, const Ball<S>& x) { return ball::atan2(y, x); }, at[0], at[1],
-              out);
-  }
+  void operator()(Is<Op::atan2>, const At& at, Value& out) const { each<ball::atan2<S>>(at, out); }
   void operator()(Is<Op::minimum>, const At& at, Value& out) const {
-    map_balls([](const Ball<S>& a, const Ball<S>& b) { return ball::minimum(a, b); }, at[0], at[1],
-              out);
+    each<ball::minimum<S>>(at, out);
   }
   void operator()(Is<Op::maximum>, const At& at, Value& out) const {
-    map_balls([](const Ball<S>& a, const Ball<S>& b) { return ball::maximum(a, b); }, at[0], at[1],
-              out);
+    each<ball::maximum<S>>(at, out);
   }
   void operator()(Is<Op::where>, const At& at, Value& out) const {
     out.resize(at.shape().rows, at.shape().cols);
@@ -261,6 +242,16 @@ struct EnclosureRules {
   }
 
  private:
+  /// f(x) or f(x, y) element by element.
+  template <auto f>
+  static void each(const At& at, Value& out) {
+    const auto of = [](const auto&... balls) { return f(balls...); };
+    if constexpr (std::is_invocable_v<decltype(f), Ball<S>>)
+      map_balls(of, at[0], out);
+    else
+      map_balls(of, at[0], at[1], out);
+  }
+
   static Columns<Ball<S>> columns(const Value& a) {
     return columns_of<Ball<S>>(a.rows(), a.cols(),
                                [&](Eigen::Index i, Eigen::Index j) { return a.ball(i, j); });

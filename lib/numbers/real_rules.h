@@ -13,9 +13,9 @@
 #include "base/stop.h"
 #include "expr/number_type.h"
 #include "numbers/canonical.h"
-#include "numbers/determinant.h"
 #include "numbers/dual.h"
 #include "numbers/extremum.h"
+#include "numbers/field_rules.h"
 #include "numbers/flow_map.h"
 #include "numbers/householder.h"
 #include "numbers/project_convex.h"
@@ -56,13 +56,17 @@ Scalar rounding_of(const MatrixOf<Scalar>& matrix) {
 }
 
 template <class Scalar>
-struct RealRules {
-  using Value = MatrixOf<Scalar>;
-  using At = expr::Step<Value>;
-  using Base = Foundation<Scalar>;
-  using Op = expr::Op;
+struct RealRules : FieldRules<Scalar> {
+  using Field = FieldRules<Scalar>;
+  using typename Field::At;
+  using typename Field::Op;
+  using typename Field::Value;
   template <Op op>
   using Is = expr::Is<op>;
+  using Base = Foundation<Scalar>;
+  using Field::columns;
+  using Field::map;
+  using Field::operator();
 
   void operator()(Is<Op::constant>, const At& at, Value& out) const {
     const std::string& text = at.instruction.text;
@@ -70,25 +74,7 @@ struct RealRules {
     if (!value) expr::fault::beyond_range(at.instruction);
     out = Value::Constant(1, 1, *value);
   }
-  void operator()(Is<Op::zeros>, const At& at, Value& out) const {
-    out.setZero(at.shape().rows, at.shape().cols);
-  }
-  void operator()(Is<Op::fill>, const At& at, Value& out) const {
-    out.setConstant(at.shape().rows, at.shape().cols, at[0](0, 0));
-  }
-  void operator()(Is<Op::identity>, const At& at, Value& out) const {
-    out = at[0](0, 0) * Value::Identity(at.shape().rows, at.shape().cols);
-  }
-  void operator()(Is<Op::add>, const At& at, Value& out) const { out = at[0] + at[1]; }
-  void operator()(Is<Op::subtract>, const At& at, Value& out) const { out = at[0] - at[1]; }
-  void operator()(Is<Op::negate>, const At& at, Value& out) const { out = -at[0]; }
   void operator()(Is<Op::multiply>, const At& at, Value& out) const { multiply(at[0], at[1], out); }
-  void operator()(Is<Op::scale>, const At& at, Value& out) const { out = at[0](0, 0) * at[1]; }
-  void operator()(Is<Op::divide>, const At& at, Value& out) const {
-    const Scalar& by = at[1](0, 0);
-    if (by == Scalar(0)) expr::fault::division_by_zero();
-    out = at[0] / by;
-  }
   void operator()(Is<Op::power>, const At& at, Value& out) const {
     Value square = at[0], next;
     out = Value::Identity(square.rows(), square.cols());
@@ -102,9 +88,6 @@ struct RealRules {
         square.swap(next);
       }
     }
-  }
-  void operator()(Is<Op::elementwise_product>, const At& at, Value& out) const {
-    out = at[0].cwiseProduct(at[1]);
   }
   void operator()(Is<Op::elementwise_quotient>, const At& at, Value& out) const {
     constexpr int kRoundings = 4;
@@ -126,17 +109,6 @@ struct RealRules {
     using std::pow;
     map([](const Scalar& a, const Scalar& b) { return pow(a, b); }, at, out);
   }
-  void operator()(Is<Op::transpose>, const At& at, Value& out) const { out = at[0].transpose(); }
-  void operator()(Is<Op::blocks>, const At& at, Value& out) const {
-    out.resize(at.shape().rows, at.shape().cols);
-    for_each_block(at, [&](Eigen::Index row, Eigen::Index column, const Value& part) {
-      out.block(row, column, part.rows(), part.cols()) = part;
-    });
-  }
-  void operator()(Is<Op::index>, const At& at, Value& out) const {
-    out = at[0].block(at.attribute(0), at.attribute(2), at.attribute(1) - at.attribute(0),
-                      at.attribute(3) - at.attribute(2));
-  }
   void operator()(Is<Op::exp>, const At& at, Value& out) const { out = at[0].array().exp(); }
   void operator()(Is<Op::log>, const At& at, Value& out) const {
     if (!(at[0].array() > Scalar(0)).all()) outside(Op::log, at[0]);
@@ -149,7 +121,6 @@ struct RealRules {
   void operator()(Is<Op::sin>, const At& at, Value& out) const { out = at[0].array().sin(); }
   void operator()(Is<Op::cos>, const At& at, Value& out) const { out = at[0].array().cos(); }
   void operator()(Is<Op::tanh>, const At& at, Value& out) const { out = at[0].array().tanh(); }
-  void operator()(Is<Op::abs>, const At& at, Value& out) const { out = at[0].cwiseAbs(); }
   void operator()(Is<Op::sign>, const At& at, Value& out) const { out = at[0].array().sign(); }
   void operator()(Is<Op::floor>, const At& at, Value& out) const {
     using std::floor;
@@ -161,20 +132,6 @@ struct RealRules {
   }
   void operator()(Is<Op::atan2>, const At& at, Value& out) const {
     map([](const Scalar& y, const Scalar& x) { return angle(y, x); }, at, out);
-  }
-  void operator()(Is<Op::minimum>, const At& at, Value& out) const { out = at[0].cwiseMin(at[1]); }
-  void operator()(Is<Op::maximum>, const At& at, Value& out) const { out = at[0].cwiseMax(at[1]); }
-  void operator()(Is<Op::where>, const At& at, Value& out) const {
-    out.resize(at.shape().rows, at.shape().cols);
-    const bool strict = at.attribute(0) != 0;
-    for (Eigen::Index i = 0; i < out.size(); ++i) {
-      const Scalar& difference = at[0](i);
-      const bool holds = strict ? difference > Scalar(0) : difference >= Scalar(0);
-      out(i) = at[holds ? 1 : 2](i);
-    }
-  }
-  void operator()(Is<Op::trace>, const At& at, Value& out) const {
-    out = Value::Constant(1, 1, at[0].trace());
   }
   void operator()(Is<Op::norm>, const At& at, Value& out) const {
     const Value& a = at[0];
@@ -202,16 +159,8 @@ struct RealRules {
   void operator()(Is<Op::matrix_exponential>, const At& at, Value& out) const {
     out = Base::exponential(at[0]);
   }
-  void operator()(Is<Op::diagonal_matrix>, const At& at, Value& out) const {
-    out = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>(at[0].reshaped()).asDiagonal();
-  }
-  void operator()(Is<Op::diagonal_of>, const At& at, Value& out) const { out = at[0].diagonal(); }
   void operator()(Is<Op::singular_values>, const At& at, Value& out) const {
     out = Base::singular_values(at[0]);
-  }
-  void operator()(Is<Op::determinant>, const At& at, Value& out) const {
-    const auto size = [](const Scalar& x) { return x < Scalar(0) ? Scalar(-x) : x; };
-    out = Value::Constant(1, 1, determinant(columns(at[0]), Scalar(1), size));
   }
   void operator()(Is<Op::eigenvalues>, const At& at, Value& out) const {
     solve(at, [&] { out = real_eigenvalues<Scalar>(at[0]); });
@@ -302,17 +251,6 @@ struct RealRules {
   template <class Nearest>
   static void project(const At& at, Value& out, const Nearest& nearest) {
     solve(at, [&] { out = nearest().point; });
-  }
-
-  static Columns<Scalar> columns(const Value& a) {
-    return columns_of<Scalar>(a.rows(), a.cols(),
-                              [&](Eigen::Index i, Eigen::Index j) { return a(i, j); });
-  }
-
-  template <class Function>
-  static void map(const Function& function, const At& at, Value& out) {
-    out.resize(at.shape().rows, at.shape().cols);
-    for (Eigen::Index i = 0; i < out.size(); ++i) out(i) = function(at[0](i), at[1](i));
   }
 
   /// Small products, by far the most frequent here, and those of other scalars than double are

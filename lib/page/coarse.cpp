@@ -65,39 +65,6 @@ class PathReader {
   const char* end_;
 };
 
-/// From the line through two points; from the point where both are one.
-double distance(const Point& point, const Point& from, const Point& to) {
-  const double along_x = to.x - from.x, along_y = to.y - from.y;
-  const double x = point.x - from.x, y = point.y - from.y;
-  const double length = std::hypot(along_x, along_y);
-  return length > 0 ? std::abs(along_x * y - along_y * x) / length : std::hypot(x, y);
-}
-
-Polyline fewer(const Polyline& line, double tolerance) {
-  std::vector<char> kept(line.size(), 0);
-  kept.front() = kept.back() = 1;
-  std::vector<std::pair<std::size_t, std::size_t>> open = {{0, line.size() - 1}};
-  while (!open.empty()) {
-    const auto [first, last] = open.back();
-    open.pop_back();
-    std::size_t farthest = first;
-    double most = tolerance;
-    for (std::size_t k = first + 1; k < last; ++k)
-      if (const double d = distance(line[k], line[first], line[last]); d > most) {
-        most = d;
-        farthest = k;
-      }
-    if (farthest == first) continue;
-    kept[farthest] = 1;
-    open.emplace_back(first, farthest);
-    open.emplace_back(farthest, last);
-  }
-  Polyline result;
-  for (std::size_t k = 0; k < line.size(); ++k)
-    if (kept[k] != 0) result.push_back(line[k]);
-  return result;
-}
-
 }  // namespace
 
 std::string coarse(std::string_view svg, double tolerance) {
@@ -111,7 +78,7 @@ std::string coarse(std::string_view svg, double tolerance) {
     if (svg.empty()) return text;
     const std::size_t end = std::min(svg.find('"'), svg.size());
     if (const auto lines = PathReader(svg.substr(0, end)).lines())
-      for (const Polyline& line : *lines) text += report::path(fewer(line, 10 * tolerance));
+      for (const Polyline& line : *lines) text += report::path(report::coarser(line, 10 * tolerance));
     else
       text += svg.substr(0, end);
     svg.remove_prefix(end);

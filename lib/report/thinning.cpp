@@ -120,9 +120,9 @@ double distance_from(const Point& point, const Point& from, const Point& to) {
   return std::hypot(x - share * dx, y - share * dy);
 }
 
-/// Marks the points between two others that these do not show (Douglas and Peucker 1973).
-void keep_far(const Polyline& points, std::size_t begin, std::size_t end, std::vector<char>& kept) {
-  constexpr double tolerance = 1;  // tenths of a pixel
+/// Marks the points between two others that these do not show.
+void keep_far(const Polyline& points, std::size_t begin, std::size_t end, double tolerance,
+              std::vector<char>& kept) {
   std::vector<std::pair<std::size_t, std::size_t>> open = {{begin, end}};
   while (!open.empty()) {
     const auto [first, last] = open.back();
@@ -141,22 +141,6 @@ void keep_far(const Polyline& points, std::size_t begin, std::size_t end, std::v
     open.emplace_back(first, farthest);
     open.emplace_back(farthest, last);
   }
-}
-
-/// Without the points that the others show; in pieces, as the time grows with their square.
-Polyline without_near(const Polyline& points) {
-  constexpr std::size_t piece = 1000;
-  std::vector<char> kept(points.size(), 0);
-  kept.front() = 1;
-  for (std::size_t begin = 0; begin + 1 < points.size(); begin += piece) {
-    const std::size_t end = std::min(begin + piece, points.size() - 1);
-    kept[end] = 1;
-    keep_far(points, begin, end, kept);
-  }
-  Polyline left;
-  for (std::size_t k = 0; k < points.size(); ++k)
-    if (kept[k] != 0) left.push_back(points[k]);
-  return left;
 }
 
 /// The steps of a line that are the first from one cell of this width to another, with up to three
@@ -186,6 +170,8 @@ std::vector<Polyline> new_ways(const Polyline& line, int cell) {
   }
   return parts;
 }
+
+constexpr double kFine = 1;  // tenths of a pixel
 
 int sign(int number) { return (number > 0) - (number < 0); }
 
@@ -230,10 +216,25 @@ Polyline straightened(const Polyline& line) {
   return kept;
 }
 
+Polyline coarser(const Polyline& line, double tolerance) {
+  constexpr std::size_t piece = 1000;  // the time grows with its square
+  std::vector<char> kept(line.size(), 0);
+  kept.front() = 1;
+  for (std::size_t begin = 0; begin + 1 < line.size(); begin += piece) {
+    const std::size_t end = std::min(begin + piece, line.size() - 1);
+    kept[end] = 1;
+    keep_far(line, begin, end, tolerance, kept);
+  }
+  Polyline left;
+  for (std::size_t k = 0; k < line.size(); ++k)
+    if (kept[k] != 0) left.push_back(line[k]);
+  return left;
+}
+
 std::vector<Polyline> simplified(const Polyline& line) {
   constexpr std::size_t many = 20000, most = 50000;
   if (line.empty()) return {};
-  const Polyline fine = without_near(spaced(line, 2));
+  const Polyline fine = coarser(spaced(line, 2), kFine);
   if (fine.size() <= many) return {fine};
   const Polyline points = spaced(line, 10);
   std::vector<Polyline> parts;
@@ -243,7 +244,7 @@ std::vector<Polyline> simplified(const Polyline& line) {
     count = 0;
     for (const Polyline& part : parts) count += part.size();
   }
-  for (Polyline& part : parts) part = without_near(part);
+  for (Polyline& part : parts) part = coarser(part, kFine);
   return parts;
 }
 

@@ -25,6 +25,10 @@ std::vector<Polyline> thinned(const std::vector<Polyline>& lines);
 /// downwards. Its ends and all local extremes stay.
 Polyline straightened(const Polyline& line);
 
+/// The line with as few of its points as show it to within `tolerance` tenths of a pixel (Douglas and
+/// Peucker 1973), in pieces of 1,000.
+Polyline coarser(const Polyline& line, double tolerance);
+
 /// Of a line in any direction the points without which the others would not show it to within 0.3
 /// pixels, its ends always: those nearer than 0.2 pixels to the one before are left out first, then
 /// those within 0.1 of what the others show. Where more than 20,000 are left, those nearer than a

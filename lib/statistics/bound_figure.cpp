@@ -18,8 +18,7 @@ constexpr double kUnknown = std::numeric_limits<double>::infinity();
 /// Whether its number is that of jumps of the event.
 bool is_of_event(model::FigureKind kind) {
   using Kind = model::FigureKind;
-  return kind == Kind::at_event || kind == Kind::nis || kind == Kind::count ||
-         kind == Kind::passes || kind == Kind::lost;
+  return kind == Kind::at_event || kind == Kind::nis || model::is_whole(kind);
 }
 
 /// The elements of the variables by which the event happens.
@@ -56,6 +55,7 @@ BoundFigure::BoundFigure(const model::Figure& figure, const claims::RunSetup& se
   number_.emplace(figure.kind, std::move(value), std::move(constants), figure.event, figure.count,
                   figure.after, passes);
   if (is_of_event(figure.kind)) elements_ = guarding(figure.event, setup.system);
+  is_whole_ = model::is_whole(figure.kind);
   is_at_guard_ =
       figure.kind == model::FigureKind::at_event && !setup.system.has_clock(figure.event);
   if (passes) elements_.push_back(*passes);
@@ -72,13 +72,16 @@ Estimate BoundFigure::of(const claims::TwinRun& runs) {
   result.why = runs.unknown(number_->until(), elements_, setup_->system);
   if (result.why.empty() && other.has_value() != result.value.has_value())
     result.why = "whether there is such a number hangs on the accuracy";
+  if (result.why.empty() && is_whole_ && other != result.value)
+    result.why = "how many there are hangs on the accuracy";
   if (result.why.empty() && result.value) {
     const double value = *result.value;
     const double difference = *other == value ? 0 : std::abs(*other - value);
     const double own = number_->own_error(runs.run) + rounding(value, twin);
     result.error = own + claims::error_factor(setup_->system) * difference;
     if (result.error == 0 && (is_exact_whole(value) || std::isinf(value))) return result;
-    const double relative = 8 * kUnitRoundoff + (difference == 0 ? 0 : runs.accuracy);
+    const double roundings = 8 + (difference == 0 ? 0 : runs.steps());
+    const double relative = roundings * kUnitRoundoff + (difference == 0 ? 0 : runs.accuracy);
     result.error += relative * std::abs(value);
     if (!result.known()) result.why = "it changes without bounds within the errors of the run";
   }

@@ -15,9 +15,9 @@
 namespace gainsmith::statistics {
 
 /// The number of a figure with an estimate of its error: four times the difference of the two runs
-/// (64 times where flows are exact, claims/twin_parts.h), the accuracy of the run, and what the
-/// computation of the figure rounds. Where that leaves open on which side of a step a value lies, as of a number that is
-/// rounded, the error reaches both.
+/// (64 times where flows are exact, claims/twin_parts.h), the accuracy of the run, what its steps
+/// round, each once, and what the computation of the figure rounds. Where that leaves open on which
+/// side of a step a value lies, as of a number that is rounded, the error reaches both.
 struct Estimate {
   std::optional<double> value;  ///< none: the run has no such number
   double error = 0;             ///< infinite: the number is not known
@@ -49,6 +49,7 @@ class BoundFigure {
   /// Whether it is at an event that happens on one side of a guard: texts that branch there do so
   /// on that side.
   bool is_at_guard_ = false;
+  bool is_whole_ = false;  ///< a number of events
 };
 
 }  // namespace gainsmith::statistics

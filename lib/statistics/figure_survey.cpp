@@ -33,9 +33,7 @@ FigureSurvey empty_survey(const std::vector<model::Figure>& figures) {
     summary.title = figure.title;
     summary.observer = figure.observer;
     summary.squares.elements = figure.elements;
-    summary.whole = figure.kind == model::FigureKind::count ||
-                    figure.kind == model::FigureKind::passes ||
-                    figure.kind == model::FigureKind::lost;
+    summary.whole = model::is_whole(figure.kind);
   }
   return survey;
 }

@@ -1,14 +1,10 @@
 // Files of data: CSV, NumPy, MAT, JSON with gain files, and SDPA.
-#include <unistd.h>
-
 #include <algorithm>
-#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/error.h"
-#include "base/file.h"
 #include "fuzz/places.h"
 #include "fuzz/readers.h"
 #include "fuzz/values.h"
@@ -40,26 +36,15 @@ bool reads(std::string_view text, Read read) {
   }
 }
 
-/// Any of the variables of the files in tests/data. `plain`: where their values stand; empty when that is not known.
-bool read_variables(std::string_view bytes, std::string_view plain,
-                    const std::vector<std::string>& names = {"", "A", "C", "T1", "S", "I8", "U64",
-                                                             "I64", "F", "L"}) {
-  constexpr std::string_view kHdf5 = "\x89HDF";
-  constexpr std::size_t kHdf5At = 512;
-  std::string path = kFile;
-  if (bytes.substr(std::min(bytes.size(), kHdf5At)).starts_with(kHdf5)) {
-    path = std::filesystem::temp_directory_path() /
-           ("gainsmith-fuzz-" + std::to_string(::getpid()) + ".mat");
-    write_atomically(path, bytes);
-  }
+/// Any of the variables of the files in tests/data. `plain`: where their values stand.
+bool read_variables(std::string_view bytes, std::string_view plain) {
   bool any = false;
-  for (const std::string& name : names)
+  for (const char* name : {"", "A", "C", "T1", "S", "I8", "U64", "I64", "F", "L"})
     any |= reads(bytes, [&] {
-      const io::FileMatrix found = io::mat_matrix(std::string(bytes), path, name, kHere);
+      const io::FileMatrix found = io::mat_matrix(std::string(bytes), kFile, name, kHere);
       for (const std::string& element : found.matrix.elements)
-        if (element != "0" && !plain.empty()) require_stored(element, plain);
+        if (element != "0") require_stored(element, plain);
     });
-  if (path != kFile) std::filesystem::remove(path);
   return any;
 }
 
@@ -108,8 +93,6 @@ bool read_json(std::string_view bytes) {
 }
 
 bool read_mat(std::string_view bytes) { return read_variables(bytes, bytes); }
-
-bool read_hdf5(std::string_view bytes) { return read_variables(bytes, {}, {"A", "S"}); }
 
 bool read_compressed_mat(std::string_view bytes, std::string_view plain) {
   return read_variables(bytes, plain);

@@ -150,12 +150,6 @@ TEST(Mutants, OfCompressedMat) {
   }
 }
 
-// Each is read in processes of their own, of which a hundred end a second. HDF5 converts numbers as the file describes
-// their bits, so that their values need not stand in it.
-TEST(Mutants, OfHdf5) {
-  expect_read_or_refused(read_hdf5, {data("plant-v73.mat"), data("kinds-v73.mat")}, kMutants / 50);
-}
-
 TEST(Mutants, OfSdpa) {
   expect_read_or_refused(
       read_sdpa,

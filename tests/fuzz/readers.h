@@ -16,8 +16,6 @@ bool read_npy(std::string_view bytes);
 bool read_sdpa(std::string_view bytes);
 bool read_yaml(std::string_view bytes);
 
-/// The same of MAT files of version 7.3, whose values are not looked for.
-bool read_hdf5(std::string_view bytes);
 
 /// The same of compressed MAT files, whose values are looked for in `plain`.
 bool read_compressed_mat(std::string_view bytes, std::string_view plain);

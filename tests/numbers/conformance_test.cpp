@@ -4,7 +4,6 @@
 #include "numbers/dual.h"
 #include "numbers/enclosure.h"
 #include "numbers/jet.h"
-#include "numbers/pack.h"
 #include "numbers/stacked_functions.h"
 
 namespace gainsmith::numbers {
@@ -73,23 +72,6 @@ Subject jet() {
   return result;
 }
 
-Subject pack() {
-  const auto moving = [](const Matrix& matrix) {
-    Pack result{false, matrix.rows(), matrix.cols(), {}, {}};
-    result.lanes = matrix.reshaped().transpose().replicate(Pack::kLanes, 1).array();
-    return result;
-  };
-  const auto value = [](const Pack& pack) -> Matrix {
-    if (pack.same) return pack.matrix;
-    Matrix result(pack.rows, pack.cols);
-    result.reshaped() = pack.lanes.row(0).transpose();
-    for (Eigen::Index lane = 1; lane < Pack::kLanes; ++lane)
-      EXPECT_TRUE((pack.lanes.row(lane) == pack.lanes.row(0)).all()) << "lane " << lane;
-    return result;
-  };
-  return subject<PackAlgebra>("pack", 1e-14, constant_pack, moving, value);
-}
-
 /// Constants, and one vector of what moves.
 Subject tape() {
   Subject result;
@@ -123,7 +105,7 @@ Subject tape() {
 INSTANTIATE_TEST_SUITE_P(NumberTypes, Conformance,
                          testing::Values(real<double>("double", 1e-14),
                                          real<DoubleDouble>("31 digits", 1e-29),
-                                         real<Decimal100>("100 digits", 1e-97), pack(), jet(),
+                                         real<Decimal100>("100 digits", 1e-97), jet(),
                                          dual(), tape(), enclosure<double>("enclosure", 1e-14),
                                          enclosure<DoubleDouble>("enclosure 31 digits", 1e-29),
                                          enclosure<Decimal100>("enclosure 100 digits", 1e-97)),

@@ -11,8 +11,6 @@ namespace gainsmith::io {
 
 namespace {
 
-using namespace std::string_view_literals;
-
 constexpr std::size_t kHeader = 128;
 constexpr const char* kSaveAgain =
     ": save it again, in MATLAB or Octave by save('-v7', 'file.mat', 'A')";
@@ -35,34 +33,24 @@ bool is_version_4(const std::string& bytes) {
 
 }  // namespace
 
-MatLayout mat_layout(const std::string& bytes, const std::string& path, const Place& place) {
-  constexpr auto kHdf5 = "\x89HDF\r\n\x1a\n"sv;
-  constexpr std::size_t kHdf5At = 512;
+bool is_big_endian(const std::string& bytes, const std::string& path, const Place& place) {
+  const auto refuse = [&](const std::string& why) { throw InputError(place, path + ": " + why); };
   const std::string_view mark =
       std::string_view(bytes).substr(std::min(bytes.size(), kHeader - 2), 2);
   if (mark != "IM" && mark != "MI") {
     if (bytes.size() < kHeader && bytes.starts_with("MATLAB"))
-      throw InputError(place, path + ": the file is cut off within its header");
-    if (bytes.starts_with(kHdf5))
-      throw InputError(
-          place, path + ": this is an HDF5 file without the header of a MAT file" + kSaveAgain);
-    throw InputError(
-        place,
-        path + ": " +
-            (is_version_4(bytes) ? std::string("this is a MAT file of version 4, which is not read")
-                                 : "this is no MAT file") +
-            kSaveAgain);
+      refuse("the file is cut off within its header");
+    if (is_version_4(bytes))
+      refuse(std::string("this is a MAT file of version 4, which is not read") + kSaveAgain);
+    refuse(std::string("this is no MAT file") + kSaveAgain);
   }
   const bool big_endian = mark == "MI";
   const std::uint64_t version = word_of(std::string_view(bytes).substr(kHeader - 4, 2), big_endian);
-  if (version == 0x0100) return {false, big_endian};
-  if (version != 0x0200)
-    throw InputError(place, path + ": this is a MAT file of an unknown version" + kSaveAgain);
-  if (std::string_view(bytes).substr(std::min(bytes.size(), kHdf5At), kHdf5.size()) != kHdf5)
-    throw InputError(
-        place,
-        path + ": the file is cut off or damaged: a MAT file of version 7.3 continues as HDF5");
-  return {true, big_endian};
+  if (version == 0x0200)
+    refuse(std::string("this is a MAT file of version 7.3, which is not read") + kSaveAgain);
+  if (version != 0x0100)
+    refuse(std::string("this is a MAT file of an unknown version") + kSaveAgain);
+  return big_endian;
 }
 
 }  // namespace gainsmith::io

@@ -7,12 +7,8 @@
 
 namespace gainsmith::io {
 
-struct MatLayout {
-  bool hdf5 = false;  ///< version 7.3; otherwise 5
-  bool big_endian = false;
-};
-
-/// InputError at `place` unless the bytes begin like a MAT file of version 5 or 7.3.
-MatLayout mat_layout(const std::string& bytes, const std::string& path, const Place& place);
+/// Whether numbers begin with their highest byte. InputError at `place` unless the bytes begin like a
+/// MAT file of version 5; the message says how to save a file of another version again.
+bool is_big_endian(const std::string& bytes, const std::string& path, const Place& place);
 
 }  // namespace gainsmith::io

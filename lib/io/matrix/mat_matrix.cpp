@@ -1,148 +1,139 @@
 #include "io/matrix/mat_matrix.h"
 
-#include <matio.h>
+#include <zlib.h>
 
-#include <bit>
+#include <algorithm>
 #include <cstdint>
-#include <memory>
-#include <mutex>
-#include <sstream>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include "base/own_process.h"
-#include "base/shared_library.h"
 #include "io/matrix/mat_layout.h"
-#include "io/matrix/mat_v5.h"
 #include "io/matrix/mat_variable.h"
 
 namespace gainsmith::io {
 
 namespace {
 
-/// The library keeps its messages; what is wrong is said here.
-void ignore_message(int /*level*/, char* /*message*/) {}
+constexpr std::size_t kTag = 8;  ///< a type and a length
 
-/// The functions of the library.
-struct Matio {
-  SharedLibrary library{GAINSMITH_MATIO_FILE,
-                        "matrices of .mat files need it: install libmatio11, or save the matrix as "
-                        "CSV by writematrix(A, 'A.csv')"};
-#define GAINSMITH_FUNCTION(name) \
-  decltype(Mat_##name)* name = library.function<decltype(Mat_##name)>("Mat_" #name)
-  GAINSMITH_FUNCTION(Open);
-  GAINSMITH_FUNCTION(Close);
-  GAINSMITH_FUNCTION(LogInitFunc);
-  GAINSMITH_FUNCTION(SizeOf);
-  GAINSMITH_FUNCTION(VarReadInfo);
-  GAINSMITH_FUNCTION(VarReadNextInfo);
-  GAINSMITH_FUNCTION(VarReadDataAll);
-  GAINSMITH_FUNCTION(VarFree);
-#undef GAINSMITH_FUNCTION
-
-  Matio() {
-    LogInitFunc("", ignore_message);
-    // HDF5, which is below it, prints its errors unless it is told not to.
-    using SetErrorHandler = int(std::int64_t, void*, void*);
-    library.function<SetErrorHandler>("H5Eset_auto2")(0, nullptr, nullptr);
-  }
-};
-
-const Matio& matio() {
-  static const Matio kLoaded;
-  return kLoaded;
+std::string_view behind_tag(std::string_view bytes) {
+  return bytes.substr(std::min(kTag, bytes.size()));
 }
 
-struct CloseFile {
-  void operator()(mat_t* file) const { matio().Close(file); }
-};
-struct FreeVariable {
-  void operator()(matvar_t* variable) const { matio().VarFree(variable); }
-};
-using Variable = std::unique_ptr<matvar_t, FreeVariable>;
-
-/// Of zlib, which is below the library.
+/// The first `most` bytes of what zlib compressed; empty when it is damaged.
 std::string inflated(std::string_view bytes, std::size_t most) {
-  using Uncompress = int(unsigned char*, unsigned long*, const unsigned char*, unsigned long);
-  constexpr int kFull = -5;
-  static Uncompress* const uncompress = matio().library.function<Uncompress>("uncompress");
   std::string text(most, '\0');
-  unsigned long size = most;
-  const int code = uncompress(reinterpret_cast<unsigned char*>(text.data()), &size,
-                              reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
-  text.resize(code == 0 || code == kFull ? size : 0);
+  uLongf size = most;
+  const int code = ::uncompress(reinterpret_cast<Bytef*>(text.data()), &size,
+                                reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
+  text.resize(code == Z_OK || code == Z_BUF_ERROR ? size : 0);
   return text;
 }
 
-MatNumbers numbers_of(const void* data, std::size_t size, int type) {
-  const std::string_view bytes(static_cast<const char*>(data), data == nullptr ? 0 : size);
-  return {type, bytes, std::endian::native == std::endian::big};
-}
+/// Reads a variable part by part.
+class PartReader {
+ public:
+  PartReader(std::string_view bytes, bool big_endian) : rest_(bytes), big_endian_(big_endian) {}
 
-/// What the library says of a variable, and has read of it.
-MatVariable variable_of(const matvar_t& found) {
-  MatVariable result{found.name, found.class_type, found.isComplex != 0, {}, {}, {}, {}};
-  for (int k = 0; k < found.rank; ++k)
-    result.dimensions.push_back(static_cast<double>(found.dims[k]));
-  if (found.data == nullptr || found.isComplex != 0) return result;
-  if (found.class_type != MAT_C_SPARSE) {
-    result.values = numbers_of(found.data, found.nbytes, found.data_type);
+  /// Whether all parts were there so far, with the types that they must have.
+  bool is_whole() const { return whole_; }
+
+  std::uint32_t word(std::string_view bytes, std::size_t at = 0) const {
+    if (at + 4 > bytes.size()) return 0;
+    return static_cast<std::uint32_t>(word_of(bytes.substr(at, 4), big_endian_));
+  }
+
+  MatNumbers next() {
+    // Up to four bytes stand in the tag itself, which has their number in the upper half of the type.
+    const std::uint32_t first = word(rest_), few = first >> 16U;
+    const std::size_t size = few > 0 ? few : word(rest_, 4), begin = few > 0 ? 4 : kTag;
+    whole_ = whole_ && rest_.size() >= kTag && few <= 4 && size <= rest_.size() - begin;
+    if (!whole_) return {};
+    const MatNumbers part{static_cast<int>(first & 0xFFFFU), rest_.substr(begin, size),
+                          big_endian_};
+    rest_.remove_prefix(std::min((begin + size + 7) / 8 * 8, rest_.size()));
+    return part;
+  }
+
+  /// All but the numbers.
+  MatVariable header() {
+    MatVariable result;
+    const MatNumbers flags = next();
+    result.kind = static_cast<int>(word(flags.bytes) & 0xFFU);
+    result.complex = (word(flags.bytes) & 0x800U) != 0;
+    whole_ = whole_ && flags.type == mat::kUint32;
+    if (result.kind == mat::kOpaqueClass) return result;
+    const MatNumbers dimensions = next(), name = next();
+    for (std::size_t at = 0; at < dimensions.bytes.size(); at += 4)
+      result.dimensions.push_back(word(dimensions.bytes, at));
+    result.name = name.bytes;
+    whole_ = whole_ && dimensions.type == mat::kInt32 &&
+             (name.type == mat::kInt8 || name.type == mat::kUint8);
     return result;
   }
-  const auto& sparse = *static_cast<const mat_sparse_t*>(found.data);
-  result.rows = numbers_of(sparse.ir, sparse.nir * sizeof *sparse.ir, MAT_T_UINT32);
-  result.columns = numbers_of(sparse.jc, sparse.njc * sizeof *sparse.jc, MAT_T_UINT32);
-  result.values =
-      numbers_of(sparse.data, sparse.ndata * matio().SizeOf(found.data_type), found.data_type);
-  return result;
-}
 
-model::StatedMatrix matrix_of_hdf5(const std::string& path, const std::string& name,
-                                   const Place& place) {
-  const std::unique_ptr<mat_t, CloseFile> file(matio().Open(path.c_str(), MAT_ACC_RDONLY));
-  std::vector<MatVariable> found;
-  while (file) {
-    const Variable next(matio().VarReadNextInfo(file.get()));
-    if (!next) break;
-    if (next->name != nullptr) found.push_back(variable_of(*next));
-  }
-  Variable variable;
-  return matrix_of_variable(found, name, path, place, [&](std::size_t index) {
-    variable.reset(matio().VarReadInfo(file.get(), found[index].name.c_str()));
-    if (!variable || matio().VarReadDataAll(file.get(), variable.get()) != 0)
-      throw InputError(place, path + ": the file is damaged: its variables cannot be read");
-    return variable_of(*variable);
-  });
-}
-
-/// The matrix as words: rows, columns, elements.
-std::string packed(const model::StatedMatrix& matrix) {
-  std::string text = std::to_string(matrix.rows) + " " + std::to_string(matrix.cols);
-  for (const std::string& element : matrix.elements) text += " " + element;
-  return text;
-}
-
-model::StatedMatrix unpacked(const std::string& text) {
-  std::istringstream words(text);
-  model::StatedMatrix matrix;
-  words >> matrix.rows >> matrix.cols;
-  for (std::string element; words >> element;) matrix.elements.push_back(element);
-  return matrix;
-}
+ private:
+  std::string_view rest_;
+  bool big_endian_;
+  bool whole_ = true;
+};
 
 }  // namespace
 
 FileMatrix mat_matrix(const std::string& bytes, const std::string& path, const std::string& name,
                       const Place& place) {
-  const MatLayout layout = mat_layout(bytes, path, place);
-  if (!layout.hdf5) return {matrix_of_v5(bytes, layout.big_endian, path, name, place, inflated)};
-  // Neither the library nor HDF5 below it is made for several threads, or for files with errors.
-  static std::mutex mutex;
-  const std::scoped_lock lock(mutex);
-  matio();
-  const auto text = in_own_process([&] { return packed(matrix_of_hdf5(path, name, place)); });
-  if (!text) throw InputError(place, path + ": the file is damaged: its variables cannot be read");
-  return {unpacked(*text)};
+  constexpr std::size_t kFileHeader = 128, kLongestHeader = 4096;
+  // Of a full matrix 8 bytes an element, of a sparse one a row besides; a header.
+  constexpr std::size_t kLongest = std::size_t{16} * kMostElements;
+  const auto refuse = [&](const std::string& why) {
+    throw InputError(place, path + ": the file is " + why);
+  };
+  const bool big_endian = is_big_endian(bytes, path, place);
+  std::vector<MatVariable> found;  // their values are all of their bytes, as they are stored
+  int count = 0;
+  for (std::string_view rest = std::string_view(bytes).substr(kFileHeader); !rest.empty();) {
+    const std::string variable = "variable " + std::to_string(++count);
+    const PartReader tag(rest, big_endian);
+    const std::uint32_t type = tag.word(rest), length = tag.word(rest, 4);
+    rest.remove_prefix(std::min(kTag, rest.size()));
+    if (type != mat::kMatrix && type != mat::kCompressed)
+      refuse("damaged: " + variable + " is of no known kind");
+    if (rest.size() < length)
+      refuse("cut off within " + variable + ": " + std::to_string(rest.size()) + " of its " +
+             std::to_string(length) + " bytes are there");
+    const std::string_view stored = rest.substr(0, length);
+    rest.remove_prefix(length);
+    const bool compressed = type == mat::kCompressed;
+    const std::string text = compressed ? inflated(stored, kLongestHeader) : std::string();
+    PartReader parts(compressed ? behind_tag(text) : stored, big_endian);
+    MatVariable header = parts.header();
+    if (!parts.is_whole()) refuse("damaged: " + variable + " begins with no header");
+    header.values = {static_cast<int>(type), stored, big_endian};
+    // MATLAB writes what classes of its own need without a name.
+    if (!header.name.empty()) found.push_back(std::move(header));
+  }
+  std::string text;
+  const auto read = [&](std::size_t index) {
+    std::string_view body = found[index].values.bytes;
+    if (found[index].values.type == mat::kCompressed) {
+      const std::string tag = inflated(body, kTag);
+      const std::size_t length = kTag + PartReader(tag, big_endian).word(tag, 4);
+      if (length <= kLongest) text = inflated(body, length + 1);
+      if (text.size() != length)
+        refuse("damaged: " + found[index].name + " cannot be decompressed");
+      body = behind_tag(text);
+    }
+    PartReader parts(body, big_endian);
+    MatVariable variable = parts.header();
+    if (variable.kind == mat::kSparseClass) {
+      variable.rows = parts.next();
+      variable.columns = parts.next();
+    }
+    variable.values = parts.next();
+    return variable;
+  };
+  return {matrix_of_variable(found, name, path, place, read)};
 }
 
 }  // namespace gainsmith::io

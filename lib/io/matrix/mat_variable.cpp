@@ -1,7 +1,5 @@
 #include "io/matrix/mat_variable.h"
 
-#include <matio.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -31,7 +29,7 @@ StoredFormat format_of(int type) {
 bool may_have(int kind, int type) {
   constexpr std::array kTypes = {9, 9, 7, 1,  2, 3,
                                  4, 5, 6, 12, 13};  // sparse, double, single, int8, ...
-  const int own = kTypes.at(static_cast<std::size_t>(kind - MAT_C_SPARSE));
+  const int own = kTypes.at(static_cast<std::size_t>(kind - mat::kSparseClass));
   const StoredFormat format = format_of(type);
   return type == own ||
          (format.width > 0 && format.kind != 'f' && format.width < format_of(own).width);
@@ -39,7 +37,7 @@ bool may_have(int kind, int type) {
 
 std::vector<std::uint64_t> whole_numbers(const MatNumbers& numbers) {
   std::vector<std::uint64_t> result;
-  if (numbers.type != MAT_T_INT32 && numbers.type != MAT_T_UINT32) return result;
+  if (numbers.type != mat::kInt32 && numbers.type != mat::kUint32) return result;
   for (std::size_t at = 0; at + 4 <= numbers.bytes.size(); at += 4)
     result.push_back(word_of(numbers.bytes.substr(at, 4), numbers.big_endian));
   return result;
@@ -54,7 +52,7 @@ std::vector<std::size_t> places(const MatVariable& variable, std::size_t rows, s
     return {};
   const std::size_t stored = variable.values.bytes.size() / width;
   std::vector<std::size_t> at(rows * cols, kNothing);
-  if (variable.kind != MAT_C_SPARSE) {
+  if (variable.kind != mat::kSparseClass) {
     for (std::size_t k = 0; k < at.size(); ++k) at[k] = k % cols * rows + k / cols;
     return stored == at.size() ? at : std::vector<std::size_t>{};
   }
@@ -90,12 +88,12 @@ std::size_t index_of(const std::vector<MatVariable>& found, const std::string& n
 /// Why a variable is no real matrix; empty when it is one.
 std::string refusal(const MatVariable& variable) {
   const std::string& name = variable.name;
-  if (variable.kind == MAT_C_STRUCT)
+  if (variable.kind == mat::kStructClass)
     return "is a struct; save its field as a variable: A = " + name + ".A; save('-v7', ...)";
-  if (variable.kind == MAT_C_CELL)
+  if (variable.kind == mat::kCellClass)
     return "is a cell array; save its cell as a variable: A = " + name + "{1}; save('-v7', ...)";
-  if (variable.kind == MAT_C_CHAR) return "is a text, not a matrix";
-  if (variable.kind < MAT_C_SPARSE || variable.kind > MAT_C_UINT64)
+  if (variable.kind == mat::kTextClass) return "is a text, not a matrix";
+  if (variable.kind < mat::kSparseClass || variable.kind > mat::kUint64Class)
     return "is no matrix; of a model 'sys' save the matrices: [A, B, C, D] = ssdata(sys)";
   if (variable.complex) return "is complex; save real(" + name + ") and imag(" + name + ")";
   if (variable.dimensions.size() == 2) return "";

@@ -1,5 +1,5 @@
-// Internal to io: a variable of a MAT file, whatever read it, and the matrix that it is. Nothing in it is believed: it
-// comes from a stranger's file.
+// Internal to io: a variable of a MAT file, and the matrix that it is. Nothing in it is believed: it comes from a
+// stranger's file.
 #pragma once
 
 #include <functional>
@@ -12,16 +12,30 @@
 
 namespace gainsmith::io {
 
-/// Numbers as they are stored. `type`: of matio_types, which has the codes of the files.
+/// Codes of the files (MathWorks, MAT-File Format, tables 1-1 and 1-3).
+namespace mat {
+enum Type { kInt8 = 1, kUint8 = 2, kInt32 = 5, kUint32 = 6, kMatrix = 14, kCompressed = 15 };
+/// Of numbers: sparse, double, single, and int8 to uint64 in pairs.
+enum Class {
+  kCellClass = 1,
+  kStructClass = 2,
+  kTextClass = 4,
+  kSparseClass = 5,
+  kUint64Class = 15,
+  kOpaqueClass = 17
+};
+}  // namespace mat
+
+/// Numbers as they are stored.
 struct MatNumbers {
-  int type = 0;
+  int type = 0;  ///< mat::Type, or another code
   std::string_view bytes;
   bool big_endian = false;
 };
 
 struct MatVariable {
   std::string name;
-  int kind = 0;  ///< of matio_classes, which has the codes of the files too
+  int kind = 0;  ///< mat::Class, or another code
   bool complex = false;
   std::vector<double> dimensions;
   MatNumbers values;  ///< column after column; of a sparse matrix those that are stored
