@@ -294,7 +294,7 @@ inline std::string label_of(const Point& fixed, const std::vector<const Variable
   return label;
 }
 
-/// One choice of the elements, with their enclosures in `known`.
+/// One choice of the elements, with their enclosures and what else a program reads in `known`.
 template <class S>
 struct Choice {
   Point point;
@@ -302,9 +302,13 @@ struct Choice {
 };
 
 template <class S>
-std::vector<Choice<S>> choices(const Domain& domain, const numbers::EnclosedValues<S>& known,
+std::vector<Choice<S>> choices(const expr::Program& program, const Domain& domain,
+                               const numbers::EnclosedValues<S>& known,
                                const EnclosedElements<S>& elements) {
-  std::vector<Choice<S>> all = {{{}, known}};
+  std::vector<Choice<S>> all(1);
+  for (const expr::Input& input : program.inputs)
+    if (const auto value = known.find(input.name); value != known.end())
+      all.front().known.insert(*value);
   for (const Variable& variable : domain) {
     if (variable.is_interval()) continue;
     const auto stated = elements.find(variable.name);
@@ -344,7 +348,7 @@ DomainProof prove_on_domain(const expr::Program& difference, const Domain& domai
     whole.low.push_back(axis->low);
     whole.high.push_back(axis->high);
   }
-  for (const auto& choice : proof::choices(domain, known, elements)) {
+  for (const auto& choice : proof::choices(program, domain, known, elements)) {
     proof::Function<S> function(program, choice.known, strict, axes);
     proof::Branches<S> branches(program, choice.known, strict, axes);
     proof::Search<S> search(function, branches, whole, options.most_pieces - result.pieces);

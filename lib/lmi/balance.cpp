@@ -1,5 +1,6 @@
 #include "lmi/balance.h"
 
+#include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -25,125 +26,76 @@ struct Units {
   }
 };
 
-/// The elimination goes along rows.
-using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using SparseMatrix = Eigen::SparseMatrix<double>;
 
-/// What the elements of one unknown weigh.
-struct Mean {
-  double weight = 0;
-  double logs = 0;
-  std::vector<std::pair<int, double>> rows;  ///< those that they are in, with their weights
-};
-
-/// Subtracts  m m' / weight  from the normal equations for one unknown after the other, m being
-/// the weights of its rows. Those with many rows are collected for one product.
-class Elimination {
+/// The normal equations over the rows, N s = b, without the unknowns: given the rows, log2 d_i is
+/// minus the mean of its elements. N = G - W D^-1 W', G of the elements, W(r, i) what the elements
+/// of unknown i in row r weigh, D_i what all of them do.
+class NormalEquations {
  public:
-  explicit Elimination(RowMajor& normal) : normal_(normal), many_(normal.rows(), kMost) {}
-  ~Elimination() { flush(); }
-  Elimination(const Elimination&) = delete;
-  Elimination& operator=(const Elimination&) = delete;
-
-  void add(const Mean& mean) {
-    constexpr Eigen::Index kFew = 8;  // so many times more rows than an unknown occurs in
-    if (kFew * std::ssize(mean.rows) < normal_.rows()) {
-      for (const auto& [a, wa] : mean.rows)
-        for (const auto& [b, wb] : mean.rows) normal_(a, b) -= wa * wb / mean.weight;
-      return;
+  explicit NormalEquations(const BalanceElements& elements)
+      : right_(numbers::Vector::Zero(elements.rows())),
+        weights_(numbers::Vector::Zero(elements.unknowns() + 1)),
+        logs_(weights_) {
+    std::vector<Eigen::Triplet<double>> of_rows, of_unknowns;
+    for (int i = 0; i <= elements.unknowns(); ++i) {
+      check_stop();
+      elements.for_each(i, [&](const BalanceElements::Element& e, double weight) {
+        for (const auto& [a, b] : {std::pair(e.first, e.second), std::pair(e.second, e.first)}) {
+          of_rows.emplace_back(a, a, weight);
+          of_rows.emplace_back(a, b, weight);
+          right_[a] -= weight * e.log;
+          if (i > 0) of_unknowns.emplace_back(a, i, weight);
+        }
+        if (i > 0) weights_[i] += weight;
+        logs_[i] += weight * e.log;
+      });
     }
-    if (count_ == kMost) flush();
-    many_.col(count_).setZero();
-    for (const auto& [a, wa] : mean.rows) many_(a, count_) = wa / std::sqrt(mean.weight);
-    ++count_;
+    G_.resize(right_.size(), right_.size());
+    G_.setFromTriplets(of_rows.begin(), of_rows.end());
+    W_.resize(right_.size(), weights_.size());
+    W_.setFromTriplets(of_unknowns.begin(), of_unknowns.end());
+    right_ += W_ * means(logs_);
+    fixed_ = numbers::Vector::Ones(right_.size());
+    for (const int row : free_rows(elements)) fixed_[row] = 0;
+  }
+
+  /// By conjugate gradients, as Curtis and Reid do, with the diagonal as preconditioner; free rows
+  /// are 0.
+  Units solve() const {
+    constexpr double kEnough = 1e-28;  // of the squares: 1e-14 of the residual
+    numbers::Vector scale =
+        G_.diagonal() - W_.cwiseAbs2() * means(numbers::Vector::Ones(weights_.size()));
+    scale = (fixed_.array() > 0).select(scale.cwiseInverse(), 0.0);
+    numbers::Vector s = numbers::Vector::Zero(right_.size());
+    numbers::Vector rest = right_, along = scale.cwiseProduct(rest);
+    double size = rest.dot(along);
+    const double enough = kEnough * size;
+    for (Eigen::Index k = 0; k < 10 * s.size() && size > enough; ++k) {
+      check_stop();
+      const numbers::Vector image = G_ * along - W_ * means(W_.transpose() * along);
+      const double step = size / along.dot(image);
+      s += step * along;
+      rest -= step * image;
+      const numbers::Vector next = scale.cwiseProduct(rest);
+      const double size_of_next = rest.dot(next);
+      along = next + size_of_next / size * along;
+      size = size_of_next;
+    }
+    const numbers::Vector unknowns = -means(logs_ + W_.transpose() * s);
+    return {s, {unknowns.begin(), unknowns.end()}};
   }
 
  private:
-  void flush() {
-    const auto factors = many_.leftCols(count_);
-    normal_.noalias() -= factors * factors.transpose();
-    count_ = 0;
+  /// Divided by the weights; 0 of the constant, and of unknowns without elements.
+  numbers::Vector means(const numbers::Vector& sums) const {
+    return (weights_.array() > 0).select(sums.cwiseQuotient(weights_), 0.0);
   }
 
-  static constexpr Eigen::Index kMost = 64;
-  RowMajor& normal_;
-  numbers::Matrix many_;
-  Eigen::Index count_ = 0;
+  SparseMatrix G_, W_;
+  numbers::Vector right_, weights_, logs_;
+  numbers::Vector fixed_;  ///< 0 of rows that are free
 };
-
-/// Adds the elements of unknown i to the normal equations, and returns what they weigh.
-Mean add_elements(const BalanceElements& elements, int i, std::vector<double>& of_row,
-                  RowMajor& normal, numbers::Vector& right) {
-  Mean mean;
-  const auto add = [&](int a, int b, double weight, double log) {
-    normal(a, a) += weight;
-    normal(a, b) += weight;
-    right[a] -= weight * log;
-    double& own = of_row[static_cast<std::size_t>(a)];
-    if (own == 0) mean.rows.emplace_back(a, 0.0);
-    own += weight;
-  };
-  elements.for_each(i, [&](const BalanceElements::Element& e, double weight) {
-    add(e.first, e.second, weight, e.log);
-    add(e.second, e.first, weight, e.log);
-    mean.weight += weight;
-    mean.logs += weight * e.log;
-  });
-  std::sort(mean.rows.begin(), mean.rows.end());
-  for (auto& [row, weight] : mean.rows)
-    weight = std::exchange(of_row[static_cast<std::size_t>(row)], 0.0);
-  return mean;
-}
-
-/// Solves the equations in place: Gaussian elimination in order, for they are positive definite.
-numbers::Vector solved(RowMajor normal, numbers::Vector right) {
-  const Eigen::Index rows = right.size();
-  for (Eigen::Index p = 0; p < rows; ++p)
-    for (Eigen::Index q = p + 1; q < rows; ++q) {
-      const double factor = normal(q, p) / normal(p, p);
-      if (factor == 0) continue;
-      normal.row(q).tail(rows - p) -= factor * normal.row(p).tail(rows - p);
-      right[q] -= factor * right[p];
-    }
-  numbers::Vector result = numbers::Vector::Zero(rows);
-  for (Eigen::Index p = rows - 1; p >= 0; --p)
-    result[p] =
-        (right[p] - normal.row(p).tail(rows - p - 1).dot(result.tail(rows - p - 1))) / normal(p, p);
-  return result;
-}
-
-/// The normal equations over the rows; the unknowns are eliminated: given the rows, log2 d_i is
-/// minus the mean of its elements.
-Units fit(const BalanceElements& elements) {
-  const int rows = elements.rows();
-  RowMajor normal = RowMajor::Zero(rows, rows);
-  numbers::Vector right = numbers::Vector::Zero(rows);
-  std::vector<double> of_row(static_cast<std::size_t>(rows), 0.0);
-  std::vector<Mean> means;
-  {
-    Elimination elimination(normal);
-    for (int i = 0; i <= elements.unknowns(); ++i) {
-      check_stop();
-      const Mean& mean = means.emplace_back(add_elements(elements, i, of_row, normal, right));
-      if (i == 0 || mean.weight == 0) continue;
-      elimination.add(mean);
-      for (const auto& [a, wa] : mean.rows) right[a] += wa * mean.logs / mean.weight;
-    }
-  }
-  for (const int row : free_rows(elements)) {
-    normal.row(row).setZero();
-    normal.col(row).setZero();
-    normal(row, row) = 1;
-    right[row] = 0;
-  }
-  Units units{solved(std::move(normal), std::move(right)), std::vector<double>(means.size(), 0.0)};
-  for (std::size_t i = 1; i < means.size(); ++i) {
-    if (means[i].weight == 0) continue;
-    double sum = means[i].logs;
-    for (const auto& [a, w] : means[i].rows) sum += w * units.rows[a];
-    units.unknowns[i] = -sum / means[i].weight;
-  }
-  return units;
-}
 
 /// Without the elements below `least` in these units; none when there are no such elements.
 std::optional<BalanceElements> without_small(const BalanceElements& elements, const Units& units,
@@ -197,11 +149,12 @@ double Balance::row(std::size_t block, int r) const {
 Balance balance(const std::vector<const Block*>& blocks, int unknowns,
                 const std::vector<double>& objective) {
   const BalanceElements elements(blocks, unknowns, objective);
-  Units units = fit(elements);
+  Units units = NormalEquations(elements).solve();
   constexpr double kNoise = 1e-8, kSmall = 1e-3;
   std::optional<BalanceElements> kept = without_small(elements, units, kNoise);
-  if (kept) units = fit(*kept);
-  if (const auto large = without_small(kept ? *kept : elements, units, kSmall)) units = fit(*large);
+  if (kept) units = NormalEquations(*kept).solve();
+  if (const auto large = without_small(kept ? *kept : elements, units, kSmall))
+    units = NormalEquations(*large).solve();
   Balance result;
   for (std::size_t k = 0; k < blocks.size(); ++k) {
     std::vector<int>& of_block = result.rows.emplace_back();

@@ -68,36 +68,44 @@ ResidualsInDouble slacks_of(const Factored& of, const Costs& costs) {
   return {rounded, error};
 }
 
-/// The g_i of the unknowns that occur, each of length 1, and what was divided by; r and its error
-/// are divided alike.
-struct Scaled {
-  Matrix G;
-  Vector error;
-  Vector r;
-  Vector r_error;
+/// The g_i of the unknowns that occur, each of length 1, with R near H^-1/2.
+struct Basis {
+  std::vector<Index> used;
+  Vector lengths;  ///< of all g_i; 0: the unknown does not occur
+  Matrix G, R;
+  double sigma = 1;  ///< at most the smallest singular value of G R
+  double roundings = 0;
 };
 
-/// None where an unknown has a cost that no block pays for.
-std::optional<Scaled> in_unit_lengths(const Images& images, const ResidualsInDouble& residuals) {
-  Scaled result{Matrix(images.G.rows(), images.G.cols()), images.error, residuals.r,
-                residuals.error};
-  Index used = 0;
+/// None where what is known of a g_i does not tell whether it is 0, or they depend on each other.
+std::optional<Basis> basis_of(const Images& images) {
+  Basis of;
+  of.lengths = images.G.colwise().norm();
   for (Index i = 1; i < images.G.cols(); ++i) {
-    const double length = images.G.col(i).norm();
-    if (!(length > 0)) {
-      if (images.error[i] > 0 || residuals.error[i] > 0 || residuals.r[i] != 0) return std::nullopt;
-      continue;
-    }
-    result.G.col(used) = images.G.col(i) / length;
-    result.error[used] = images.error[i] / length * (1 + 1e-12) + 4 * kUnitRoundoff;
-    result.r[used] = residuals.r[i] / length;
-    result.r_error[used] =
-        residuals.error[i] / length * (1 + 1e-12) + 2 * kUnitRoundoff * std::abs(result.r[used]);
-    ++used;
+    if (of.lengths[i] > 0) of.used.push_back(i);
+    if (!(of.lengths[i] > 0) && images.error[i] > 0) return std::nullopt;
   }
-  result.G.conservativeResize(Eigen::NoChange, used);
-  for (Vector* part : {&result.error, &result.r, &result.r_error}) part->conservativeResize(used);
-  return result;
+  const Index m = std::ssize(of.used), size = images.G.rows();
+  if (m == 0) return of;
+  if (size < m) return std::nullopt;
+  const Vector lengths = of.lengths(of.used);
+  of.G = images.G(Eigen::all, of.used) * lengths.cwiseInverse().asDiagonal();
+  of.R = numbers::inverse_of_factor(of.G);
+  const Matrix Q = of.G * of.R;
+  Matrix rest = -Matrix::Identity(m, m);
+  rest.selfadjointView<Eigen::Lower>().rankUpdate(Q.transpose());
+  rest.triangularView<Eigen::StrictlyUpper>() = rest.transpose();
+  const double rows = static_cast<double>(size), columns = static_cast<double>(m);
+  of.roundings = 2 * (rows + columns + 8) * kUnitRoundoff;
+  const double singular = 1 - rest.norm() - of.roundings * Q.squaredNorm();
+  const Vector error =
+      (images.error(of.used).cwiseQuotient(lengths) * (1 + 1e-12)).array() + 4 * kUnitRoundoff;
+  const double moved = error.dot(of.R.rowwise().norm()) +
+                       of.roundings * std::sqrt(columns) * of.R.norm() * (1 + 1e-12);
+  of.sigma = std::sqrt(std::max(0.0, singular)) * (1 - 1e-12) - moved * (1 + 1e-9);
+  // What is not a number is not above it either.
+  if (!(of.sigma > 0.1)) return std::nullopt;
+  return of;
 }
 
 struct Move {
@@ -105,27 +113,19 @@ struct Move {
   Vector steps;      ///< H^-1 r times the lengths of the g_i, about
 };
 
-std::optional<Move> move_of(const Scaled& of) {
-  const Index m = of.G.cols(), size = of.G.rows();
-  if (m == 0) return Move{};
-  if (size < m) return std::nullopt;
-  const Matrix R = numbers::inverse_of_factor(of.G);
-  const Matrix Q = of.G * R;
-  Matrix rest = -Matrix::Identity(m, m);
-  rest.selfadjointView<Eigen::Lower>().rankUpdate(Q.transpose());
-  rest.triangularView<Eigen::StrictlyUpper>() = rest.transpose();
-  const double rows = static_cast<double>(size), columns = static_cast<double>(m);
-  const double roundings = 2 * (rows + columns + 8) * kUnitRoundoff;
-  const double singular = 1 - rest.norm() - roundings * Q.squaredNorm();
-  const double moved =
-      of.error.dot(R.rowwise().norm()) + roundings * std::sqrt(columns) * R.norm() * (1 + 1e-12);
-  const double sigma = std::sqrt(std::max(0.0, singular)) * (1 - 1e-12) - moved * (1 + 1e-9);
-  // What is not a number is not above it either.
-  if (!(sigma > 0.1)) return std::nullopt;
-  const Vector z = R.transpose() * of.r;
-  const Vector z_error =
-      R.cwiseAbs().transpose() * (of.r_error + roundings * of.r.cwiseAbs()) * (1 + 1e-9);
-  return Move{(z.norm() + z_error.norm()) / sigma * (1 + 1e-9), R * z};
+/// None where an unknown has a cost that no block pays for.
+std::optional<Move> move_of(const Basis& by, const ResidualsInDouble& residuals) {
+  for (Index i = 1; i < residuals.r.size(); ++i)
+    if (!(by.lengths[i] > 0) && (residuals.error[i] > 0 || residuals.r[i] != 0))
+      return std::nullopt;
+  if (by.used.empty()) return Move{};
+  const Vector lengths = by.lengths(by.used);
+  const Vector r = residuals.r(by.used).cwiseQuotient(lengths);
+  const Vector error = residuals.error(by.used).cwiseQuotient(lengths) * (1 + 1e-12) +
+                       (2 * kUnitRoundoff + by.roundings) * r.cwiseAbs();
+  const Vector z = by.R.transpose() * r;
+  const Vector z_error = by.R.cwiseAbs().transpose() * error * (1 + 1e-9);
+  return Move{(z.norm() + z_error.norm()) / by.sigma * (1 + 1e-9), by.R * z};
 }
 
 /// Products of numbers, of which double leaves what cancels.
@@ -150,7 +150,8 @@ bool leaves_positive(const Factored& of, double theta) {
 }
 
 /// Y_k + dY_k, dY = L W L'.
-void correct(const Scaled& by, const Vector& steps, Factored& of) {
+void correct(const Basis& by, const Vector& steps, Factored& of) {
+  if (by.used.empty()) return;
   const Vector moved = by.G * steps;
   Index at = 0;
   for (std::size_t k = 0; k < of.Y.size(); ++k) {
@@ -216,6 +217,7 @@ std::optional<double> lower_bound(const BlockList& blocks, const Multipliers& Y,
   constexpr double kLifts[] = {0, 1e-15, 1e-13, 1e-11, 1e-9, 1e-7};
   constexpr int kCorrections = 3;
   constexpr double kNoLoss = 1e-15;
+  constexpr double kLeastInDouble = 1e-10;  // what many rows round hides less
   int last = 0;
   for (const auto& block : blocks)
     if (!block.terms.empty()) last = std::max(last, block.terms.back().first);
@@ -223,14 +225,16 @@ std::optional<double> lower_bound(const BlockList& blocks, const Multipliers& Y,
   for (const double lift : kLifts) {
     auto of = factors_of(blocks, Y, lift);
     if (!of) continue;
-    const Images images = work_of_images(of->blocks) < kMostWideWork
-                              ? images_of<DoubleDouble>(of->blocks, std::ssize(costs))
-                              : images_of<double>(of->blocks, std::ssize(costs));
+    const bool wide = work_of_images(of->blocks) < kMostWideWork;
+    if (!wide && lift < kLeastInDouble) continue;
+    const Images images = wide ? images_of<DoubleDouble>(of->blocks, std::ssize(costs))
+                               : images_of<double>(of->blocks, std::ssize(costs));
+    const auto by = basis_of(images);
+    if (!by) continue;
     std::optional<double> best;
     for (int k = 0; k < kCorrections; ++k) {
       const ResidualsInDouble slacks = slacks_of(*of, costs);
-      const auto by = in_unit_lengths(images, slacks);
-      const auto move = by ? move_of(*by) : std::nullopt;
+      const auto move = move_of(*by, slacks);
       if (!move) break;
       const double loss = move->theta * (images.G.col(0).norm() + images.error[0]) * (1 + 1e-12);
       const double low = slacks.r[0] - slacks.error[0] - loss;
