@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -124,8 +125,18 @@ Enclosed<S> transposed(const Enclosed<S>& x) {
 
 namespace enclosed {
 
+/// Whether products with x are exact where they do not underflow: a power of two, of a binary S.
+template <class S>
+bool scales_exactly(const S& x) {
+  int exponent = 0;
+  if constexpr (std::is_same_v<S, Decimal100>) return abs(x) == S(1);
+  const auto rounded = static_cast<double>(x);
+  return std::abs(std::frexp(rounded, &exponent)) == 0.5 && x == S(rounded);
+}
+
 /// For each row the relative error of a sum of as many products as it has elements: 0 for a row
-/// that picks one element. `element(i, j)` are those of the matrix, or of its transpose.
+/// that picks one element in other units. `element(i, j)` are those of the matrix, or of its
+/// transpose.
 template <class S, class Element>
 void row_roundoff(Eigen::Index rows, Eigen::Index cols, const Element& element, double* roundoff) {
   for (Eigen::Index i = 0; i < rows; ++i) {
@@ -135,7 +146,7 @@ void row_roundoff(Eigen::Index rows, Eigen::Index cols, const Element& element, 
       const Ball<S> x = element(i, j);
       if (x.is_zero()) continue;
       ++count;
-      picks = picks && x.is_exact() && (x.mid == S(1) || x.mid == S(-1));
+      picks = picks && x.is_exact() && scales_exactly(x.mid);
     }
     roundoff[i] = count == 0 || (count == 1 && picks) ? 0 : (count + 2) * unit_roundoff<S>();
   }

@@ -220,7 +220,22 @@ Enclosed<S> enclosed_in_units(const Enclosed<S>& x, const std::vector<int>& expo
   return out;
 }
 
-/// e^A in balanced units (numerics/balance.h) by scaling and squaring; the errors of the squarings
+/// Of numerics/balance.h. Elements that may be 0 do not count, unless they are large in the units
+/// of the others.
+template <class S>
+std::vector<int> balance(const Enclosed<S>& A) {
+  const Matrix sizes = magnitudes<S>(A), mids = magnitudes<S>(A.mid);
+  const auto norm = [&](const std::vector<int>& units) {
+    const auto scale = [](double x, int exponent) { return times_power_of_two(x, exponent); };
+    return numerics::in_units(sizes, units, scale).rowwise().sum().maxCoeff();
+  };
+  const auto certain = numerics::balance((mids.array() > A.rad.array()).select(mids, 0.0));
+  if (norm(certain) <= 1) return certain;
+  const auto all = numerics::balance(sizes);
+  return norm(certain) <= 2 * norm(all) ? certain : all;
+}
+
+/// e^A in balanced units by scaling and squaring; the errors of the squarings
 /// are carried along by the products. Nothing is known when A is so large that it has no value in
 /// double.
 template <class S>
@@ -228,7 +243,7 @@ Enclosed<S> exponential(const Enclosed<S>& A) {
   constexpr int kMostSquarings = 80;
   if (A.mid.size() == 0) return A;
   if (A.is_zero()) return exact_identity<S>(A.rows());
-  std::vector<int> units = numerics::balance(magnitudes<S>(A));
+  std::vector<int> units = balance(A);
   const Enclosed<S> B = enclosed_in_units(A, units);
   const double norm = up(magnitudes<S>(B).rowwise().sum().maxCoeff(), 100);
   int squarings = 0;

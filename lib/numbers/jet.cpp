@@ -106,17 +106,17 @@ Jet inverse(const Jet& x, Enclosed<double> value) {
   return out;
 }
 
-/// Not below e^Y - I, Y >= 0: X (1 + X/2 (1 + X/3 ...)) of X = Y / 2^k in balanced units, whose
+/// Not below e^Y - I, Y = |A|: X (1 + X/2 (1 + X/3 ...)) of X = Y / 2^k in balanced units, whose
 /// rest is at most |X|^9/9! * 1.2 wherever a path leads, then k times 2 H + H^2. None for a Y that
 /// is large in balanced units: the exponential would say nothing.
-std::optional<Matrix> growth(const Matrix& Y) {
+std::optional<Matrix> growth(const Enclosed<double>& A) {
   constexpr int kTerms = 8;
   constexpr double kMost = 30;
   const auto scale = [](double x, int exponent) {
     return x == 0 ? 0 : times_power_of_two(x, exponent) + kTiny;
   };
-  std::vector<int> units = numerics::balance(Y);
-  Matrix X = numerics::in_units(Y, units, scale);
+  std::vector<int> units = enclosed::balance(A);
+  Matrix X = numerics::in_units(magnitudes<double>(A), units, scale);
   const double norm = up(X.rowwise().sum().maxCoeff(), 100);
   if (!(norm < kMost)) return std::nullopt;
   const int squarings = norm > 0.5 ? std::ilogb(norm) + 2 : 0;
@@ -139,7 +139,7 @@ Jet exponential_of(const Jet::Ray& ray) {
   const double radius = ray.factor[0].rad;
   Enclosed<double> value = enclosed::exponential(scaled(middle, ray.matrix));
   if (radius > 0) {
-    const auto grown = growth(magnitudes<double>(ray.matrix) * radius * up(1));
+    const auto grown = growth(scaled(Ball<double>{radius, 0}, ray.matrix));
     if (!grown)
       return {2,
               {nothing_known<double>(value.mid), nothing_known<double>(value.mid),

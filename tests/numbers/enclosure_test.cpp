@@ -323,6 +323,32 @@ TEST(Balance, UnitsDoNotChangeADigit) {
   }
 }
 
+/// An element that may be 0 does not decide on the units of the others, however small its radius.
+TEST(Balance, ElementsThatMayBeZeroDoNotWidenAnExponential) {
+  for (const double other : {0.0, 1e-13})
+    for (const double rad : {1e-12, 1e-32, 1e-48, 1e-200, 1e-300, kTiny}) {
+      Enclosed<double> A = exactly<double>(Matrix{{0.3, std::min(other, rad / 2)}, {0.5, 0.3}});
+      A.rad(0, 1) = rad;
+      EnclosedValues<double> values{{"A", A}};
+      expr::Scope scope;
+      scope.symbols["A"] = {{2, 2}, true};
+      const auto found =
+          enclose<double>(expr::compile(expr::parse({"expm(A)", "test"}), scope), values);
+      EXPECT_TRUE(contains(found, truth("expm([0.3, 0; 0.5, 0.3])")));
+      EXPECT_LT(found.rad(1, 0), 1e-15 + rad) << rad;
+      EXPECT_LT(found.rad(0, 1), 1e-18 + 2 * rad) << rad;
+    }
+}
+
+/// A product with a diagonal of powers of two is exact, in other units too.
+TEST(Enclosure, APowerOfTwoScalesExactly) {
+  for (const char* text : {"[8, 0; 0, -0.125]*[3, 5; 7, 0]", "[3, 5; 7, 0]*[0.25, 0; 0, 2]"}) {
+    EXPECT_TRUE(enclosed<double>(text).is_exact()) << text;
+    EXPECT_TRUE(enclosed<DoubleDouble>(text).is_exact()) << text;
+    EXPECT_TRUE(contains(enclosed<Decimal100>(text), truth(text))) << text;
+  }
+}
+
 /// Balanced, a matrix is about as small as its strongly connected parts.
 TEST(Balance, UnitsAloneDoNotMakeAMatrixLarge) {
   const auto norm = [](const Matrix& A) {

@@ -150,5 +150,14 @@ TEST(Jet, BendsAreTight) {
   EXPECT_LE(magnitudes(evaluator.run().derivative(2)).maxCoeff(), 1.3);
 }
 
+/// Over a long piece too an element that may be 0 does not widen the others.
+TEST(Jet, ElementsThatMayBeZeroDoNotWidenAnExponential) {
+  const expr::Program f = program_in_t("expm([0.3, (0.1*3 - 0.3)^2; 0.5, 0.3]*t)");
+  expr::Evaluator<JetAlgebra> evaluator(f);
+  const Jet variable = variable_jet(0, 2);
+  evaluator.set("t", variable);
+  EXPECT_LE(magnitudes(evaluator.run().value()).maxCoeff(), 5);
+}
+
 }  // namespace
 }  // namespace gainsmith::numbers
