@@ -308,8 +308,8 @@ Formulation in_units_of_solution(const Lmi& lmi, const GainBounds& bounds,
 }
 
 bool is_narrow_bracket(double low, double high, const Formulation& formulation) {
-  constexpr double kPart = 1e-6;
-  return high - low <= kPart * std::max(std::abs(high), 1 / formulation.cost_unit);
+  return high - low <= 1e-6 * std::abs(high) ||
+         std::max(-low, std::abs(high)) <= 1e-8 / formulation.cost_unit;
 }
 
 double objective_lower_bound(const Lmi& lmi, const GainBounds& bounds,

@@ -118,8 +118,8 @@ std::optional<Round> next_round(const Lmi& lmi, const GainBounds& bounds,
 Formulation in_units_of_solution(const Lmi& lmi, const GainBounds& bounds,
                                  const Formulation& formulation, const std::vector<double>& x);
 
-/// Whether an optimum between these values of the objective is known to 1e-6 of its size or of the
-/// unit of the costs, whichever is larger.
+/// Whether an optimum between these values of the objective is known to 1e-6 of its size, or to be 0
+/// within 1e-8 of the unit of the costs.
 bool is_narrow_bracket(double low, double high, const Formulation& formulation);
 
 /// An estimate, which nothing shows (verdict/weak_duality.h), of a lower bound on the objective

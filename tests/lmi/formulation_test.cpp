@@ -91,6 +91,24 @@ TEST(FormulationTest, TheObjectiveIsSolvedInBalancedUnitsWithItsShift) {
 
 /// minimise x with x > 2 and y > 1e-9, in units far from those of the solution: the objective does not see y,
 /// which the weight keeps small.
+/// 1e-6 of the size of the optimum, whatever the unit of the costs, but for one that is 0.
+TEST(FormulationTest, ABracketIsNarrowBesideItsOptimum) {
+  Formulation formulation;
+  for (const double unit : {1.0, 0x1p-30, 0x1p30}) {
+    formulation.cost_unit = 1 / unit;
+    const auto narrow = [&](double low, double high) {
+      return is_narrow_bracket(low * unit, high * unit, formulation);
+    };
+    EXPECT_TRUE(narrow(1 - 9e-7, 1));
+    EXPECT_FALSE(narrow(1 - 2e-6, 1));
+    EXPECT_FALSE(narrow(1e-7 - 5e-7, 1e-7));
+    EXPECT_TRUE(narrow(1e-7 - 9e-14, 1e-7));
+    EXPECT_TRUE(narrow(-1e-9, 2e-9));
+    EXPECT_FALSE(narrow(-2e-8, 2e-9));
+    EXPECT_FALSE(narrow(-1, -1 + 2e-6));
+  }
+}
+
 TEST(FormulationTest, TheWeightBoundsWhatTheObjectiveDoesNotSee) {
   const tests::YamlProblem yaml(
       "problem: p\nmethod:\n  method: m\n  unknowns: {x: scalar, y: scalar}\n"
