@@ -11,7 +11,8 @@
 namespace gainsmith::design {
 
 /// The gains in single precision, with their exact decimals; of gains that are formulas over unknowns these
-/// unknowns. InputError for one that has no finite value there.
+/// unknowns. Where the method has a plant or an observer, gains that nothing of them reads stay as they are.
+/// InputError for one that has no finite value there.
 model::Gains rounded_to_single(const model::Instance& instance, const model::Gains& gains);
 
 /// A value of `synthesis` with which the problem has gains that hold at single precision.

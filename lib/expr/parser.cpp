@@ -354,50 +354,37 @@ class Parser : TokenCursor {
     }
   }
 
-  /// "[[0, 1]; K]" for [0, 1; K]: a row of several entries beside one of a single entry is a matrix
-  /// of its own. Nothing for a block with "*", and where more rows follow. `second` is where the
-  /// second row begins among the entries, and `middle` and `begin` are where both begin in the text.
-  std::string rows_in_brackets(const std::vector<NodePtr>& entries, std::size_t second,
-                               std::size_t begin, std::size_t middle) const {
-    const bool one_is_single = second == 1 || entries.size() == second + 1;
-    const bool mirrored = std::ranges::any_of(
-        entries, [](const NodePtr& entry) { return entry->kind == NodeKind::mirror; });
-    if (peek() != TokenKind::close_bracket || !one_is_single || mirrored) return "";
-    const auto row = [&](std::size_t from, std::size_t to, bool single) {
-      const std::string inner = text()->str().substr(from, to - from);
-      return single ? inner : "[" + inner + "]";
-    };
-    return "; a row of numbers above or below a matrix has brackets of its own: [" +
-           row(begin, text()->str().rfind(';', middle), second == 1) + "; " +
-           row(middle, last_end(middle), second != 1) + "]";
-  }
-
+  /// Rows with other numbers of entries are blocks of their own, above each other.
   NodePtr block(std::size_t begin) {
     const Depth depth(*this);
-    std::vector<NodePtr> entries;
-    int columns = 0;
-    const std::size_t first = here().begin;
+    std::vector<NodePtr> entries, rows;
+    std::size_t columns = 0;
+    bool ragged = false;
     for (;;) {
-      const std::size_t row_begin = entries.size();
-      const std::size_t at = here().begin;
+      const std::size_t row_begin = here().begin;
+      std::vector<NodePtr> row;
       do {
-        entries.push_back(entry());
+        row.push_back(entry());
       } while (accept(TokenKind::comma));
-      const int width = static_cast<int>(entries.size() - row_begin);
-      if (columns == 0) columns = width;
-      if (width != columns)
-        fail("this row of the block has " + std::to_string(width) +
-             (width == 1 ? " entry" : " entries") + ", the first row has " +
-             std::to_string(columns) +
-             (row_begin == static_cast<std::size_t>(columns)
-                  ? rows_in_brackets(entries, row_begin, first, at)
-                  : ""));
+      if (columns == 0) columns = row.size();
+      ragged = ragged || row.size() != columns;
+      entries.insert(entries.end(), row.begin(), row.end());
+      rows.push_back(row.size() == 1 ? row.front() : table(row_begin, std::move(row)));
       if (accept(TokenKind::close_bracket)) break;
       if (!accept(TokenKind::semicolon))
         fail("expected ',' ';' or ']' in the block, found " + found() + missing());
     }
+    if (!ragged) return table(begin, std::move(entries), columns);
+    if (std::ranges::any_of(entries,
+                            [](const NodePtr& one) { return one->kind == NodeKind::mirror; }))
+      fail("the rows of a block with '*' have the same number of entries");
+    return table(begin, std::move(rows), 1);
+  }
+
+  NodePtr table(std::size_t begin, std::vector<NodePtr> entries, std::size_t columns = 0) const {
+    if (columns == 0) columns = entries.size();
     auto node = make(NodeKind::block, begin, std::move(entries));
-    node->columns = columns;
+    node->columns = static_cast<int>(columns);
     return node;
   }
 

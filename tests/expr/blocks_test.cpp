@@ -51,6 +51,14 @@ TEST_F(Blocks, MatricesAreLaidOutRowByRow) {
   EXPECT_EQ(world("[P]"), P);
 }
 
+TEST_F(Blocks, RowsMayBeCutInOtherPlaces) {
+  EXPECT_EQ(world("[zeros(1, 3); 2*eye(2), zeros(2, 1)]"),
+            (Matrix{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}}));
+  EXPECT_EQ(world("[P, B; zeros(1, 4), 1; eye(5)]"), world("[[P, B]; [zeros(1, 4), 1]; eye(5)]"));
+  EXPECT_NE(refused("[P, B; zeros(1, 4)]").message().find("does not fit"), std::string::npos);
+  EXPECT_NE(refused("[1, 2; 3]").message().find("does not fit"), std::string::npos);
+}
+
 TEST_F(Blocks, AStarIsTheTransposeOfTheMirroredEntry) {
   EXPECT_EQ(world("[P, B; *, R]"), block(P, B, B.transpose(), R));
   EXPECT_EQ(world("[P, *; B', R]"), block(P, B, B.transpose(), R));
