@@ -156,6 +156,15 @@ std::string transpose_hint(const model::ShapeText& declared, expr::Shape shape,
                          : "; a row is written [1, 2]";
 }
 
+/// Whether only a column of the elements of a flat list fits, as far as sizes are known.
+bool fits_as_column(const model::Declaration& datum, const model::Value& value,
+                    model::Dimensions known) {
+  const auto size = static_cast<int>(value.value.root->children.size());
+  model::Dimensions of_row = known;
+  return value.flat && !learn(datum.shape, {1, size}, of_row) &&
+         learn(datum.shape, {size, 1}, known);
+}
+
 /// "2 x 3", of a file "2 x 3 in A.csv".
 std::string found_text(const model::Value& value, expr::Shape shape) {
   return to_string(shape) + (value.source.empty() ? "" : " in " + value.source);
@@ -181,7 +190,8 @@ void add_datum(Binding& binding, const Given& given) {
       given.value ? *given.value : model::Value{datum.name, *datum.fallback, false, datum.place};
   refuse_later_data(binding, value);
   const auto expected = resolve(datum.shape, dimensions);
-  const bool column = datum.shape.is_column() || (expected && is_proper_column(*expected));
+  const bool column = datum.shape.is_column() || (expected && is_proper_column(*expected)) ||
+                      fits_as_column(datum, value, dimensions);
   model::Value turned{value.name, oriented(value, column), false, value.place};
   bound.place = value.place;
   bound.value =
