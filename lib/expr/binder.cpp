@@ -333,6 +333,11 @@ int Binder::equation(const Expression& expression, const Node& node, int differe
               {rows + columns, rows + columns}, {2});
 }
 
+int Binder::as_diagonal(const Expression& expression, const Node& node, int elements) {
+  const auto size = static_cast<int>(shape(elements).size());
+  return emit(expression, node, Op::diagonal_matrix, {elements}, {size, size});
+}
+
 Program compile(const Expression& expression, const Scope& scope, std::optional<Shape> expected) {
   count_bound();
   Binder binder(scope);
@@ -386,12 +391,15 @@ std::vector<CompiledRelation> compile_relations(const Expression& expression, co
                            of_matrices(expression, *pair.children[1]) + " < " +
                            of_matrices(expression, *pair.children[0]));
     const Bound difference = binder.subtract(expression, pair, sides[large], sides[small]);
-    const int at = binder.sized(expression, pair, difference);
+    int at = binder.sized(expression, pair, difference);
     if (relation == Relation::not_equal) throw InputError(expression.place(pair), kNotEqual);
     if (relation == Relation::equal) {
       relations.push_back({binder.extract(binder.equation(expression, pair, at)), false, true});
       continue;
     }
+    // A column or a row is no symmetric matrix: its elements are compared.
+    if (const Shape of = binder.shape(at); !of.is_square() && (of.cols == 1 || of.rows == 1))
+      at = binder.as_diagonal(expression, pair, at);
     if (!binder.shape(at).is_square())
       throw InputError(expression.place(pair), "a comparison of matrices needs square ones, not " +
                                                    to_string(binder.shape(at)) +

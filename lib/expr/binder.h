@@ -48,6 +48,8 @@ class Binder {
   int difference(const Expression& expression, const Node& pair);
   /// [0, D; D', 0], which is >= 0 where D = 0 and nowhere else.
   int equation(const Expression& expression, const Node& node, int difference);
+  /// The elements of a column or a row as a diagonal.
+  int as_diagonal(const Expression& expression, const Node& node, int elements);
 
   Shape shape(int at) const { return assembly_.shape(at); }
   /// The program that computes `at`, without the instructions that it does not need.

@@ -36,7 +36,8 @@ struct CompiledRelation {
 };
 
 /// The comparisons of a chain such as I <= P <= kappa*I, in order. InputError when the expression
-/// is no comparison or a difference is not square.
+/// is no comparison or a difference is neither square nor a column or a row, whose elements are
+/// compared.
 std::vector<CompiledRelation> compile_relations(const Expression& expression, const Scope& scope);
 
 }  // namespace gainsmith::expr

@@ -98,6 +98,18 @@ TEST(ConvexFunctions, NumbersAreComparedWithEachElement) {
 }
 
 /// An objective with functions of its own needs no other inequality.
+/// The point of a box that is nearest to one outside of it, in each norm.
+TEST(ConvexFunctions, ElementsOfColumnsAndRowsAreCompared) {
+  for (const char* text : {"0 <= x <= 1", "0 <= x' <= 1", "zeros(n, 1) <= x <= ones(n, 1)"}) {
+    const model::Gains gains =
+        solve(std::string("  data: {b: n}\n  unknowns: {x: n}\n  require: {box: ") + text +
+                  "}\n  minimize: norm(x - b)\n",
+              "data: {b: [2, 0.5, -1]}\n");
+    ASSERT_EQ(gains.verdict, model::Verdict::yes) << text;
+    EXPECT_NEAR(*gains.objective, std::sqrt(2.0), 1e-6) << text;
+  }
+}
+
 TEST(ConvexFunctions, MayStandAlone) {
   const model::Gains gains =
       solve("  data: {b: n}\n  unknowns: {x: scalar}\n  minimize: norm(b - x*ones(n, 1))\n",
@@ -247,7 +259,7 @@ TEST(ConvexFunctions, MistakesAreNamed) {
       {"max(v, [1, 2, 3]) <= 1", "'v' is 2 x 1, another one 1 x 3"},
       {"norm(X) != 1", "'!=' takes affine sides"},
       {"sum(i in 1..1001, abs(s - i)) <= 1", "eigenvalues has at most 1000 terms"},
-      {"-1 <= v", "elements are compared by min(x) >= a"}};
+      {"0 <= [X, v]", "elements are compared by min(x) >= a"}};
   for (const auto& [text, expected] : cases) {
     const std::string found =
         input_error([&] { solve(head + "  require: {a: \"" + text + "\"}\n", data); }).message();
