@@ -124,12 +124,17 @@ bool has_curvature(const Binding& binding, const expr::Expression& text, const N
          });
 }
 
-void refuse_nested(const Binding& binding, const expr::Expression& text, const Node& call,
-                   const expr::Scope& scope) {
-  for (const NodePtr& child : call.children)
-    if (has_curvature(binding, text, *child, scope))
-      throw InputError(text.place(*child),
-                       "'" + text.quote(*child) + "' is inside of another such function");
+/// Whether there are such functions in a call. max and min, which grow with their arguments, take
+/// those of their own kind; InputError in others.
+bool is_nested(const Binding& binding, const expr::Expression& text, const Node& call,
+               const expr::Scope& scope) {
+  for (const NodePtr& child : call.children) {
+    if (!has_curvature(binding, text, *child, scope)) continue;
+    if (call.text == "max" || call.text == "min") return true;
+    throw InputError(text.place(*child),
+                     "'" + text.quote(*child) + "' is inside of another such function");
+  }
+  return false;
 }
 
 /// Of the arguments of a call. InputError when the function does not take them.
@@ -272,8 +277,13 @@ NodePtr bounded(Binding& binding, const expr::Expression& text, const NodePtr& n
       throw InputError(text.place(*node), "under 'forall' with an interval or a set, '" +
                                               text.quote(*node) +
                                               "' must be alone on its side of the comparison");
-    refuse_nested(binding, text, *node, scope);
-    return bounding_unknown(binding, text, *node, *curvature);
+    NodePtr call = node;
+    if (is_nested(binding, text, *node, scope)) {
+      std::vector<NodePtr> arguments;
+      for (const NodePtr& child : node->children) arguments.push_back(inner(child, sign));
+      call = with_children(*node, std::move(arguments));
+    }
+    return bounding_unknown(binding, text, *call, *curvature);
   }
   const auto& children = node->children;
   switch (node->kind) {
@@ -302,10 +312,11 @@ NodePtr bounded(Binding& binding, const expr::Expression& text, const NodePtr& n
     default:
       break;
   }
-  throw InputError(text.place(*node),
-                   "norm, abs, max, min and eigenvalues of unknowns may be used in sums, in sum(...) "
-                   "and times a number that is written out, not inside of '" +
-                       text.quote(*node) + "'; a weight w >= 0 goes inside, as in norm(w*X)");
+  throw InputError(
+      text.place(*node),
+      "norm, abs, max, min and eigenvalues of unknowns may be used in sums, in sum(...) "
+      "and times a number that is written out, not inside of '" +
+          text.quote(*node) + "'; a weight w >= 0 goes inside, as in norm(w*X)");
 }
 
 }  // namespace
@@ -326,9 +337,8 @@ std::vector<expr::Expression> affine_comparisons(Binding& binding, const expr::E
     const NodePtr& large = chain.children[ascending ? k + 1 : k];
     const auto alone = [&](const NodePtr& side, const NodePtr& other, Curvature wanted) {
       if (curvature_at(binding, that, *side, scope) != wanted ||
-          has_curvature(binding, that, *other, scope))
+          has_curvature(binding, that, *other, scope) || is_nested(binding, that, *side, scope))
         return false;
-      refuse_nested(binding, that, *side, scope);
       for (expr::Expression& bound : bounds_of(that, *side, other, scope, strict))
         comparisons.push_back(std::move(bound));
       return true;

@@ -110,6 +110,26 @@ TEST(ConvexFunctions, ElementsOfColumnsAndRowsAreCompared) {
   }
 }
 
+/// Halfway between two points; and sums of largest moduli.
+TEST(ConvexFunctions, LargestValuesOfOthers) {
+  const std::string head =
+      "  data: {a: n, b: n}\n  unknowns: {x: n}\n  require: {near: norm(x) <= 99}\n";
+  const std::string data = "data: {a: [1, 2], b: [4, 6]}\n";
+  EXPECT_NEAR(*solve(head + "  minimize: \"max(norm(x - a), norm(x - b))\"\n", data).objective, 2.5,
+              1e-6);
+  EXPECT_NEAR(*solve(head + "  minimize: \"max(abs(x - a)) + max(abs(x - b))\"\n", data).objective,
+              4, 1e-6);
+  const model::Gains gains = solve(
+      "  data: {a: n, b: n}\n  unknowns: {x: n, t: scalar}\n  require: {both: \"max(norm(x - a), "
+      "norm(x - b)) <= t\"}\n  minimize: t\n",
+      data);
+  EXPECT_NEAR(*gains.objective, 2.5, 1e-6);
+  EXPECT_NE(input_error([&] { solve(head + "  minimize: \"max(min(x), 0)\"\n", data); })
+                .message()
+                .find("is concave"),
+            std::string::npos);
+}
+
 TEST(ConvexFunctions, MayStandAlone) {
   const model::Gains gains =
       solve("  data: {b: n}\n  unknowns: {x: scalar}\n  minimize: norm(b - x*ones(n, 1))\n",
