@@ -36,7 +36,7 @@ EventCheck::EventCheck(Texts& texts, const hybrid::Trajectory& trajectory, Fault
     const EventKind kind = texts.dynamics.events[e].kind;
     if (kind == EventKind::every || kind == EventKind::at)
       memory_[e].clock.emplace(texts, e, jump_times(trajectory, e), trajectory.start, faults);
-    if (has_crossing(e)) forget_side(e, trajectory.start, rounding, is_zero(e, trajectory.start));
+    if (has_crossing(e)) forget_side(e, trajectory.start, rounding, crossing(e, trajectory.start) == 0);
   }
 }
 
@@ -45,14 +45,38 @@ void EventCheck::remember_side(std::size_t event, const Eigen::VectorXd& x,
   const int now = side_of(*texts_.events[event].crossing, x, rounding);
   if (now == 0) return;
   memory_[event].side = now;
-  memory_[event].at_zero = false;
+  memory_[event].at_zero = memory_[event].near_zero = false;
 }
 
 void EventCheck::forget_side(std::size_t event, const Eigen::VectorXd& x,
                              const Eigen::VectorXd& rounding, bool at_zero) {
   memory_[event].side = 0;
   memory_[event].at_zero = at_zero;
+  memory_[event].near_zero = true;
   remember_side(event, x, rounding);
+}
+
+void EventCheck::side_after(std::size_t event, const hybrid::JumpPoint& jump,
+                            const Eigen::VectorXd& rounding) {
+  EventMemory& memory = memory_[event];
+  const double before = crossing(event, jump.before);
+  const double after = crossing(event, jump.after);
+  const bool comes_to_zero = after == 0 && before != 0;
+  Text& text = *texts_.events[event].crossing;
+  const bool near = side_of(text, jump.after, rounding) == 0;
+  if (event != jump.event && !comes_to_zero) {
+    memory.near_zero = memory.near_zero || (near && after != before);
+    return;
+  }
+  forget_side(event, jump.after, rounding, comes_to_zero);
+  if (comes_to_zero || !near || side_of(text, jump.before, rounding) != 0) return;
+  // It has crossed 0 and stays there. What crosses both ways may be on either side.
+  const model::Dynamics::EventKind kind = texts_.dynamics.events[event].kind;
+  for (const int to : {-1, 1})
+    if (leaves_zero(kind, to) && (!leaves_zero(kind, -to) || (to * before > 0 && to * after > 0))) {
+      memory.side = to;
+      memory.near_zero = false;
+    }
 }
 
 Truth EventCheck::without_if(std::size_t event, double t, const Eigen::VectorXd& x,
@@ -60,7 +84,9 @@ Truth EventCheck::without_if(std::size_t event, double t, const Eigen::VectorXd&
   EventTexts& texts = texts_.events[event];
   const EventMemory& memory = memory_[event];
   if (memory.clock) {
-    if (t >= memory.clock->next()) return Truth::yes;
+    // With an `if` it may have been spent just before.
+    if (t >= memory.clock->next())
+      return t > memory.clock->next() && texts.only_if ? Truth::unsure : Truth::yes;
     const double early = t == horizon_ ? hybrid::kAddedUp * horizon_ : 0;
     const bool near = same_time(t, memory.clock->next()) || memory.clock->next() - t <= early;
     return near ? Truth::unsure : Truth::no;
@@ -69,12 +95,13 @@ Truth EventCheck::without_if(std::size_t event, double t, const Eigen::VectorXd&
     if ((*texts.condition)(x)) return memory.spent ? Truth::no : Truth::yes;
     return texts.condition->truth(x, rounding) == Truth::no ? Truth::no : Truth::unsure;
   }
-  const double value = (*texts.crossing)(x)(0, 0);
+  const double value = crossing(event, x);
   const int now = value > 0 ? 1 : value < 0 ? -1 : 0;
   const int certain = side_of(*texts.crossing, x, rounding);
   const EventKind kind = texts_.dynamics.events[event].kind;
-  if (fires(kind, memory.side, now)) return Truth::yes;
-  if (memory.side == 0 && leaves_zero(kind, memory.at_zero ? now : certain))
+  // Within its rounding it may have crossed 0, or left it, or not yet.
+  if (fires(kind, memory.side, now)) return certain == now ? Truth::yes : Truth::unsure;
+  if (memory.near_zero && leaves_zero(kind, now))
     return memory.at_zero && certain == now ? Truth::yes : Truth::unsure;
   // Just before zero: the run may have stopped there by rounding.
   return certain == 0 && fires(kind, memory.side, -memory.side) ? Truth::unsure : Truth::no;
@@ -106,11 +133,14 @@ void EventCheck::instant(std::size_t part, double t, const Eigen::VectorXd& x,
     else if (is_due == Truth::yes)
       faults_.add(part, t, "is due, but does not jump: " + name);
     EventMemory& memory = memory_[e];
-    const bool is_spent = is_due == Truth::no && without_if(e, t, x, rounding) == Truth::yes;
+    const Truth occurs = is_due == Truth::no ? without_if(e, t, x, rounding) : Truth::no;
+    const bool is_spent = occurs == Truth::yes;
     if (is_spent && memory.clock) memory.clock->spent(t);
     if (auto& condition = texts_.events[e].condition)
       memory.spent = (*condition)(x) && (memory.spent || is_spent);
-    if (has_crossing(e) && (is_due == Truth::no || is_due == Truth::yes))
+    if (has_crossing(e) && occurs != Truth::no)
+      forget_side(e, x, rounding, false);
+    else if (has_crossing(e) && is_due != Truth::unsure)
       remember_side(e, x, rounding);
   }
 }
@@ -132,11 +162,8 @@ void EventCheck::jumped(std::size_t part, const hybrid::JumpPoint& jump) {
   if (memory.clock) memory.clock->jumped(part, jump.t, jump.after);
   const Eigen::VectorXd rounding =
       rounding_at(texts_, jump.t, jump.after, texts_.by_variable(jump.after.cwiseAbs()));
-  for (std::size_t e = 0; e < memory_.size(); ++e) {
-    if (!has_crossing(e)) continue;
-    const bool comes_to_zero = is_zero(e, jump.after) && !is_zero(e, jump.before);
-    if (e == jump.event || comes_to_zero) forget_side(e, jump.after, rounding, comes_to_zero);
-  }
+  for (std::size_t e = 0; e < memory_.size(); ++e)
+    if (has_crossing(e)) side_after(e, jump, rounding);
   check_numbers(part, jump.t, jump.after);
 }
 

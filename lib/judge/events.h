@@ -37,13 +37,16 @@ class EventCheck {
   Truth without_if(std::size_t event, double t, const Eigen::VectorXd& x,
                    const Eigen::VectorXd& rounding);
   bool has_crossing(std::size_t event) const { return texts_.events[event].crossing.has_value(); }
-  bool is_zero(std::size_t event, const Eigen::VectorXd& x) {
-    return (*texts_.events[event].crossing)(x)(0, 0) == 0;
+  double crossing(std::size_t event, const Eigen::VectorXd& x) {
+    return (*texts_.events[event].crossing)(x)(0, 0);
   }
   void remember_side(std::size_t event, const Eigen::VectorXd& x, const Eigen::VectorXd& rounding);
   /// From the start or a jump on nothing of before counts. `at_zero`: if it led to exactly 0.
   void forget_side(std::size_t event, const Eigen::VectorXd& x, const Eigen::VectorXd& rounding,
                    bool at_zero);
+  /// The side after a jump, of the event itself or of another one.
+  void side_after(std::size_t event, const hybrid::JumpPoint& jump,
+                  const Eigen::VectorXd& rounding);
 
   Texts& texts_;
   Faults& faults_;

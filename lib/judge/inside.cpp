@@ -175,8 +175,8 @@ void FlowInside::watch_crossing(const hybrid::FlowPiece& piece, const std::vecto
   const std::string what = "crosses zero inside a flow: " + texts_.dynamics.events[event].name;
   Text& crossing = *texts_.events[event].crossing;
   const model::Dynamics::EventKind kind = texts_.dynamics.events[event].kind;
-  int& known = memory_[event].side;
-  bool& at_zero = memory_[event].at_zero;
+  EventMemory& memory = memory_[event];
+  int& known = memory.side;
   const auto side_at = [&](const Sample& at) {
     return side_of(crossing, at.x, rounding_at(texts_, at.t, at.x, at.sizes));
   };
@@ -185,13 +185,13 @@ void FlowInside::watch_crossing(const hybrid::FlowPiece& piece, const std::vecto
   for (std::size_t k = 1; k + 1 < all.size(); ++k) {
     const int now = side_at(all[k]);
     if (now == 0) continue;
-    if (fires(kind, known, now) || (at_zero && leaves_zero(kind, now))) {
+    if (fires(kind, known, now) || (memory.at_zero && leaves_zero(kind, now))) {
       const auto is_there = [&](double t) { return now * crossing(sample(piece, t).x)(0, 0) > 0; };
       const double t = entry(all[k - 1].t, all[k].t, is_there);
       if (must_jump(event, sample(piece, t))) faults_.add(part_, t, what);
     }
     known = now;
-    at_zero = false;
+    memory.at_zero = memory.near_zero = false;
     // The value nearest to 0 between points on one side: a pair of crossings holds one of each
     // direction.
     if (now * values[k - 1] <= 0 || now * values[k + 1] <= 0) continue;

@@ -21,6 +21,7 @@ namespace gainsmith::judge {
 struct EventMemory {
   int side = 0;  ///< of a crossing: on which e was last, for sure; 0 after its own jump
   bool at_zero = false;  ///< the start or a jump led e to exactly 0, and it has not left it
+  bool near_zero = false;  ///< a jump led e to 0 up to rounding, and it has not left that
   bool spent = false;  ///< `when`: rejected by `if`, not due until its condition has been false
   std::optional<EventClock> clock;
   double last = 0;  ///< the time of the last jump
