@@ -184,6 +184,20 @@ bool EventDoubts::is_on_step(const Instant& at) {
   }
 }
 
+/// Whether a jump leads it to 0, up to its error, and it is not sure to be 0, up to rounding.
+bool EventDoubts::leads_to_zero(EventFunction& crossing, std::size_t jump) {
+  const auto& own = std::get<TwinJump>(twins_->parts[jump]);
+  const VectorXd after = whole(own.jump->after);
+  const double before = std::abs(element(crossing, whole(own.jump->before), 0));
+  const double value = element(crossing, after, 0);
+  const double twin = element(crossing, whole(own.twin_after), 0);
+  const double noise = noise_of(crossing, after, 0);
+  const double error = error_factor(*system_) * std::abs(value - twin) + noise +
+                       hybrid::kTermRounding * before;
+  return std::abs(value) <= error && error < before &&
+         std::fmax(std::abs(value), std::abs(twin)) > noise;
+}
+
 /// Those that a flow changes, of a condition all its elements.
 std::vector<EventDoubts::Guard> EventDoubts::guards(std::size_t event, const Instant& at) {
   std::vector<Guard> result;
@@ -333,6 +347,10 @@ std::optional<std::string> EventDoubts::of_jump(std::size_t jump) {
   if (is_on_step(*at))
     return fmt::format("t = {}: the jump of {} takes a step within the errors of its values",
                        brief(at->t, 12), events[own].name);
+  for (std::size_t other = 0; other < events.size(); ++other)
+    if (watch_.crossing[other] && leads_to_zero(*watch_.crossing[other], jump))
+      return fmt::format("t = {}: the jump of {} leads that of which {} is a crossing to 0, up to its error",
+                         brief(at->t, 12), events[own].name, events[other].name);
   const auto has_happened = [&](std::size_t event) {
     return event == at->event || happened_[event];
   };

@@ -6,6 +6,7 @@
 //           come before or after, and whose maps do not commute on that state
 //   step    what a map branches on (expr/branches.h), by a jump of its value, lies within its error:
 //           a number that is rounded, next to a tie
+//   zero    a jump leads what an event is a crossing of to 0, up to its error: leaving 0 is a crossing
 //
 // The error of a guard has three parts: that of the difference of the two runs, what its terms
 // round, and its rate times the error of the time of the other event. Clocks strike when they do:
@@ -73,6 +74,7 @@ class EventDoubts {
   bool may_happen(std::size_t event, const Instant& at, const std::vector<Guard>& guards);
   bool stays(const Instant& at, const Eigen::VectorXd& values);
   bool is_on_step(const Instant& at);
+  bool leads_to_zero(hybrid::EventFunction& crossing, std::size_t jump);
   std::optional<std::string> clocks_after(std::size_t jump, const Instant& at);
   bool fires(std::size_t event, const std::vector<Guard>& guards, const Instant& at,
              const Eigen::VectorXd& values);

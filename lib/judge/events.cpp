@@ -70,13 +70,14 @@ void EventCheck::side_after(std::size_t event, const hybrid::JumpPoint& jump,
   }
   forget_side(event, jump.after, rounding, comes_to_zero);
   if (comes_to_zero || !near || side_of(text, jump.before, rounding) != 0) return;
-  // It has crossed 0 and stays there. What crosses both ways may be on either side.
+  // It has crossed 0 and stays there, on the side to which it has.
   const model::Dynamics::EventKind kind = texts_.dynamics.events[event].kind;
-  for (const int to : {-1, 1})
-    if (leaves_zero(kind, to) && (!leaves_zero(kind, -to) || (to * before > 0 && to * after > 0))) {
-      memory.side = to;
-      memory.near_zero = false;
-    }
+  int to = before > 0 ? 1 : before < 0 ? -1 : 0;
+  for (const int only : {-1, 1})
+    if (!leaves_zero(kind, -only)) to = only;
+  if (to == 0 || (after != before && to * after <= 0)) return;
+  memory.side = to;
+  memory.near_zero = false;
 }
 
 Truth EventCheck::without_if(std::size_t event, double t, const Eigen::VectorXd& x,
@@ -133,7 +134,8 @@ void EventCheck::instant(std::size_t part, double t, const Eigen::VectorXd& x,
     else if (is_due == Truth::yes)
       faults_.add(part, t, "is due, but does not jump: " + name);
     EventMemory& memory = memory_[e];
-    const Truth occurs = is_due == Truth::no ? without_if(e, t, x, rounding) : Truth::no;
+    auto& only_if = texts_.events[e].only_if;
+    const Truth occurs = only_if && !(*only_if)(x) ? without_if(e, t, x, rounding) : Truth::no;
     const bool is_spent = occurs == Truth::yes;
     if (is_spent && memory.clock) memory.clock->spent(t);
     if (auto& condition = texts_.events[e].condition)
@@ -142,6 +144,8 @@ void EventCheck::instant(std::size_t part, double t, const Eigen::VectorXd& x,
       forget_side(e, x, rounding, false);
     else if (has_crossing(e) && is_due != Truth::unsure)
       remember_side(e, x, rounding);
+    // Within its rounding it may have crossed 0 in the other direction.
+    if (has_crossing(e) && memory.side * crossing(e, x) < 0) memory.near_zero = true;
   }
 }
 

@@ -184,7 +184,11 @@ void FlowInside::watch_crossing(const hybrid::FlowPiece& piece, const std::vecto
   for (const Sample& one : all) values.push_back(crossing(one.x)(0, 0));
   for (std::size_t k = 1; k + 1 < all.size(); ++k) {
     const int now = side_at(all[k]);
-    if (now == 0) continue;
+    if (now == 0) {
+      // It may have crossed 0 in the other direction, or have come back to it.
+      if (known * values[k] <= 0) memory.near_zero = true;
+      continue;
+    }
     if (fires(kind, known, now) || (memory.at_zero && leaves_zero(kind, now))) {
       const auto is_there = [&](double t) { return now * crossing(sample(piece, t).x)(0, 0) > 0; };
       const double t = entry(all[k - 1].t, all[k].t, is_there);

@@ -15,11 +15,17 @@ bool LaneSet::settle(std::size_t l) {
       lane.claims[c].at(lane.t, reading(c, l, start_, coarse_start_), lane.jumped);
     if (lane.claims[c].open()) return open(Why::claim);
   }
-  // All of them at the start: an event that comes first may lead others through 0.
-  for (std::size_t e = 0; e < pack_.events.size(); ++e)
-    if (const auto& crossing = pack_.events[e].crossing;
-        crossing && (lane.fresh || lane.jumped == e))
-      lane.signs[e] = side_of(*crossing, lane);
+  // All of them at the start, and those that are led to 0 up to rounding: an event that comes first
+  // may lead others through 0.
+  for (std::size_t e = 0; e < pack_.events.size(); ++e) {
+    const auto& crossing = pack_.events[e].crossing;
+    if (!crossing) continue;
+    const std::size_t w = crossing->watch;
+    const bool zero = lane.sides[w] == 0 ||
+                      (!pack_.watches[w].moves && std::abs(start_.at(PackSystem::watch_values, w, l)) <=
+                                                      error_of(w, l, start_, coarse_start_));
+    if (lane.fresh || lane.jumped == e || zero) lane.signs[e] = zero ? 0 : side_of(*crossing, lane);
+  }
   lane.fresh = false;
   lane.jumped.reset();
   return go_on(l);
@@ -127,6 +133,8 @@ bool LaneSet::find_due(std::size_t l) {
     if (event.crossing) {
       const std::int8_t side = side_of(*event.crossing, lane);
       if (side == 0 || lane.signs[e] == 0) return open(Why::sign);
+      // At a root: no crossing if anything else is due there.
+      if (side != lane.signs[e] && lane.phase == Phase::step && !is_wanted(e, side)) continue;
       if (side != lane.signs[e]) {
         lane.crossed[e] = static_cast<char>(is_wanted(e, side));
         if (lane.crossed[e] != 0 && turns_back(event.crossing->watch, l)) return open(Why::order);
@@ -153,6 +161,8 @@ bool LaneSet::find_due(std::size_t l) {
       return true;
     }
   }
+  for (std::size_t e = 0; e < pack_.events.size(); ++e)
+    if (const auto& crossing = pack_.events[e].crossing) lane.signs[e] = side_of(*crossing, lane);
   return true;
 }
 

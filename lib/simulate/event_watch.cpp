@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "simulate/crossings_on_step.h"
 
@@ -127,16 +126,17 @@ std::vector<double> EventWatch::crossings(
       return;
     if (times.empty()) times = ode::first_points(inside.from(), inside.to());
     CrossingsOnStep on_step(function, inside, times);
-    double before = 0;
-    if (role.of == hybrid::NearTurn::Of::crossing)
-      before = std::exchange(rounding_[role.index], on_step.noise()(0));
+    if (role.of == hybrid::NearTurn::Of::crossing) {
+      on_step.round_times(rounding_[role.index]);
+      rounding_[role.index] = on_step.noise()(0);
+    }
     for (Index element = 0; element < function.size(); ++element) {
       if (!apart.empty() && apart[static_cast<std::size_t>(element)] != 0) continue;
       if (hidden != nullptr)
         if (const auto early = on_step.hidden_turn(element); early && early < hidden->value_or(1))
           *hidden = early;
       if (role.of == hybrid::NearTurn::Of::crossing)
-        if (const auto left = on_step.leaves_zero(element, before)) result.push_back(*left);
+        if (const auto left = on_step.leaves_zero(element)) result.push_back(*left);
       ode::Found found;
       for (const bool strict : {true, false}) {
         if (!(strict ? sides.above : sides.at_least)) continue;
