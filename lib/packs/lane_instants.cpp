@@ -22,8 +22,8 @@ bool LaneSet::settle(std::size_t l) {
     if (!crossing) continue;
     const std::size_t w = crossing->watch;
     const bool zero = lane.sides[w] == 0 ||
-                      (!pack_.watches[w].moves && std::abs(start_.at(PackSystem::watch_values, w, l)) <=
-                                                      error_of(w, l, start_, coarse_start_));
+                      (!pack_.watches[w].moves &&
+                       std::abs(start_.at(PackSystem::watch_values, w, l)) <= error_here(w, l));
     if (lane.fresh || lane.jumped == e || zero) lane.signs[e] = zero ? 0 : side_of(*crossing, lane);
   }
   lane.fresh = false;
@@ -41,7 +41,7 @@ bool LaneSet::find_sides(std::size_t l) {
         return open(Why::sign);
       continue;
     }
-    const double error = std::max(error_of(w, l, start_, coarse_start_), lane.zero[w]);
+    const double error = std::max(error_here(w, l), lane.zero[w]);
     const bool is_new = lane.fresh || (lane.jumped && lane.before[w] != 0);
     if (is_crossing_[w] && is_new && is_exact_zero(w, l)) {
       if (!leave_zero(w, l)) return false;
@@ -191,6 +191,12 @@ bool LaneSet::begin_flow(std::size_t l) {
     if (lane.relevant[w] != 0 && lane.sides[w] == 0 && pack_.watches[w].moves &&
         is_exact_zero(w, l))
       lane.sides[w] = leaving_side(w, l);
+  const auto becomes_due = [&](std::size_t e) {
+    const auto& when = pack_.events[e].when;
+    return when && lane.spent[e] == 0 && truth(*when, pack_.watches, lane.sides) == Truth::yes;
+  };
+  for (std::size_t e = 0; e < pack_.events.size(); ++e)
+    if (becomes_due(e)) return open(Why::sign);
   if (lane.moved) {
     move(l, coarse_, coarse_start_, -lane.coarse_shift);
     move(l, fine_, start_, -lane.fine_shift);

@@ -60,6 +60,11 @@ class LaneSet {
                                          coarse.at(PackSystem::watch_values, w, l)) +
            hybrid::kTermRounding * fine.at(PackSystem::watch_terms, w, l);
   }
+  /// The same now, where a jump may have led it to 0 from far away.
+  double error_here(std::size_t w, std::size_t l) const {
+    const double before = lanes_[l]->jumped ? std::abs(lanes_[l]->before[w]) : 0;
+    return error_of(w, l, start_, coarse_start_) + hybrid::kTermRounding * before;
+  }
   void evaluate_all(std::uint32_t mask);
   /// With what the claims of lanes that begin are compared; the lanes in which it has no value.
   std::uint32_t begin_claims(std::uint32_t mask);

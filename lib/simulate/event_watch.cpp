@@ -30,10 +30,11 @@ double line_root(const std::function<double(double)>& g, bool strict, double t, 
 }
 
 /// What comes to 0 within one instant has done so at the last of its times, in the order of events.
-std::vector<double> last_of_instants(const std::vector<double>& times) {
+/// `length`: of the step, whose rounding tells times apart no better.
+std::vector<double> last_of_instants(const std::vector<double>& times, double length = 0) {
   std::vector<double> result;
   for (const double t : times) {
-    if (!result.empty() && t - result.back() <= hybrid::kOneInstant * t)
+    if (!result.empty() && t - result.back() <= hybrid::kOneInstant * std::max(t, length))
       result.back() = t;
     else
       result.push_back(t);
@@ -135,14 +136,16 @@ std::vector<double> EventWatch::crossings(
       if (hidden != nullptr)
         if (const auto early = on_step.hidden_turn(element); early && early < hidden->value_or(1))
           *hidden = early;
-      if (role.of == hybrid::NearTurn::Of::crossing)
-        if (const auto left = on_step.leaves_zero(element)) result.push_back(*left);
+      // Before it has left 0, no root is more than rounding.
+      const auto left = on_step.leaves_zero(element);
+      if (left) result.push_back(*left);
       ode::Found found;
       for (const bool strict : {true, false}) {
         if (!(strict ? sides.above : sides.at_least)) continue;
         if (strict || !sides.above || found.meets_zero)
           found = on_step.roots(element, strict, near);
-        for (const ode::Root& root : found.roots) result.push_back(root.right);
+        for (const ode::Root& root : found.roots)
+          if (!left || root.right > *left) result.push_back(root.right);
         for (const ode::TurningPoint& one : found.turning_points) {
           if (!decides(role, inside.at(one.t))) continue;
           const std::string text = role.condition == nullptr
@@ -156,7 +159,7 @@ std::vector<double> EventWatch::crossings(
     }
   });
   std::sort(result.begin(), result.end());
-  return last_of_instants(result);
+  return last_of_instants(result, inside.to() - inside.from());
 }
 
 double EventWatch::next_line(const VectorField& field, double t, double last,
