@@ -200,8 +200,8 @@ int compare(const std::vector<std::string>& files, std::uint64_t runs) {
       "{} files, {} runs: {} undecided, {} early; many at once decided {} of linear ({} asked), {} "
       "of flights ({} asked), {} of packs ({} asked); {} figures, {} unknown; {} differences\n",
       files.size(), all.runs, all.undecided, all.early, all.decided[0], all.asked[0],
-      all.decided[1], all.asked[1], all.decided[2], all.asked[2], all.figures,
-      all.unknown, all.differences.size());
+      all.decided[1], all.asked[1], all.decided[2], all.asked[2], all.figures, all.unknown,
+      all.differences.size());
   return all.differences.empty() ? 0 : 1;
 }
 

@@ -192,8 +192,8 @@ bool EventDoubts::leads_to_zero(EventFunction& crossing, std::size_t jump) {
   const double value = element(crossing, after, 0);
   const double twin = element(crossing, whole(own.twin_after), 0);
   const double noise = noise_of(crossing, after, 0);
-  const double error = error_factor(*system_) * std::abs(value - twin) + noise +
-                       hybrid::kTermRounding * before;
+  const double error =
+      error_factor(*system_) * std::abs(value - twin) + noise + hybrid::kTermRounding * before;
   return std::abs(value) <= error && error < before &&
          std::fmax(std::abs(value), std::abs(twin)) > noise;
 }
@@ -349,8 +349,9 @@ std::optional<std::string> EventDoubts::of_jump(std::size_t jump) {
                        brief(at->t, 12), events[own].name);
   for (std::size_t other = 0; other < events.size(); ++other)
     if (watch_.crossing[other] && leads_to_zero(*watch_.crossing[other], jump))
-      return fmt::format("t = {}: the jump of {} leads that of which {} is a crossing to 0, up to its error",
-                         brief(at->t, 12), events[own].name, events[other].name);
+      return fmt::format(
+          "t = {}: the jump of {} leads that of which {} is a crossing to 0, up to its error",
+          brief(at->t, 12), events[own].name, events[other].name);
   const auto has_happened = [&](std::size_t event) {
     return event == at->event || happened_[event];
   };

@@ -80,6 +80,10 @@ class Pairs {
   bool at_once() {
     const Instant own = next(run_, at_);
     const Instant other = next(twin_, other_);
+    // At the start no flow tells them apart: each has jumps that the other has not.
+    const auto at_start = [](const Instant::Jump& jump) { return jump.point->t == 0; };
+    if (std::ranges::all_of(own.jumps, at_start) && std::ranges::all_of(other.jumps, at_start))
+      return false;
     std::map<Key, int> open;
     const auto add = [&](const JumpPoint& jump, int by) {
       if ((open[key_of(jump)] += by) == 0) open.erase(key_of(jump));

@@ -36,7 +36,8 @@ EventCheck::EventCheck(Texts& texts, const hybrid::Trajectory& trajectory, Fault
     const EventKind kind = texts.dynamics.events[e].kind;
     if (kind == EventKind::every || kind == EventKind::at)
       memory_[e].clock.emplace(texts, e, jump_times(trajectory, e), trajectory.start, faults);
-    if (has_crossing(e)) forget_side(e, trajectory.start, rounding, crossing(e, trajectory.start) == 0);
+    if (has_crossing(e))
+      forget_side(e, trajectory.start, rounding, crossing(e, trajectory.start) == 0);
   }
 }
 
@@ -64,6 +65,7 @@ void EventCheck::side_after(std::size_t event, const hybrid::JumpPoint& jump,
   const bool comes_to_zero = after == 0 && before != 0;
   Text& text = *texts_.events[event].crossing;
   const bool near = side_of(text, jump.after, rounding) == 0;
+  if (after != before || event == jump.event) memory.spent = false;
   if (event != jump.event && !comes_to_zero) {
     memory.near_zero = memory.near_zero || (near && after != before);
     return;
@@ -78,6 +80,7 @@ void EventCheck::side_after(std::size_t event, const hybrid::JumpPoint& jump,
   if (to == 0 || (after != before && to * after <= 0)) return;
   memory.side = to;
   memory.near_zero = false;
+  memory.spent = true;
 }
 
 Truth EventCheck::without_if(std::size_t event, double t, const Eigen::VectorXd& x,
@@ -105,7 +108,8 @@ Truth EventCheck::without_if(std::size_t event, double t, const Eigen::VectorXd&
   if (memory.near_zero && leaves_zero(kind, now))
     return memory.at_zero && certain == now ? Truth::yes : Truth::unsure;
   // Just before zero: the run may have stopped there by rounding.
-  return certain == 0 && fires(kind, memory.side, -memory.side) ? Truth::unsure : Truth::no;
+  const bool may_stop = !memory.spent && certain == 0 && fires(kind, memory.side, -memory.side);
+  return may_stop ? Truth::unsure : Truth::no;
 }
 
 Truth EventCheck::due(std::size_t event, double t, const Eigen::VectorXd& x,

@@ -177,6 +177,7 @@ void FlowInside::watch_crossing(const hybrid::FlowPiece& piece, const std::vecto
   const model::Dynamics::EventKind kind = texts_.dynamics.events[event].kind;
   EventMemory& memory = memory_[event];
   int& known = memory.side;
+  memory.spent = false;
   const auto side_at = [&](const Sample& at) {
     return side_of(crossing, at.x, rounding_at(texts_, at.t, at.x, at.sizes));
   };

@@ -19,10 +19,12 @@ namespace gainsmith::judge {
 
 /// What one event has seen so far.
 struct EventMemory {
-  int side = 0;  ///< of a crossing: on which e was last, for sure; 0 after its own jump
-  bool at_zero = false;  ///< the start or a jump led e to exactly 0, and it has not left it
+  int side = 0;            ///< of a crossing: on which e was last, for sure; 0 after its own jump
+  bool at_zero = false;    ///< the start or a jump led e to exactly 0, and it has not left it
   bool near_zero = false;  ///< a jump led e to 0 up to rounding, and it has not left that
-  bool spent = false;  ///< `when`: rejected by `if`, not due until its condition has been false
+  /// `when`: rejected by `if`, not due until its condition has been false. Of a crossing: it has
+  /// left e at 0, up to rounding, and nothing has changed that.
+  bool spent = false;
   std::optional<EventClock> clock;
   double last = 0;  ///< the time of the last jump
   std::int64_t count = 0;

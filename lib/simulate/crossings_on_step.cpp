@@ -84,9 +84,10 @@ void CrossingsOnStep::round_times(double before) {
     for (std::size_t k = 1; k < times_.size(); ++k)
       rate = std::fmax(rate, std::abs(value(e, times_[k]) - value(e, times_[k - 1])) /
                                  (times_[k] - times_[k - 1]));
-    noise_(e) += part * rate;
-    const double start = std::abs(value(e, inside_.from()));
-    if (start <= before) noise_(e) = std::fmax(noise_(e), start);
+    const double start = value(e, inside_.from());
+    noise_(e) +=
+        part * rate + std::abs(value(e, std::nextafter(inside_.from(), inside_.to())) - start);
+    if (std::abs(start) <= before) noise_(e) = std::fmax(noise_(e), std::abs(start));
   }
 }
 

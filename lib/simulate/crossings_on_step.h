@@ -22,8 +22,8 @@ class CrossingsOnStep {
   CrossingsOnStep(hybrid::EventFunction& function, const StepValues& inside,
                   const std::vector<double>& times);
 
-  /// Adds to the noise what a few units in the last place of times make of it, as roots lie at such;
-  /// and its start, where that is noise of the step `before`.
+  /// Adds to the noise what a few units in the last place of times make of it, as roots lie at such,
+  /// and what the step is off at its start; and the start, where that is noise of the step `before`.
   void round_times(double before);
   /// `near`: of the terms, as RootFunction::near.
   ode::Found roots(Eigen::Index element, bool strict, double near = 0);

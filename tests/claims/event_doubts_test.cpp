@@ -81,6 +81,22 @@ TEST(EventDoubts, ACrossingByAJumpBesideAnotherEvent) {
 }
 
 /// x(1) = sin(t) turns at 1, which the guard x(1) - 1 only just reaches.
+/// To 0 by three thirds: whether that is left, or crossed, is a matter of rounding.
+TEST(EventDoubts, AJumpToZeroUpToItsErrorIsUncertain) {
+  const auto with = [](const std::string& to) {
+    EventProblem problem;
+    problem.state("x", {}, "0.7").flow("x", "1").state("p", {}, "3").flow("p", "-0.1");
+    problem.crossing(EventKind::rises, "first", "x - 1").jump("first", {{"p", to}});
+    problem.crossing(EventKind::falls, "second", "p");
+    return Runs(problem).doubt();
+  };
+  const auto doubt = with("p - 2.97 + 1e-16*sin(x)");
+  ASSERT_TRUE(doubt);
+  EXPECT_NE(doubt->find("second"), std::string::npos) << *doubt;
+  EXPECT_FALSE(with("0"));
+  EXPECT_FALSE(with("p - 2.9"));
+}
+
 TEST(EventDoubts, ATurningPointWithinTheErrorIsUncertain) {
   EventProblem problem;
   problem.state("x", {2, 1}, "[0; 1]").flow("x", "[x(2); -x(1)]");

@@ -171,6 +171,73 @@ TEST(JudgedCrossings, ComeWhereZeroIsLeft) {
   EXPECT_TRUE(has_fault(judged(1, 1, 2), 1, "jumps, but is not due: down"));
 }
 
+/// A jump leads to 0 but for rounding: the crossing comes there or a moment later, and once.
+TEST(JudgedCrossings, ComeOnceWhereRoundingHidesThem) {
+  DynamicsText text;
+  text.state("x", 1, "1", "-1").at("kick", {"0.5"}).rises("up", "x");
+  text.state("n", 1, "", "0").reacts("kick", {{"x", "1e-17"}}).reacts("up", {{"n", "n + 1"}});
+  const model::Dynamics dynamics = text.dynamics();
+  const auto judged = [&](int at_once, int later) {
+    double n = 0;
+    ReferenceRun run(column_of({-1, 0}), 1);
+    const auto flow = [&](double until, double zero) {
+      run.flow(until, [=](double t) { return column_of({t - zero, n}); });
+    };
+    const auto jumps = [&](int times) {
+      for (int k = 0; k < times; ++k) run.jump(1, column_of({run.x()(0), ++n}));
+    };
+    flow(0.5, 1);
+    run.jump(0, column_of({1e-17, 0}));
+    jumps(at_once);
+    flow(0.5 + 1e-14, 0.5);
+    jumps(later);
+    flow(1, 0.5);
+    return check_trajectory(run.end(), dynamics, text.stated());
+  };
+  EXPECT_TRUE(judged(1, 0).empty()) << to_text(judged(1, 0));
+  EXPECT_TRUE(judged(0, 1).empty()) << to_text(judged(0, 1));
+  EXPECT_TRUE(has_fault(judged(0, 0), 3, "crosses zero inside a flow: up"))
+      << to_text(judged(0, 0));
+  EXPECT_TRUE(has_fault(judged(2, 0), 3, "jumps, but is not due: up")) << to_text(judged(2, 0));
+  EXPECT_TRUE(has_fault(judged(1, 1), 4, "jumps, but is not due: up")) << to_text(judged(1, 1));
+}
+
+/// Its own jump turns back what has crossed 0 by rounding alone.
+TEST(JudgedCrossings, ComeAgainWhereTheirJumpTurnsBack) {
+  DynamicsText text;
+  text.state("x", 1, "1 - 2*q", "-0.5").mode("q", "0").crosses("c", "x").rises("r", "x");
+  text.reacts("c", {{"q", "1"}});
+  const model::Dynamics dynamics = text.dynamics();
+  const auto judged = [&](int more, std::size_t event = 0) {
+    ReferenceRun run(column_of({-0.5, 0}), 1);
+    run.flow(0.5, [](double t) { return column_of({t == 0.5 ? 5e-17 : t - 0.5, 0}); });
+    run.jump(0, column_of({5e-17, 1})).jump(1, column_of({5e-17, 1}));
+    const double back = 0.5 + 2e-14;
+    const auto flow = [](double t) { return column_of({0.5 + 5e-17 - t, 1}); };
+    run.flow(back, flow);
+    for (int k = 0; k < more; ++k) run.jump(event, run.x());
+    run.flow(1, flow);
+    return check_trajectory(run.end(), dynamics, text.stated());
+  };
+  EXPECT_TRUE(judged(1).empty()) << to_text(judged(1));
+  EXPECT_TRUE(has_fault(judged(0), 4, "crosses zero inside a flow: c")) << to_text(judged(0));
+  EXPECT_TRUE(has_fault(judged(2), 5, "jumps, but is not due: c")) << to_text(judged(2));
+  EXPECT_TRUE(has_fault(judged(1, 1), 4, "jumps, but is not due: r")) << to_text(judged(1, 1));
+}
+
+/// What `if` has rejected does not come where a later jump of the same instant makes it true.
+TEST(JudgedCrossings, AreRejectedOnceByIf) {
+  DynamicsText text;
+  text.state("x", 1, "0", "0").at("tick", {"0.5"}).only_if("x > 0").at("kick", {"0.5"});
+  text.reacts("kick", {{"x", "1"}});
+  const model::Dynamics dynamics = text.dynamics();
+  ReferenceRun run(column_of({0}), 1);
+  run.flow(0.5, [](double) { return column_of({0}); }).jump(1, column_of({1}));
+  run.flow(1, [](double) { return column_of({1}); });
+  const auto faults = check_trajectory(run.end(), dynamics, text.stated());
+  EXPECT_TRUE(faults.empty()) << to_text(faults);
+}
+
 /// A pair of crossings between two of the points at which conditions are looked at.
 TEST(JudgedCrossings, PairsInsideOneStepAreFound) {
   DynamicsText text;

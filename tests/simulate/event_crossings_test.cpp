@@ -111,6 +111,52 @@ TEST(EventRun, ABallThatBouncesAtExactlyZeroBouncesToItsRest) {
     }
 }
 
+/// A start on a surface, from which the flow leads away, and what the rounding of a step shows of it.
+TEST(EventRun, AwayFromASurfaceNothingHappens) {
+  for (const double start : {-1.0, 0.0, 0.5, 1.0})
+    for (const char* flow : {"0.5", "0.5 + cos(5*t) - 0.1*h", "0.3 + 0.2*abs(h)"}) {
+      EventProblem problem;
+      problem.state("h", {}, std::to_string(start)).flow("h", flow);
+      problem.state("n", {}, "0");
+      const std::string away = "h - (" + std::to_string(start) + ")";
+      problem.when("below", "h < " + std::to_string(start) + " and n < 1");
+      problem.jump("below", {{"n", "n + 1"}});
+      problem.crossing(EventKind::falls, "falls", away);
+      const hybrid::Trajectory run = simulate(problem.system(), 0.2);
+      EXPECT_TRUE(jump_times(run, 0).empty()) << start << ", " << flow;
+      EXPECT_TRUE(jump_times(run, 1).empty()) << start << ", " << flow;
+    }
+}
+
+/// x2 crosses 0 fast, by units of its time, and the jump turns it back slowly.
+TEST(EventRun, ACrossingBackFromARootOfAFastFlowIsMet) {
+  for (int k = 0; k < 40; ++k) {
+    EventProblem problem;
+    problem.state("x", {}, std::to_string(0.7 + 0.01 * k)).state("m", {}, "-11.3");
+    problem.flow("x", "m + 0*sin(x)").state("n", {}, "0");
+    problem.crossing(EventKind::crosses, "c", "x").jump("c", {{"m", "0.13"}, {"n", "n + 1"}});
+    const hybrid::Trajectory run = simulate(problem.system(), 2);
+    const std::vector<double> times = jump_times(run, 0);
+    ASSERT_EQ(times.size(), 2U) << k;
+    EXPECT_NEAR(times[1], times[0], 1e-11) << k;
+  }
+}
+
+/// Two events share a surface, and the jump of the second leads back.
+TEST(EventRun, ASharedRootIsTheSameForBothHoweverItIsRounded) {
+  for (int k = 0; k < 40; ++k) {
+    EventProblem problem;
+    problem.state("h", {}, std::to_string(0.1 + 0.01 * k)).state("v", {}, "-0.4");
+    problem.flow("h", "v").flow("v", "-4.905");
+    problem.crossing(EventKind::rises, "up", "h + 0.5");
+    problem.crossing(EventKind::crosses, "c", "h + 0.5");
+    problem.jump("c", {{"h", "h + 1"}, {"v", "v + 0.5"}});
+    const hybrid::Trajectory run = simulate(problem.system(), 2.6);
+    EXPECT_TRUE(jump_times(run, 0).empty()) << k;
+    EXPECT_GT(jump_times(run, 1).size(), 3U) << k;
+  }
+}
+
 TEST(EventRun, AnEventWhoseMapLeadsToZeroMayComeAgainAtOnce) {
   EventProblem problem;
   problem.state("h", {}, "1").flow("h", "-1").state("n", {}, "0");

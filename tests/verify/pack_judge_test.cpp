@@ -94,6 +94,54 @@ campaign: {horizon: 1, initial: {x: {box: [1, 2]}}, runs: )yaml";
   }
 }
 
+/// Many runs at once leave open, or agree on, how often an event comes where jumps lead to a root.
+TEST(PackJudge, EventsAtSharedRootsAreCountedAsInSingleRuns) {
+  const std::string text = R"yaml(problem: p
+method:
+  method: m
+  events: {EVENTS}
+  plant: {state: {x: 2}, flow: {x: "[x(2); -4]"}, at: {MAPS}}
+  observer: {state: {zh: {shape: scalar, start: ZH}}, at: {d: {zh: "MAP"}}}
+  claims: {n: {below: count(f), bound: 0.5}}
+campaign: {horizon: 2, runs: 24, initial: {x: {box: [[-0.2, 0.3], [0.5, 1.5]]}}}
+)yaml";
+  struct Case {
+    std::string events, maps, start, map;
+  };
+  const Case cases[] = {// Another event turns back what is just to fall through 0.
+                        {"d: {when: x(1) <= -0.5 and count(d) < 2}, f: {rises: x(1) + 0.5}",
+                         "d: {x: \"[x(1) + 2; 0]\"}", "0", "zh"},
+                        // To 0.3 and 5e-17, and to 0 exactly, and on from there.
+                        {"d: {at: [0.5, 1]}, f: {falls: zh - 0.3}", "d: {x: x}", "-0.5",
+                         "where(t < 0.7, 0.1 + 0.2, -0.3)"},
+                        {"d: {at: [0.5, 1]}, f: {rises: zh}", "d: {x: x}", "1", "1 - zh"},
+                        // From the border of a condition into it.
+                        {"d: {at: [0.5]}, f: {when: x(1) < -0.5 and count(f) < 2}",
+                         "d: {x: \"[-0.5; -0.1]\"}", "0", "zh"},
+                        {"d: {at: [0.5]}, f: {when: x(1) < -0.5 and count(f) < 2}",
+                         "d: {x: \"[-0.5; 0.1]\"}", "0", "zh"}};
+  const auto set = [](std::string& in, const std::string& name, const std::string& to) {
+    in.replace(in.find(name), name.size(), to);
+  };
+  for (const Case& one : cases) {
+    std::string made = text;
+    set(made, "EVENTS", one.events);
+    set(made, "MAPS", one.maps);
+    set(made, "ZH", one.start);
+    set(made, "MAP", one.map);
+    const model::Instance instance = bind::bind(io::read_problem(made));
+    const auto setup = make_setup(instance, {});
+    Judge judge(*setup);
+    const auto verdicts = packs::PackRunner(*make_packs(*setup, 96).any).run(1, 0, 24);
+    for (std::uint64_t run = 0; run < 24; ++run) {
+      const RunVerdict single = judge(1, run);
+      if (verdicts[run].open || single.findings[0].undecided()) continue;
+      EXPECT_EQ(verdicts[run].happened, single.happened) << one.events << ", run " << run;
+      EXPECT_EQ(verdicts[run].claims[0].score, single.findings[0].score) << one.events;
+    }
+  }
+}
+
 /// Held at a bound that a saturated input reaches, and at a start that is the bound.
 TEST(PackJudge, WhatHoldsWhereverStatesAreIsHeld) {
   const std::string text = R"yaml(problem: p
