@@ -26,8 +26,9 @@
 namespace gainsmith {
 namespace {
 
-constexpr double kNear = 1e-5;      ///< relative, and absolute: values at events, figures
-constexpr double kNearPeak = 0.02;  ///< the same: what is said of peaks of many runs at once
+constexpr double kNear = 1e-5;       ///< relative, and absolute: figures
+constexpr double kNearValue = 1e-4;  ///< the same: values at events, of many runs at once
+constexpr double kNearPeak = 0.02;   ///< the same: what is said of peaks of many runs at once
 
 /// A way to make many runs at once.
 struct Kernel {
@@ -149,7 +150,7 @@ class Comparison {
   double near(std::size_t claim, const claims::Finding& finding) const {
     const claims::JudgedClaim& one = setup_->judged().judged[claim];
     if (one.kind == model::ClaimKind::nonincreasing && finding.violated()) return HUGE_VAL;
-    return one.over ? kNear : kNearPeak;
+    return one.over ? kNearValue : kNearPeak;
   }
 
   void figures(std::uint64_t run, const hybrid::Trajectory& shown) {

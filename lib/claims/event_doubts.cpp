@@ -342,16 +342,17 @@ std::optional<std::string> EventDoubts::of_jump(std::size_t jump) {
   const auto& events = system_->dynamics.events;
   const std::size_t own = std::get<TwinJump>(twins_->parts[jump]).jump->event;
   if (events.size() < 2 && breaks_[own].empty()) return std::nullopt;
+  for (std::size_t other = 0; other < events.size(); ++other)
+    if (watch_.crossing[other] && leads_to_zero(*watch_.crossing[other], jump))
+      return fmt::format(
+          "t = {}: the jump of {} leads that of which {} is a crossing to 0, up to its error",
+          brief(std::get<TwinJump>(twins_->parts[jump]).jump->t, 12), events[own].name,
+          events[other].name);
   auto at = instant(jump);
   if (!at) return std::nullopt;
   if (is_on_step(*at))
     return fmt::format("t = {}: the jump of {} takes a step within the errors of its values",
                        brief(at->t, 12), events[own].name);
-  for (std::size_t other = 0; other < events.size(); ++other)
-    if (watch_.crossing[other] && leads_to_zero(*watch_.crossing[other], jump))
-      return fmt::format(
-          "t = {}: the jump of {} leads that of which {} is a crossing to 0, up to its error",
-          brief(at->t, 12), events[own].name, events[other].name);
   const auto has_happened = [&](std::size_t event) {
     return event == at->event || happened_[event];
   };

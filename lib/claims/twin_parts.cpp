@@ -81,7 +81,9 @@ class Pairs {
     const Instant own = next(run_, at_);
     const Instant other = next(twin_, other_);
     // At the start no flow tells them apart: each has jumps that the other has not.
-    const auto at_start = [](const Instant::Jump& jump) { return jump.point->t == 0; };
+    const auto at_start = [&](const Instant::Jump& jump) {
+      return jump.point->t <= kInstantOfRun * run_.end;
+    };
     if (std::ranges::all_of(own.jumps, at_start) && std::ranges::all_of(other.jumps, at_start))
       return false;
     std::map<Key, int> open;

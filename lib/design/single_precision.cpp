@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <set>
 #include <vector>
 
@@ -32,26 +31,19 @@ void round(numbers::Matrix& matrix, const std::string& key, model::Gains& gains)
   gains.decimals[key] = std::move(decimals);
 }
 
-/// What the plant, the observers and the signals read; none where nothing moves.
-std::optional<std::set<std::string>> read_by_runs(const model::Instance& instance,
-                                                  const model::Stated& stated) {
-  if (!instance.design->dynamics) return std::nullopt;
-  std::set<std::string> names;
-  model::for_each_program(*instance.design->dynamics, [&](const expr::Program& program) {
-    for (const expr::Input& input : stated.bodies.link(program).inputs) names.insert(input.name);
-  });
-  return names;
-}
-
 }  // namespace
 
 model::Gains rounded_to_single(const model::Instance& instance, const model::Gains& gains) {
   model::Gains rounded = gains;
-  std::set<std::string> read;
+  std::set<std::string> read, moving;
   const model::Stated stated = bind::state(instance, gains);
-  const auto by_runs = read_by_runs(instance, stated);
+  const auto& dynamics = instance.design->dynamics;
+  if (dynamics)
+    model::for_each_program(*dynamics, [&](const expr::Program& program) {
+      for (const expr::Input& input : stated.bodies.link(program).inputs) moving.insert(input.name);
+    });
   for (auto& [name, matrix] : rounded.gains)
-    if (!by_runs || by_runs->contains(name)) round(matrix, "gains." + name, rounded);
+    if (!dynamics || moving.contains(name)) round(matrix, "gains." + name, rounded);
   for (model::GainFunction& gain : rounded.gain_functions) {
     for (std::size_t k = 0; k < gain.coefficients.size(); ++k)
       round(gain.coefficients[k], model::coefficient_key(gain.name, k), rounded);

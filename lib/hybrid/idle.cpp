@@ -11,33 +11,17 @@ using model::Dynamics;
 
 /// How many values a draw takes in turn, run after run; 0: it is random.
 std::uint64_t values_of(const StartRule& rule) {
-  switch (rule.kind) {
-    case model::StartKind::expression:
-      return 1;
-    case model::StartKind::list:
-      return rule.values.size();
-    case model::StartKind::box:
-      return rule.values[0] == rule.values[1] ? 1 : 0;
-    case model::StartKind::normal:
-    case model::StartKind::lognormal:
-      return rule.values[1].isZero(0) ? 1 : 0;
-    case model::StartKind::ellipsoid:
-      break;
-  }
-  return 0;
+  using Kind = model::StartKind;
+  if (rule.kind == Kind::list) return rule.values.size();
+  if (rule.kind == Kind::box) return rule.values[0] == rule.values[1] ? 1 : 0;
+  if (has_center(rule.kind) && rule.kind != Kind::ellipsoid)
+    return rule.values[1].isZero(0) ? 1 : 0;
+  return rule.kind == Kind::expression ? 1 : 0;
 }
 
 std::uint64_t values_of(const Dynamics::Noise& noise, const System::NoiseValues& rule) {
-  switch (noise.kind) {
-    case Dynamics::NoiseKind::normal:
-    case Dynamics::NoiseKind::lognormal:
-      return rule.values[1].isZero(0) ? 1 : 0;
-    case Dynamics::NoiseKind::uniform:
-      return rule.values[0] == rule.values[1] ? 1 : 0;
-    case Dynamics::NoiseKind::vertices:
-    case Dynamics::NoiseKind::corners:
-      break;
-  }
+  if (noise.has_center()) return rule.values[1].isZero(0) ? 1 : 0;
+  if (noise.kind == Dynamics::NoiseKind::uniform) return rule.values[0] == rule.values[1] ? 1 : 0;
   return rule.stride * rule.values.size();
 }
 

@@ -71,48 +71,67 @@ Images images_of(const std::vector<FactoredBlock<S>>& blocks, Index unknowns) {
 template Images images_of<double>(const std::vector<FactoredBlock<DoubleDouble>>&, Index);
 template Images images_of<DoubleDouble>(const std::vector<FactoredBlock<DoubleDouble>>&, Index);
 
+std::optional<Basis> basis_of(const Images& images, Index first) {
+  Basis of;
+  of.first = first;
+  of.lengths = images.G.colwise().norm();
+  for (Index i = first; i < images.G.cols(); ++i) {
+    if (of.lengths[i] > 0) of.used.push_back(i);
+    if (!(of.lengths[i] > 0) && images.error[i] > 0) return std::nullopt;
+  }
+  const Index m = std::ssize(of.used), size = images.G.rows();
+  if (m == 0) return of;
+  if (size < m) return std::nullopt;
+  const Vector lengths = of.lengths(of.used);
+  of.G = images.G(Eigen::all, of.used) * lengths.cwiseInverse().asDiagonal();
+  of.R = numbers::inverse_of_factor(of.G);
+  const Matrix Q = of.G * of.R;
+  Matrix rest = -Matrix::Identity(m, m);
+  rest.selfadjointView<Eigen::Lower>().rankUpdate(Q.transpose());
+  rest.triangularView<Eigen::StrictlyUpper>() = rest.transpose();
+  const double rows = static_cast<double>(size), columns = static_cast<double>(m);
+  of.roundings = 2 * (rows + columns + 8) * kUnitRoundoff;
+  const double singular = 1 - rest.norm() - of.roundings * Q.squaredNorm();
+  const Vector error =
+      (images.error(of.used).cwiseQuotient(lengths) * (1 + 1e-12)).array() + 4 * kUnitRoundoff;
+  const double moved = error.dot(of.R.rowwise().norm()) +
+                       of.roundings * std::sqrt(columns) * of.R.norm() * (1 + 1e-12);
+  of.sigma = std::sqrt(std::max(0.0, singular)) * (1 - 1e-12) - moved * (1 + 1e-9);
+  // What is not a number is not above it either.
+  if (!(of.sigma > 0.1)) return std::nullopt;
+  return of;
+}
+
+std::optional<Move> move_of(const Basis& by, const ResidualsInDouble& residuals) {
+  for (Index i = by.first; i < residuals.r.size(); ++i)
+    if (!(by.lengths[i] > 0) && (residuals.error[i] > 0 || residuals.r[i] != 0))
+      return std::nullopt;
+  if (by.used.empty()) return Move{};
+  const Vector lengths = by.lengths(by.used);
+  const Vector r = residuals.r(by.used).cwiseQuotient(lengths);
+  const Vector error = residuals.error(by.used).cwiseQuotient(lengths) * (1 + 1e-12) +
+                       (2 * kUnitRoundoff + by.roundings) * r.cwiseAbs();
+  const Vector z = by.R.transpose() * r;
+  const Vector z_error = by.R.cwiseAbs().transpose() * error * (1 + 1e-9);
+  return Move{(z.norm() + z_error.norm()) / by.sigma * (1 + 1e-9), by.R * z};
+}
+
 template <class S>
 bool is_exact_in_double(const std::vector<FactoredBlock<S>>& blocks,
                         const ResidualsInDouble& residuals, bool constant) {
-  const Index unknowns = residuals.r.size();
-  Images images = images_of<double>(blocks, unknowns);
-  const Index size = images.G.rows();
-  Vector r = residuals.r;
-  Vector error = residuals.error;
+  Images images = images_of<double>(blocks, residuals.r.size());
+  ResidualsInDouble rest = residuals;
   if (constant) {
     // y_0 = v makes its own row of the residual 0.
-    images.G(size - 1, 0) = -r[0];
-    images.error[0] += error[0];
-    r[0] = error[0] = 0;
+    images.G(images.G.rows() - 1, 0) = -rest.r[0];
+    images.error[0] += rest.error[0];
+    rest.r[0] = rest.error[0] = 0;
   }
-  // The unknowns that occur in a block.
-  Index used = 0;
-  double norm = 0, moved = 0;
-  for (Index i = constant ? 0 : 1; i < unknowns; ++i) {
-    const double length = images.G.col(i).norm();
-    if (!(length > 0)) {
-      if (images.error[i] > 0) return false;
-      continue;
-    }
-    const double missing = (std::abs(r[i]) + error[i]) / length * (1 + 1e-12);
-    const double change = images.error[i] / length + 4 * kUnitRoundoff;
-    norm += missing * missing;
-    moved += change * change;
-    images.G.col(used++) = images.G.col(i) / length;
-  }
-  if (used == 0) return false;
-  const auto m = static_cast<double>(used);
-  spend(m * m * (static_cast<double>(size) + m / 3) * kBlockWork);
-  const auto G = images.G.leftCols(used);
-  Matrix H = Matrix::Zero(used, used);
-  H.selfadjointView<Eigen::Lower>().rankUpdate(G.transpose());
-  // sigma >= 2 |D r|, so that r' H^-1 r <= 1/4.
-  if (!std::isfinite(norm) || !std::isfinite(moved)) return false;
-  const double sigma = (2 * std::sqrt(norm) + std::sqrt(moved)) * (1 + 1e-9) + 1e-150;
-  const double rounding = 4 * (static_cast<double>(size) + m + 8) * kUnitRoundoff * m;
-  H.diagonal().array() -= sigma * sigma + rounding;
-  H.triangularView<Eigen::StrictlyUpper>() = H.transpose();
-  return static_cast<bool>(numbers::Cholesky(H));
+  const auto m = static_cast<double>(rest.r.size());
+  spend(m * m * (static_cast<double>(images.G.rows()) + m / 3) * kBlockWork);
+  const auto basis = basis_of(images, constant ? 0 : 1);
+  const auto move = basis && !basis->used.empty() ? move_of(*basis, rest) : std::nullopt;
+  return move && move->theta < 1;
 }
 
 template bool is_exact_in_double(const std::vector<FactoredBlock<DoubleDouble>>&,

@@ -6,6 +6,7 @@
 // is smaller than Y_k, so that Y + dY is a certificate without any residual.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "verdict/exact.h"
@@ -35,10 +36,29 @@ struct ResidualsInDouble {
   numbers::Vector error;
 };
 
-/// r' H^-1 r < 1, shown in double. G holds g_i / |g_i|; r' H^-1 r <= |D r|^2 / sigma^2 with D_ii =
-/// 1/|g_i| and sigma the smallest singular value of G, which a Cholesky factorisation of G'G - c I
-/// bounds from below (Rump 2006), less what rounding and the radii of the B_ki change of G. False
-/// says nothing. `constant`: unknown 0 counts, with v > 0.
+/// The g_i of the unknowns that occur, each of length 1, with R near H^-1/2.
+struct Basis {
+  std::vector<Eigen::Index> used;
+  numbers::Vector lengths;  ///< of all g_i; 0: the unknown does not occur
+  numbers::Matrix G, R;
+  Eigen::Index first = 1;  ///< the first unknown that counts
+  double sigma = 1;        ///< at most the smallest singular value of G R
+  double roundings = 0;
+};
+/// Of g_first ... g_m; none where what is known of one does not tell whether it is 0, or they depend
+/// on each other.
+std::optional<Basis> basis_of(const Images& images, Eigen::Index first);
+
+/// theta^2 >= r' H^-1 r: with R near H^-1/2, theta = |R' r| / sigma, sigma the smallest singular
+/// value of G R less what rounding and the radii of the B_ki change of it.
+struct Move {
+  double theta = 0;       ///< rounded upward
+  numbers::Vector steps;  ///< H^-1 r times the lengths of the g_i, about
+};
+/// None where an unknown that does not occur has a residual.
+std::optional<Move> move_of(const Basis& by, const ResidualsInDouble& residuals);
+
+/// theta < 1, shown in double. False says nothing. `constant`: unknown 0 counts, with v > 0.
 template <class S>
 bool is_exact_in_double(const std::vector<FactoredBlock<S>>& blocks,
                         const ResidualsInDouble& residuals, bool constant);

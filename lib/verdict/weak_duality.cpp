@@ -68,66 +68,6 @@ ResidualsInDouble slacks_of(const Factored& of, const Costs& costs) {
   return {rounded, error};
 }
 
-/// The g_i of the unknowns that occur, each of length 1, with R near H^-1/2.
-struct Basis {
-  std::vector<Index> used;
-  Vector lengths;  ///< of all g_i; 0: the unknown does not occur
-  Matrix G, R;
-  double sigma = 1;  ///< at most the smallest singular value of G R
-  double roundings = 0;
-};
-
-/// None where what is known of a g_i does not tell whether it is 0, or they depend on each other.
-std::optional<Basis> basis_of(const Images& images) {
-  Basis of;
-  of.lengths = images.G.colwise().norm();
-  for (Index i = 1; i < images.G.cols(); ++i) {
-    if (of.lengths[i] > 0) of.used.push_back(i);
-    if (!(of.lengths[i] > 0) && images.error[i] > 0) return std::nullopt;
-  }
-  const Index m = std::ssize(of.used), size = images.G.rows();
-  if (m == 0) return of;
-  if (size < m) return std::nullopt;
-  const Vector lengths = of.lengths(of.used);
-  of.G = images.G(Eigen::all, of.used) * lengths.cwiseInverse().asDiagonal();
-  of.R = numbers::inverse_of_factor(of.G);
-  const Matrix Q = of.G * of.R;
-  Matrix rest = -Matrix::Identity(m, m);
-  rest.selfadjointView<Eigen::Lower>().rankUpdate(Q.transpose());
-  rest.triangularView<Eigen::StrictlyUpper>() = rest.transpose();
-  const double rows = static_cast<double>(size), columns = static_cast<double>(m);
-  of.roundings = 2 * (rows + columns + 8) * kUnitRoundoff;
-  const double singular = 1 - rest.norm() - of.roundings * Q.squaredNorm();
-  const Vector error =
-      (images.error(of.used).cwiseQuotient(lengths) * (1 + 1e-12)).array() + 4 * kUnitRoundoff;
-  const double moved = error.dot(of.R.rowwise().norm()) +
-                       of.roundings * std::sqrt(columns) * of.R.norm() * (1 + 1e-12);
-  of.sigma = std::sqrt(std::max(0.0, singular)) * (1 - 1e-12) - moved * (1 + 1e-9);
-  // What is not a number is not above it either.
-  if (!(of.sigma > 0.1)) return std::nullopt;
-  return of;
-}
-
-struct Move {
-  double theta = 0;  ///< rounded upward
-  Vector steps;      ///< H^-1 r times the lengths of the g_i, about
-};
-
-/// None where an unknown has a cost that no block pays for.
-std::optional<Move> move_of(const Basis& by, const ResidualsInDouble& residuals) {
-  for (Index i = 1; i < residuals.r.size(); ++i)
-    if (!(by.lengths[i] > 0) && (residuals.error[i] > 0 || residuals.r[i] != 0))
-      return std::nullopt;
-  if (by.used.empty()) return Move{};
-  const Vector lengths = by.lengths(by.used);
-  const Vector r = residuals.r(by.used).cwiseQuotient(lengths);
-  const Vector error = residuals.error(by.used).cwiseQuotient(lengths) * (1 + 1e-12) +
-                       (2 * kUnitRoundoff + by.roundings) * r.cwiseAbs();
-  const Vector z = by.R.transpose() * r;
-  const Vector z_error = by.R.cwiseAbs().transpose() * error * (1 + 1e-9);
-  return Move{(z.norm() + z_error.norm()) / by.sigma * (1 + 1e-9), by.R * z};
-}
-
 /// Products of numbers, of which double leaves what cancels.
 constexpr double kMostWideWork = 1e8;
 double work_of_images(const std::vector<FactoredBlock<DoubleDouble>>& blocks) {
@@ -229,7 +169,7 @@ std::optional<double> lower_bound(const BlockList& blocks, const Multipliers& Y,
     if (!wide && lift < kLeastInDouble) continue;
     const Images images = wide ? images_of<DoubleDouble>(of->blocks, std::ssize(costs))
                                : images_of<double>(of->blocks, std::ssize(costs));
-    const auto by = basis_of(images);
+    const auto by = basis_of(images, 1);
     if (!by) continue;
     std::optional<double> best;
     for (int k = 0; k < kCorrections; ++k) {

@@ -8,14 +8,28 @@
 #include <utility>
 #include <vector>
 
-#include "io/matrix/mat_layout.h"
 #include "io/matrix/mat_variable.h"
 
 namespace gainsmith::io {
 
 namespace {
 
+constexpr std::size_t kFileHeader = 128;
 constexpr std::size_t kTag = 8;  ///< a type and a length
+
+/// Whether numbers begin with their highest byte, as the end of the header says.
+bool is_big_endian(std::string_view bytes, const std::string& path, const Place& place) {
+  const std::string_view end = bytes.substr(std::min(bytes.size(), kFileHeader - 4), 4);
+  const std::string_view mark = end.substr(std::min<std::size_t>(end.size(), 2));
+  const bool marked = mark == "IM" || mark == "MI";
+  const std::uint64_t version = marked ? word_of(end.substr(0, 2), mark == "MI") : 0;
+  if (version == 0x0100) return mark == "MI";
+  throw InputError(place,
+                   path +
+                       (version == 0x0200 ? ": this is a MAT file of version 7.3, which is not read"
+                                          : ": this is no MAT file of version 5") +
+                       ": save it again, in MATLAB or Octave by save('-v7', 'file.mat', 'A')");
+}
 
 std::string_view behind_tag(std::string_view bytes) {
   return bytes.substr(std::min(kTag, bytes.size()));
@@ -83,7 +97,7 @@ class PartReader {
 
 FileMatrix mat_matrix(const std::string& bytes, const std::string& path, const std::string& name,
                       const Place& place) {
-  constexpr std::size_t kFileHeader = 128, kLongestHeader = 4096;
+  constexpr std::size_t kLongestHeader = 4096;
   // Of a full matrix 8 bytes an element, of a sparse one a row besides; a header.
   constexpr std::size_t kLongest = std::size_t{16} * kMostElements;
   const auto refuse = [&](const std::string& why) {
