@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "ode/chebyshev.h"
 #include "ode/tolerances.h"
@@ -77,20 +76,6 @@ CrossingsOnStep::CrossingsOnStep(hybrid::EventFunction& function, const StepValu
                 .value_or(std::vector<ode::Break>());
 }
 
-void CrossingsOnStep::round_times(double before) {
-  const double part = 4 * std::numeric_limits<double>::epsilon() * inside_.to();
-  for (Index e = 0; e < noise_.size(); ++e) {
-    double rate = 0;
-    for (std::size_t k = 1; k < times_.size(); ++k)
-      rate = std::fmax(rate, std::abs(value(e, times_[k]) - value(e, times_[k - 1])) /
-                                 (times_[k] - times_[k - 1]));
-    const double start = value(e, inside_.from());
-    noise_(e) +=
-        part * rate + std::abs(value(e, std::nextafter(inside_.from(), inside_.to())) - start);
-    if (std::abs(start) <= before) noise_(e) = std::fmax(noise_(e), std::abs(start));
-  }
-}
-
 ode::Found CrossingsOnStep::roots(Index element, bool strict, double near) {
   const ode::RootFunction root_function{[&](double t) { return value(element, t); }, strict,
                                         noise_(element),
@@ -133,9 +118,9 @@ std::optional<double> CrossingsOnStep::hidden_turn(Index element) {
   return std::max((1 + high) / 2, earliest);
 }
 
-std::optional<double> CrossingsOnStep::leaves_zero(Index element) {
+std::optional<double> CrossingsOnStep::leaves_zero(Index element, double rounding) {
   double low = inside_.from();
-  if (!(std::abs(value(element, low)) <= noise_(element))) return std::nullopt;
+  if (!(std::abs(value(element, low)) <= std::max(noise_(element), rounding))) return std::nullopt;
   // Clearly beyond it, so that who evaluates again does not find it within.
   const auto is_noise = [&](double t) {
     return std::abs(value(element, t)) <= 2 * noise_(element);

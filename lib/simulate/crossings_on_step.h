@@ -22,9 +22,6 @@ class CrossingsOnStep {
   CrossingsOnStep(hybrid::EventFunction& function, const StepValues& inside,
                   const std::vector<double>& times);
 
-  /// Adds to the noise what a few units in the last place of times make of it, as roots lie at such,
-  /// and what the step is off at its start; and the start, where that is noise of the step `before`.
-  void round_times(double before);
   /// `near`: of the terms, as RootFunction::near.
   ode::Found roots(Eigen::Index element, bool strict, double near = 0);
   double value(Eigen::Index element, double t);
@@ -32,8 +29,9 @@ class CrossingsOnStep {
   /// where it has hardly left the noise, so that a root may lie in it. Where its first slope is
   /// noise, the shortest part; none where all of it is noise, or where its text branches.
   std::optional<double> hidden_turn(Eigen::Index element);
-  /// Of an element that starts as noise: when it ceases to be.
-  std::optional<double> leaves_zero(Eigen::Index element);
+  /// Of an element that starts as noise, its own or the `rounding` of the step before: when it ceases
+  /// to be.
+  std::optional<double> leaves_zero(Eigen::Index element, double rounding);
   /// Of each element, what its terms may round to.
   const Eigen::VectorXd& noise() const { return noise_; }
 

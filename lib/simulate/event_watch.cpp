@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "simulate/crossings_on_step.h"
 
@@ -30,11 +31,10 @@ double line_root(const std::function<double(double)>& g, bool strict, double t, 
 }
 
 /// What comes to 0 within one instant has done so at the last of its times, in the order of events.
-/// `length`: of the step, whose rounding tells times apart no better.
-std::vector<double> last_of_instants(const std::vector<double>& times, double length = 0) {
+std::vector<double> last_of_instants(const std::vector<double>& times) {
   std::vector<double> result;
   for (const double t : times) {
-    if (!result.empty() && t - result.back() <= hybrid::kOneInstant * std::max(t, length))
+    if (!result.empty() && t - result.back() <= hybrid::kOneInstant * t)
       result.back() = t;
     else
       result.push_back(t);
@@ -127,25 +127,22 @@ std::vector<double> EventWatch::crossings(
       return;
     if (times.empty()) times = ode::first_points(inside.from(), inside.to());
     CrossingsOnStep on_step(function, inside, times);
-    if (role.of == hybrid::NearTurn::Of::crossing) {
-      on_step.round_times(rounding_[role.index]);
-      rounding_[role.index] = on_step.noise()(0);
-    }
+    double before = 0;
+    if (role.of == hybrid::NearTurn::Of::crossing)
+      before = std::exchange(rounding_[role.index], on_step.noise()(0));
     for (Index element = 0; element < function.size(); ++element) {
       if (!apart.empty() && apart[static_cast<std::size_t>(element)] != 0) continue;
       if (hidden != nullptr)
         if (const auto early = on_step.hidden_turn(element); early && early < hidden->value_or(1))
           *hidden = early;
-      // Before it has left 0, no root is more than rounding.
-      const auto left = on_step.leaves_zero(element);
-      if (left) result.push_back(*left);
+      if (role.of == hybrid::NearTurn::Of::crossing)
+        if (const auto left = on_step.leaves_zero(element, before)) result.push_back(*left);
       ode::Found found;
       for (const bool strict : {true, false}) {
         if (!(strict ? sides.above : sides.at_least)) continue;
         if (strict || !sides.above || found.meets_zero)
           found = on_step.roots(element, strict, near);
-        for (const ode::Root& root : found.roots)
-          if (!left || root.right > *left) result.push_back(root.right);
+        for (const ode::Root& root : found.roots) result.push_back(root.right);
         for (const ode::TurningPoint& one : found.turning_points) {
           if (!decides(role, inside.at(one.t))) continue;
           const std::string text = role.condition == nullptr
@@ -159,7 +156,7 @@ std::vector<double> EventWatch::crossings(
     }
   });
   std::sort(result.begin(), result.end());
-  return last_of_instants(result, inside.to() - inside.from());
+  return last_of_instants(result);
 }
 
 double EventWatch::next_line(const VectorField& field, double t, double last,

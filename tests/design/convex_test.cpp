@@ -100,7 +100,7 @@ TEST(ConvexFunctions, NumbersAreComparedWithEachElement) {
 /// An objective with functions of its own needs no other inequality.
 /// The point of a box that is nearest to one outside of it, in each norm.
 TEST(ConvexFunctions, ElementsOfColumnsAndRowsAreCompared) {
-  for (const char* text : {"0 <= x <= 1", "0 <= x' <= 1", "zeros(n, 1) <= x <= ones(n, 1)"}) {
+  for (const char* text : {"0 <= x <= 1", "zeros(1, n) <= x' <= ones(1, n)", "zeros(n, 1) <= x <= ones(n, 1)"}) {
     const model::Gains gains =
         solve(std::string("  data: {b: n}\n  unknowns: {x: n}\n  require: {box: ") + text +
                   "}\n  minimize: norm(x - b)\n",

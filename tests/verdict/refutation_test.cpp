@@ -204,7 +204,7 @@ TEST(RefutationTest, APerturbedCertificateIsJudgedByItsResidual) {
     }
     // As large as the certificate: nothing is shown.
     std::vector<Wide> Y = lyapunov_certificate(A, tests::widened<DoubleDouble>(Y2));
-    Y[0] *= DoubleDouble(3);
+    Y[0] *= DoubleDouble(30);
     const Refutation wrong = refute<DoubleDouble>(posed.of, posed.lmi, asked, in_units(asked, Y));
     EXPECT_FALSE(wrong.exact);
     EXPECT_GT(wrong.backward_error, 0.01);
