@@ -102,8 +102,8 @@ TEST(ConvexFunctions, NumbersAreComparedWithEachElement) {
 TEST(ConvexFunctions, ElementsOfColumnsAndRowsAreCompared) {
   for (const char* text : {"0 <= x <= 1", "zeros(1, n) <= x' <= ones(1, n)", "zeros(n, 1) <= x <= ones(n, 1)"}) {
     const model::Gains gains =
-        solve(std::string("  data: {b: n}\n  unknowns: {x: n}\n  require: {box: ") + text +
-                  "}\n  minimize: norm(x - b)\n",
+        solve(std::string("  data: {b: n}\n  unknowns: {x: n}\n  require: {box: \"") + text +
+                  "\"}\n  minimize: norm(x - b)\n",
               "data: {b: [2, 0.5, -1]}\n");
     ASSERT_EQ(gains.verdict, model::Verdict::yes) << text;
     EXPECT_NEAR(*gains.objective, std::sqrt(2.0), 1e-6) << text;
