@@ -1,5 +1,7 @@
 #include "base/parallel.h"
 
+#include <mpfr.h>
+
 #if defined(__linux__)
 #include <sched.h>
 #endif
@@ -112,6 +114,7 @@ class Team {
         if (calls_ > 0) --calls_;
       }
     }
+    ::mpfr_free_cache2(MPFR_FREE_LOCAL_CACHE);  // the constants that it keeps for each thread
   }
 
   /// The outermost open loop, within `from` when it is given, that has items and room.

@@ -14,6 +14,11 @@ namespace {
 
 bool is_blank_cell(char c) { return c == ' ' || c == '\t'; }
 
+/// Also a carriage return alone.
+bool ends_line(const std::string& text, std::size_t at) {
+  return text[at] == '\n' || (text[at] == '\r' && text[std::min(at + 1, text.size() - 1)] != '\n');
+}
+
 }  // namespace
 
 CsvTable::CsvTable(std::string text, std::string path, FirstLine first)
@@ -77,7 +82,7 @@ CsvTable::Cell CsvTable::cell(std::size_t& at, int& number, std::size_t& line_be
     const Place open{path_, number, static_cast<int>(at - line_begin) + 1};
     found = {++at, at, true};
     while (at < text_.size() && !(text_[at] == '"' && text_.compare(at, 2, "\"\"") != 0)) {
-      if (text_[at] == '\n') ++number, line_begin = at + 1;
+      if (ends_line(text_, at)) ++number, line_begin = at + 1;
       at += text_[at] == '"' ? 2U : 1U;
     }
     if (at >= text_.size()) throw InputError(open, "this quotation mark is not closed");
@@ -161,7 +166,7 @@ Place CsvTable::place(const Line& line, const Cell& cell) const {
   Place place{path_, line.number, 0};
   std::size_t begin = line.begin;
   for (std::size_t k = begin; line.broken && k < at; ++k)
-    if (text_[k] == '\n') ++place.line, begin = k + 1;
+    if (ends_line(text_, k)) ++place.line, begin = k + 1;
   place.column = static_cast<int>(at - begin) + 1;
   return place;
 }
