@@ -74,7 +74,9 @@ class NormalEquations {
     for (Eigen::Index k = 0; k < 10 * s.size() && size > enough; ++k) {
       check_stop();
       const numbers::Vector image = G_ * along - W_ * means(W_.transpose() * along);
-      const double step = size / along.dot(image);
+      const double curvature = along.dot(image);
+      if (!(curvature > 0)) break;  // what is left is rounding
+      const double step = size / curvature;
       s += step * along;
       rest -= step * image;
       const numbers::Vector next = scale.cwiseProduct(rest);
