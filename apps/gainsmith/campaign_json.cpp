@@ -173,7 +173,7 @@ Json to_json(const verify::CampaignFacts& facts) {
                    {"many_at_once", facts.many_at_once}};
   if (facts.different) document["different_runs"] = *facts.different;
   document["events"] = facts.events;
-  document["idle_observers"] = facts.idle_observers;
+  document["doubts"] = facts.doubts;
   document["claims"] = list(facts.claims, [](const verify::ClaimFacts& claim) -> Json {
     return {{"claim", claim.name}, {"kind", to_string(claim.kind)}, {"missing", claim.missing}};
   });
@@ -189,7 +189,7 @@ verify::CampaignFacts facts_from(const JsonReader& reader) {
   facts.many_at_once = reader.at("many_at_once").truth();
   if (reader.has("different_runs")) facts.different = reader.at("different_runs").count();
   facts.events = texts_from(reader.at("events"));
-  facts.idle_observers = texts_from(reader.at("idle_observers"));
+  facts.doubts = texts_from(reader.at("doubts"));
   for (const JsonReader& claim : reader.at("claims").items())
     facts.claims.push_back(
         {claim.at("claim").text(), kind_from(claim.at("kind")), texts_from(claim.at("missing"))});

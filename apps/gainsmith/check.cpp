@@ -16,6 +16,7 @@
 #include "gainsmith/output.h"
 #include "gainsmith/problem_files.h"
 #include "gainsmith/terminal.h"
+#include "hybrid/doubts.h"
 #include "hybrid/idle.h"
 #include "io/json_text.h"
 #include "lmi/compile.h"
@@ -27,6 +28,7 @@ namespace {
 struct CheckOptions {
   std::vector<std::string> problems;
   std::vector<std::string> set;
+  bool strict = false;
   bool json = false;
 };
 
@@ -66,7 +68,7 @@ std::vector<std::string> missing_starts(const model::Design& design) {
 std::vector<std::string> check_runs(const model::Instance& instance) {
   const model::Design& design = *instance.design;
   std::vector<std::string> notes;
-  if (design.dynamics) notes = notes_on_observers(hybrid::idle_observers(*design.dynamics));
+  if (design.dynamics) notes = hybrid::doubts_about(*design.dynamics, instance.values);
   const bool runs = design.dynamics && design.no_campaign.empty() && model::ends(design);
   if (!runs) return notes;
   const std::vector<std::string> nowhere = missing_starts(design);
@@ -146,7 +148,7 @@ void print(const std::string& text, Detail detail) {
 }
 
 /// One file: its result as JSON, printed where JSON is not asked for.
-ExitCode check_file(const std::string& path, const std::vector<std::string>& set, Detail detail,
+ExitCode check_file(const std::string& path, const CheckOptions& options, Detail detail,
                     io::Json& found) {
   if (is_gain_file(path)) {
     const design::GainCheck checked = check_gains(load_gains(path));
@@ -154,8 +156,10 @@ ExitCode check_file(const std::string& path, const std::vector<std::string>& set
     print(gain_check_text(path, checked), detail);
     return exit_of(checked.verdict);
   }
-  const model::Instance instance = load_problem(path, set);
-  found = description(instance, check_runs(instance));
+  const model::Instance instance = load_problem(path, options.set);
+  const std::vector<std::string> notes = check_runs(instance);
+  if (options.strict) refuse_notes(path, notes);
+  found = description(instance, notes);
   print(text_of(path, found), detail);
   found["file"] = path;
   return ExitCode::yes;
@@ -201,7 +205,7 @@ ExitCode check(const CheckOptions& options) {
     const std::string path = problem.path.string();
     try {
       io::Json found;
-      const ExitCode code = check_file(path, options.set, detail, found);
+      const ExitCode code = check_file(path, options, detail, found);
       ++counts[code];
       exit = worse(exit, code);
       results.push_back(std::move(found));
@@ -235,7 +239,9 @@ Command check_command() {
               "problem files (YAML), gain files (JSON), or folders of problems; - for a problem on "
               "standard input")
            .required(),
-       set_option(options->set), Option("--json", options->json, "print the result as JSON")},
+       set_option(options->set),
+       Option("--strict", options->strict, "a note on a problem is an error: exit code 2"),
+       Option("--json", options->json, "print the result as JSON")},
       "A problem is read, not solved. A gain file is taken as it is, edited or not.\n"
       "Of several files it prints a line each, of wrong ones too, and their number at the end.\n"
       "Exit code: 0 all valid and proved, 1 the inequalities do not hold at the gains of a file, 2 "
@@ -243,6 +249,7 @@ Command check_command() {
       "input, 3 whether they hold is not known.\n"
       "Examples:\n"
       "  gainsmith check problems/ferrante-seuret-2021\n"
+      "  gainsmith check --strict problem.yaml\n"
       "  gainsmith check gains.json",
       [options] { return check(*options); }};
 }

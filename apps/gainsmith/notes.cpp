@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "base/error.h"
+
 namespace gainsmith::app {
 
 std::string counted(const std::string& what, const std::vector<std::string>& names) {
@@ -11,12 +13,11 @@ std::string counted(const std::string& what, const std::vector<std::string>& nam
   return text;
 }
 
-std::vector<std::string> notes_on_observers(const std::vector<std::string>& idle) {
-  std::vector<std::string> notes;
-  for (const std::string& observer : idle)
-    notes.push_back((observer == "observer" ? "the observer" : "the observer '" + observer + "'") +
-                    " never changes: it has no flow, and no map at an event");
-  return notes;
+void refuse_notes(const std::string& file, const std::vector<std::string>& notes) {
+  if (notes.empty()) return;
+  std::string more;
+  if (notes.size() > 1) more = fmt::format(" (and {} more)", notes.size() - 1);
+  throw InputError({file}, "--strict: " + notes.front() + more);
 }
 
 std::string note_on_events(const std::vector<std::string>& events) {
@@ -61,7 +62,7 @@ std::string note_on_careful_runs(const verify::Report& report) {
 }
 
 std::vector<std::string> notes_on(const verify::Report& report) {
-  std::vector<std::string> notes = notes_on_observers(report.idle_observers);
+  std::vector<std::string> notes = report.doubts;
   if (report.ended && report.runs < report.asked)
     notes.push_back(fmt::format("ended by the first run that violates a claim, of at most {} runs",
                                 report.asked));

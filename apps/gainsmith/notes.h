@@ -12,7 +12,8 @@ namespace gainsmith::app {
 
 std::vector<std::string> notes_on(const verify::Report& report);
 
-std::vector<std::string> notes_on_observers(const std::vector<std::string>& idle);
+/// InputError with the first of the notes, for --strict.
+void refuse_notes(const std::string& file, const std::vector<std::string>& notes);
 
 /// Of events that do not happen: "the event 'far' never happens"; empty without any.
 std::string note_on_events(const std::vector<std::string>& events);

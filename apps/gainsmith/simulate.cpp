@@ -26,6 +26,7 @@
 #include "gainsmith/run_figure.h"
 #include "gainsmith/run_table.h"
 #include "gainsmith/terminal.h"
+#include "hybrid/doubts.h"
 #include "hybrid/idle.h"
 #include "io/figures_json.h"
 #include "io/given_run_json.h"
@@ -97,8 +98,9 @@ std::string which_runs(const std::vector<std::uint64_t>& some,
 }
 
 /// The design's, and events that do not happen in runs that came to their ends; each once.
-std::string notes_text(const model::Design& design, const std::vector<std::uint64_t>& runs,
+std::string notes_text(const model::Instance& instance, const std::vector<std::uint64_t>& runs,
                        const std::vector<verify::Replay>& replays) {
+  const model::Design& design = *instance.design;
   const std::size_t events = design.dynamics->events.size();
   std::vector<std::vector<std::uint64_t>> silent(events);  // of each event the runs without it
   for (std::size_t k = 0; k < replays.size(); ++k) {
@@ -110,7 +112,7 @@ std::string notes_text(const model::Design& design, const std::vector<std::uint6
     for (std::size_t e = 0; e < events; ++e)
       if (happened[e] == 0) silent[e].push_back(runs[k]);
   }
-  std::vector<std::string> notes = notes_on_observers(hybrid::idle_observers(*design.dynamics));
+  std::vector<std::string> notes = hybrid::doubts_about(*design.dynamics, instance.values);
   std::map<std::vector<std::uint64_t>, std::vector<std::string>> alike;
   for (std::size_t e = 0; e < events; ++e)
     if (!silent[e].empty() && !design.dynamics->events[e].is_built_in())
@@ -295,7 +297,7 @@ ExitCode simulate(const SimulateOptions& options) {
           options.json ? io::to_text(events_json(first, view_of(design))) : events_csv(first));
   std::string text;
   for (std::size_t k = 0; k < replays.size(); ++k) text += run_text(seed, runs[k], replays[k]);
-  text += notes_text(design, runs, replays);
+  text += notes_text(loaded.stated, runs, replays);
   if (options.judge && !stopped) text += judged_text(first.faults);
   print_report(text, table_on_stdout);
   if (stopped) return ExitCode::undecided;

@@ -15,6 +15,7 @@
 #include "gainsmith/commands.h"
 #include "gainsmith/kept_folder.h"
 #include "gainsmith/load.h"
+#include "gainsmith/notes.h"
 #include "gainsmith/output.h"
 #include "gainsmith/part_file.h"
 #include "gainsmith/shard_option.h"
@@ -41,6 +42,7 @@ struct VerifyOptions {
   bool compare = false;
   std::string until;
   bool worst = false;
+  bool strict = false;
   std::string shard;
   std::string resume;
   std::string output;
@@ -159,6 +161,7 @@ ExitCode verify_gains(const VerifyOptions& options) {
     asked.between = [&](std::uint64_t runs) { survey({range.first, range.first + runs}, {}); };
   const verify::Campaign campaign(*setup, asked);
   file.part = campaign.begin();
+  if (options.strict) refuse_notes(options.gains, file.part.facts.doubts);
   file.statement =
       campaign_statement(file.part.facts, io::gains_hash(loaded.gains), options.compare);
   file.source = source_of(options, loaded);
@@ -214,6 +217,8 @@ Command verify_command() {
            "takes it into account")
            .one_of({"violated"})
            .excludes({"--compare", "--worst"}),
+       Option("--strict", options->strict,
+              "a note on what is perhaps not meant, as `check` writes, is an error: exit code 2"),
        shard_option(options->shard,
                     "make only part I of N of the runs, and write it with -o for 'merge'")
            .excludes({"--worst", "--until"}),

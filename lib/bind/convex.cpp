@@ -1,55 +1,13 @@
 #include "bind/convex.h"
 
-#include <memory>
 #include <utility>
 
+#include "bind/trees.h"
 namespace gainsmith::bind {
-
-namespace {
 
 using expr::Node;
 using expr::NodeKind;
 using expr::NodePtr;
-using expr::Relation;
-
-/// Builds trees that are placed where the call is.
-class Trees {
- public:
-  explicit Trees(const Node& at) : at_(at) {}
-
-  NodePtr make(NodeKind kind, std::vector<NodePtr> children, std::string text = "") const {
-    auto node = std::make_shared<Node>();
-    node->kind = kind;
-    node->begin = at_.begin;
-    node->end = at_.end;
-    node->children = std::move(children);
-    node->text = std::move(text);
-    return node;
-  }
-  NodePtr number(int value) const { return make(NodeKind::number, {}, std::to_string(value)); }
-  NodePtr call(const std::string& function, NodePtr argument) const {
-    return make(NodeKind::call, {std::move(argument)}, function);
-  }
-  NodePtr identity() const { return make(NodeKind::name, {}, "I"); }
-  NodePtr times(NodePtr a, NodePtr b) const {
-    return make(NodeKind::multiply, {std::move(a), std::move(b)});
-  }
-  NodePtr at_most(NodePtr a, NodePtr b, bool strict) const {
-    auto node = std::make_shared<Node>(*make(NodeKind::compare, {std::move(a), std::move(b)}));
-    node->relations = {strict ? Relation::less : Relation::less_equal};
-    return node;
-  }
-  NodePtr block(std::vector<NodePtr> entries) const {
-    auto node = std::make_shared<Node>(*make(NodeKind::block, std::move(entries)));
-    node->columns = 2;
-    return node;
-  }
-
- private:
-  const Node& at_;
-};
-
-}  // namespace
 
 std::optional<Curvature> curvature_of(const Node& node) {
   if (node.kind != NodeKind::call || node.children.empty()) return std::nullopt;

@@ -1,13 +1,16 @@
 #include "bind/convex_terms.h"
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <span>
 
 #include "bind/convex.h"
+#include "bind/data.h"
 #include "bind/dynamics_names.h"
 #include "bind/families.h"
 #include "bind/inequalities.h"
+#include "bind/quadratic_forms.h"
 #include "expr/compile.h"
 #include "expr/functions.h"
 
@@ -40,12 +43,6 @@ expr::Shape largest(const std::vector<expr::Shape>& shapes) {
                            [](expr::Shape a, expr::Shape b) { return a.size() < b.size(); });
 }
 
-bool names_curved(const Node& node) {
-  return curvature_of(node) ||
-         std::any_of(node.children.begin(), node.children.end(),
-                     [](const NodePtr& child) { return names_curved(*child); });
-}
-
 /// The tree at another place of the text.
 NodePtr placed(const Node& node, const Node& at) {
   auto moved = std::make_shared<Node>(node);
@@ -76,15 +73,21 @@ bool is_positive_number(const Node& node) {
   return node.kind == NodeKind::number && node.text.find_first_of("123456789") != std::string::npos;
 }
 
+/// False where no name leads to unknowns.
+bool may_read_unknowns(const Binding& binding, const expr::Expression& part,
+                       const expr::Scope& scope) {
+  const auto names = names_in(part);
+  return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+    return scope.definitions.contains(name) || scope.functions.contains(name) ||
+           scope.families.contains(name) ||
+           (scope.symbols.contains(name) && !binding.names->known.symbols.contains(name));
+  });
+}
+
 /// Whether the value depends on unknowns.
 bool reads_unknowns(const Binding& binding, const expr::Expression& part,
                     const expr::Scope& scope) {
-  const auto names = names_in(part);
-  const bool may = std::any_of(names.begin(), names.end(), [&](const std::string& name) {
-    return scope.definitions.contains(name) || scope.functions.contains(name) ||
-           scope.families.contains(name) || !binding.names->known.symbols.contains(name);
-  });
-  if (!may || part.root->kind == NodeKind::number) return false;
+  if (!may_read_unknowns(binding, part, scope)) return false;
   const expr::Program program = expr::compile(part, scope);
   const auto is_unknown = [&](const expr::Input& input) {
     return !binding.names->known.symbols.contains(input.name) &&
@@ -94,9 +97,57 @@ bool reads_unknowns(const Binding& binding, const expr::Expression& part,
          std::any_of(program.inputs.begin(), program.inputs.end(), is_unknown);
 }
 
+/// Whether the text has such functions, perhaps of data.
+bool names_curved(const Binding& binding, const expr::Expression& part, const expr::Scope& scope) {
+  const Node& node = *part.root;
+  if (curvature_of(node)) return true;
+  if (const auto form = quadratic_form(part.root);
+      form && may_read_unknowns(binding, {part.text, form->column}, scope))
+    return true;
+  return std::any_of(node.children.begin(), node.children.end(), [&](const NodePtr& child) {
+    return names_curved(binding, {part.text, child}, scope);
+  });
+}
+
+/// A quadratic form with its shapes.
+struct KnownForm {
+  QuadraticForm form;
+  int elements = 1;
+  bool weight_is_number = true;
+};
+
+/// The quadratic form of unknowns at a node, if it is one.
+std::optional<KnownForm> form_at(const Binding& binding, const expr::Expression& text,
+                                 const NodePtr& node, const expr::Scope& scope) {
+  const auto shape = [&](const NodePtr& part) {
+    return expr::compile({text.text, part}, scope).shape();
+  };
+  auto form = quadratic_form(node);
+  if (!form || !reads_unknowns(binding, {text.text, form->column}, scope)) return std::nullopt;
+  KnownForm known{*form, 1, true};
+  if (form->weight) {
+    if (reads_unknowns(binding, {text.text, form->weight}, scope)) return std::nullopt;
+    known.weight_is_number = shape(form->weight).is_scalar();
+  }
+  if (!shape(node).is_scalar()) return std::nullopt;
+  const expr::Program program = expr::compile({text.text, form->column}, scope);
+  using expr::Op;
+  constexpr std::array kNotAffine = {Op::sqrt, Op::exp, Op::log,  Op::sin,  Op::cos,
+                                     Op::tanh, Op::abs, Op::sign, Op::floor};
+  if (std::ranges::find(kNotAffine, program.code.back().op) != kNotAffine.end())
+    return std::nullopt;
+  const expr::Shape column = program.shape();
+  known.elements = column.size();
+  if (column.cols == 1) return known;
+  std::swap(known.form.column, known.form.row);
+  return column.rows == 1 && node->kind == NodeKind::power ? std::optional(known) : std::nullopt;
+}
+
 /// The function of unknowns at a node, convex or concave, if it is one.
 std::optional<Curvature> curvature_at(const Binding& binding, const expr::Expression& text,
-                                      const Node& node, const expr::Scope& scope) {
+                                      const NodePtr& at, const expr::Scope& scope) {
+  if (form_at(binding, text, at, scope)) return Curvature::convex;
+  const Node& node = *at;
   const auto curvature = curvature_of(node);
   if (!curvature || node.children.empty()) return std::nullopt;
   const bool reads =
@@ -116,20 +167,22 @@ std::optional<Curvature> curvature_at(const Binding& binding, const expr::Expres
   return curvature;
 }
 
-bool has_curvature(const Binding& binding, const expr::Expression& text, const Node& node,
+bool has_curvature(const Binding& binding, const expr::Expression& text, const NodePtr& node,
                    const expr::Scope& scope) {
   return curvature_at(binding, text, node, scope) ||
-         std::any_of(node.children.begin(), node.children.end(), [&](const NodePtr& child) {
-           return has_curvature(binding, text, *child, scope);
+         std::any_of(node->children.begin(), node->children.end(), [&](const NodePtr& child) {
+           return has_curvature(binding, text, child, scope);
          });
 }
 
 /// Whether there are such functions in a call. max and min, which grow with their arguments, take
 /// those of their own kind; InputError in others.
-bool is_nested(const Binding& binding, const expr::Expression& text, const Node& call,
+bool is_nested(const Binding& binding, const expr::Expression& text, const NodePtr& node,
                const expr::Scope& scope) {
-  for (const NodePtr& child : call.children) {
-    if (!has_curvature(binding, text, *child, scope)) continue;
+  const Node& call = *node;
+  const auto form = form_at(binding, text, node, scope);
+  for (const NodePtr& child : form ? std::vector{form->form.column} : call.children) {
+    if (!has_curvature(binding, text, child, scope)) continue;
     if (call.text == "max" || call.text == "min") return true;
     throw InputError(text.place(*child),
                      "'" + text.quote(*child) + "' is inside of another such function");
@@ -160,17 +213,24 @@ std::vector<expr::Shape> shapes_of(const expr::Expression& text, const Node& cal
   return shapes;
 }
 
-std::vector<expr::Expression> bounds_of(const expr::Expression& text, const Node& call,
-                                        const NodePtr& bound, expr::Scope& scope, bool strict) {
-  const std::vector<expr::Shape> arguments = shapes_of(text, call, scope);
+std::vector<expr::Expression> bounds_of(const Binding& binding, const expr::Expression& text,
+                                        const NodePtr& node, const NodePtr& bound,
+                                        expr::Scope& scope, bool strict) {
+  const Node& call = *node;
+  const auto form = form_at(binding, text, node, scope);
+  const std::vector<expr::Shape> arguments =
+      form ? std::vector<expr::Shape>(1) : shapes_of(text, call, scope);
   const expr::Shape of = largest(arguments);
   const expr::Shape limit = expr::compile({text.text, bound}, scope).shape();
-  const bool matrix = is_of_matrices(call) || is_of_one_vector(call);
+  const bool matrix = form || is_of_matrices(call) || is_of_one_vector(call);
   if (!limit.is_scalar() && (matrix || limit.size() != of.size()))
     throw InputError(text.place(*bound),
                      "'" + text.quote(call) + "' is compared with " +
                          (matrix ? "a number" : "a number or a vector like it") + "; found " +
                          to_string(limit));
+  if (form)
+    return {{text.text,
+             comparison_of(form->form, bound, form->elements, form->weight_is_number, strict)}};
   std::vector<expr::Expression> comparisons;
   for (NodePtr& comparison : comparisons_of(call, bound, arguments, limit.is_scalar(), strict))
     comparisons.push_back({text.text, std::move(comparison)});
@@ -181,7 +241,7 @@ std::vector<expr::Expression> bounds_of(const expr::Expression& text, const Node
 NodePtr with_terms(const Binding& binding, const expr::Expression& text, const NodePtr& node,
                    const expr::Scope& scope) {
   constexpr std::size_t kMostTerms = 1000;
-  if (!names_curved(*node)) return node;
+  if (!names_curved(binding, {text.text, node}, scope)) return node;
   const bool indexed = node->kind == NodeKind::call && node->text == "sum" &&
                        node->children.front()->kind == NodeKind::each;
   if (!indexed) {
@@ -215,15 +275,17 @@ NodePtr with_terms(const Binding& binding, const expr::Expression& text, const N
 }
 
 /// An unknown that bounds the function at `call`, as a node that represents it.
-NodePtr bounding_unknown(Binding& binding, const expr::Expression& text, const Node& call,
+NodePtr bounding_unknown(Binding& binding, const expr::Expression& text, const NodePtr& node,
                          Curvature curvature) {
   expr::Scope& scope = binding.names->design;
+  const Node& call = *node;
+  const auto form = form_at(binding, text, node, scope);
   constexpr std::size_t kMost = 10'000;
   if (binding.design->unknowns.size() >= kMost)
     throw InputError(text.place(call),
                      "there are more than " + std::to_string(kMost) + " unknowns");
   model::Design::Unknown unknown;
-  if (!is_of_matrices(call) && !is_of_one_vector(call))
+  if (!form && !is_of_matrices(call) && !is_of_one_vector(call))
     unknown.shape = largest(shapes_of(text, call, scope));
   unknown.structure = unknown.shape.is_scalar() ? model::Structure::scalar : model::Structure::full;
   unknown.place = text.place(call);
@@ -237,7 +299,7 @@ NodePtr bounding_unknown(Binding& binding, const expr::Expression& text, const N
            names_of(binding.method().plant).contains(name);
   };
   for (int k = 1; unknown.name.empty() || is_taken(unknown.name); ++k)
-    unknown.name = call.text + "_" + std::to_string(k);
+    unknown.name = (form ? "square" : call.text) + "_" + std::to_string(k);
   scope.symbols[unknown.name] = {unknown.shape};
   auto name = std::make_shared<Node>(call);
   name->kind = NodeKind::name;
@@ -246,25 +308,38 @@ NodePtr bounding_unknown(Binding& binding, const expr::Expression& text, const N
   model::Design::Inequality bound;
   const std::string quoted = text.quote(call);
   // A term of a sum over an index has the place of the sum.
-  const bool own = quoted.starts_with(call.text);
+  const bool own = form || quoted.starts_with(call.text);
   bound.name = unknown.name + (curvature == Curvature::convex ? " >= " : " <= ") +
                (own ? quoted : call.text + " in " + quoted);
   bound.place = bound.that_place = unknown.place;
   binding.design->unknowns.push_back(std::move(unknown));
-  add_comparisons(bounds_of(text, call, name, scope, false), bound, bound.name, "", scope);
+  add_comparisons(bounds_of(binding, text, node, name, scope, false), bound, bound.name, "", scope);
   binding.design->inequalities.push_back(std::move(bound));
   return name;
+}
+
+/// Of a quadratic form with a weight: that it is convex.
+void ask_convexity(Binding& binding, const expr::Expression& text, const NodePtr& node,
+                   const expr::Scope& scope) {
+  const auto form = form_at(binding, text, node, scope);
+  if (!form || !form->form.weight) return;
+  const NodePtr& weight = form->form.weight;
+  add_assumption(binding,
+                 {"'" + text.quote(*node) + "' is convex",
+                  {text.text, convexity_of(form->form)},
+                  text.place(*weight)},
+                 "lambda_min(" + text.quote(*weight) + ") >= 0");
 }
 
 /// The text with bounding unknowns for convex functions where it may be large (sign 1), for concave
 /// ones where it may be small (sign -1).
 NodePtr bounded(Binding& binding, const expr::Expression& text, const NodePtr& node, int sign,
                 bool quantified, const expr::Scope& scope) {
-  if (!has_curvature(binding, text, *node, scope)) return node;
+  if (!has_curvature(binding, text, node, scope)) return node;
   const auto inner = [&](const NodePtr& child, int s) {
     return bounded(binding, text, child, s, quantified, scope);
   };
-  if (const auto curvature = curvature_at(binding, text, *node, scope)) {
+  if (const auto curvature = curvature_at(binding, text, node, scope)) {
     if ((*curvature == Curvature::convex) != (sign > 0))
       throw InputError(text.place(*node),
                        "'" + text.quote(*node) + "' is " +
@@ -277,13 +352,14 @@ NodePtr bounded(Binding& binding, const expr::Expression& text, const NodePtr& n
       throw InputError(text.place(*node), "under 'forall' with an interval or a set, '" +
                                               text.quote(*node) +
                                               "' must be alone on its side of the comparison");
+    ask_convexity(binding, text, node, scope);
     NodePtr call = node;
-    if (is_nested(binding, text, *node, scope)) {
+    if (is_nested(binding, text, node, scope)) {
       std::vector<NodePtr> arguments;
       for (const NodePtr& child : node->children) arguments.push_back(inner(child, sign));
       call = with_children(*node, std::move(arguments));
     }
-    return bounding_unknown(binding, text, *call, *curvature);
+    return bounding_unknown(binding, text, call, *curvature);
   }
   const auto& children = node->children;
   switch (node->kind) {
@@ -314,7 +390,7 @@ NodePtr bounded(Binding& binding, const expr::Expression& text, const NodePtr& n
   }
   throw InputError(
       text.place(*node),
-      "norm, abs, max, min and eigenvalues of unknowns may be used in sums, in sum(...) "
+      "norm, abs, max, min, squares and eigenvalues of unknowns may be used in sums, in sum(...) "
       "and times a number that is written out, not inside of '" +
           text.quote(*node) + "'; a weight w >= 0 goes inside, as in norm(w*X)");
 }
@@ -325,7 +401,8 @@ std::vector<expr::Expression> affine_comparisons(Binding& binding, const expr::E
                                                  expr::Scope& scope, bool quantified) {
   const expr::Expression that{stated.text, with_terms(binding, stated, stated.root, scope)};
   const Node& chain = *that.root;
-  if (chain.kind != NodeKind::compare || !has_curvature(binding, that, chain, scope)) return {that};
+  if (chain.kind != NodeKind::compare || !has_curvature(binding, that, that.root, scope))
+    return {that};
   std::vector<expr::Expression> comparisons;
   for (std::size_t k = 0; k < chain.relations.size(); ++k) {
     const Relation relation = chain.relations[k];
@@ -336,10 +413,15 @@ std::vector<expr::Expression> affine_comparisons(Binding& binding, const expr::E
     const NodePtr& small = chain.children[ascending ? k : k + 1];
     const NodePtr& large = chain.children[ascending ? k + 1 : k];
     const auto alone = [&](const NodePtr& side, const NodePtr& other, Curvature wanted) {
-      if (curvature_at(binding, that, *side, scope) != wanted ||
-          has_curvature(binding, that, *other, scope) || is_nested(binding, that, *side, scope))
+      if (curvature_at(binding, that, side, scope) != wanted ||
+          has_curvature(binding, that, other, scope) || is_nested(binding, that, side, scope))
         return false;
-      for (expr::Expression& bound : bounds_of(that, *side, other, scope, strict))
+      // [g, e'*Q; Q*e, Q] > 0 would ask for Q > 0.
+      if (const auto form = form_at(binding, that, side, scope);
+          strict && form && form->form.weight)
+        return false;
+      ask_convexity(binding, that, side, scope);
+      for (expr::Expression& bound : bounds_of(binding, that, side, other, scope, strict))
         comparisons.push_back(std::move(bound));
       return true;
     };

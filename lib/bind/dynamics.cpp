@@ -216,7 +216,16 @@ void DynamicsBinding::add_measured(const model::MeasuredText& text) {
 void DynamicsBinding::bind_measured_events() {
   for (std::size_t k = 0; k < method_->measured.size(); ++k) {
     const model::MeasuredText& text = method_->measured[k];
-    if (!text.at.empty()) result_.measured[k].event = event(&method_->plant, text.at, text.place);
+    if (text.at.empty()) continue;
+    const std::size_t at = event(&method_->plant, text.at, text.place);
+    result_.measured[k].event = at;
+    // At a row that has no value of an output of the event there is no event.
+    const auto has = [](const std::vector<double>& times, double t) {
+      return std::binary_search(times.begin(), times.end(), t);
+    };
+    std::erase_if(result_.events[at].rows, [&](double t) {
+      return has(text.series->silent, t) && !has(text.series->times, t);
+    });
   }
 }
 

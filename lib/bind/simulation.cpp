@@ -122,7 +122,7 @@ void bind_dynamics(Binding& binding) {
       const std::string name = binding.dynamics_names->full(component, output.name);
       const model::Formula value =
           formula(binding.dynamics_names->within(component, output.value), scope);
-      dynamics.signals.push_back({name, value, dynamics_binding.event_of_output(name)});
+      dynamics.signals.push_back({name, value, dynamics_binding.event_of_output(name), true});
     }
   };
   for (const model::Named& input : binding.method().inputs)

@@ -198,6 +198,36 @@ bool EventDoubts::leads_to_zero(EventFunction& crossing, std::size_t jump) {
          std::fmax(std::abs(value), std::abs(twin)) > noise;
 }
 
+bool EventDoubts::stays_at_zero(EventFunction& crossing, std::size_t jump) {
+  const auto* flow = jump > 0 ? std::get_if<TwinFlow>(&twins_->parts[jump - 1]) : nullptr;
+  if (flow == nullptr) return false;
+  for (const hybrid::DenseStep& step : flow->flow->steps)
+    for (const double part : {0.0, 0.25, 0.5, 0.75}) {
+      const VectorXd values = whole(step(step.from + part * (step.to - step.from)));
+      if (!(std::abs(element(crossing, values, 0)) <= noise_of(crossing, values, 0))) return false;
+    }
+  return true;
+}
+
+bool EventDoubts::leads_to_a_tie(EventCondition& condition, std::size_t jump) {
+  const auto& own = std::get<TwinJump>(twins_->parts[jump]);
+  const VectorXd before = whole(own.jump->before), after = whole(own.jump->after),
+                 twin = whole(own.twin_after);
+  for (std::size_t k = 0; k < condition.comparisons().size(); ++k) {
+    EventFunction& difference = condition.comparisons()[k].function;
+    for (Index e = 0; e < difference.size(); ++e) {
+      const double value = element(difference, after, e);
+      const double apart = std::abs(value - element(difference, twin, e));
+      const double error = error_factor(*system_) * apart + noise_of(difference, after, e);
+      if ((value == 0 && apart == 0) || !(std::abs(value) <= error) ||
+          std::abs(element(difference, before, e)) <= error)
+        continue;
+      if (condition.if_changed(after, k) != condition(after)) return true;
+    }
+  }
+  return false;
+}
+
 /// Those that a flow changes, of a condition all its elements.
 std::vector<EventDoubts::Guard> EventDoubts::guards(std::size_t event, const Instant& at) {
   std::vector<Guard> result;
@@ -343,7 +373,12 @@ std::optional<std::string> EventDoubts::of_jump(std::size_t jump) {
   const std::size_t own = std::get<TwinJump>(twins_->parts[jump]).jump->event;
   if (events.size() < 2 && breaks_[own].empty()) return std::nullopt;
   for (std::size_t other = 0; other < events.size(); ++other)
-    if (watch_.crossing[other] && leads_to_zero(*watch_.crossing[other], jump))
+    if (watch_.when[other] && leads_to_a_tie(*watch_.when[other], jump))
+      return fmt::format(
+          "t = {}: the jump of {} leads the condition of {} to a tie, up to its error",
+          brief(std::get<TwinJump>(twins_->parts[jump]).jump->t, 12), events[own].name,
+          events[other].name);
+    else if (watch_.crossing[other] && leads_to_zero(*watch_.crossing[other], jump))
       return fmt::format(
           "t = {}: the jump of {} leads that of which {} is a crossing to 0, up to its error",
           brief(std::get<TwinJump>(twins_->parts[jump]).jump->t, 12), events[own].name,
@@ -353,6 +388,9 @@ std::optional<std::string> EventDoubts::of_jump(std::size_t jump) {
   if (is_on_step(*at))
     return fmt::format("t = {}: the jump of {} takes a step within the errors of its values",
                        brief(at->t, 12), events[own].name);
+  if (watch_.crossing[own] && stays_at_zero(*watch_.crossing[own], jump))
+    return fmt::format("t = {}: {} crosses 0 within its rounding", brief(at->t, 12),
+                       events[own].name);
   const auto has_happened = [&](std::size_t event) {
     return event == at->event || happened_[event];
   };

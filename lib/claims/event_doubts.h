@@ -75,6 +75,11 @@ class EventDoubts {
   bool stays(const Instant& at, const Eigen::VectorXd& values);
   bool is_on_step(const Instant& at);
   bool leads_to_zero(hybrid::EventFunction& crossing, std::size_t jump);
+  /// Whether a crossing was never farther from 0 than its rounding, on the flow just
+  /// before.
+  bool stays_at_zero(hybrid::EventFunction& crossing, std::size_t jump);
+  /// Whether a jump leads values to where the condition is another one within their error.
+  bool leads_to_a_tie(hybrid::EventCondition& condition, std::size_t jump);
   std::optional<std::string> clocks_after(std::size_t jump, const Instant& at);
   bool fires(std::size_t event, const std::vector<Guard>& guards, const Instant& at,
              const Eigen::VectorXd& values);

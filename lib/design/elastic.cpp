@@ -20,24 +20,30 @@ std::string slack_name(const Design::Inequality& inequality) {
   return "slack_" + inequality.name + "__";
 }
 
+std::vector<std::string> decimals(const std::vector<double>& values, double factor = 1) {
+  std::vector<std::string> result;
+  for (const double value : values) result.push_back(decimal17(factor * value));
+  return result;
+}
+
 /// One inequality for each comparison of the chain, its larger side raised by the slack.
-void add_relaxed(const Design::Inequality& inequality, const std::string& slack, double scale,
-                 std::vector<Design::Inequality>& out) {
+void add_relaxed(const Design::Inequality& inequality, const std::string& slack,
+                 const std::vector<double>& scale, std::vector<Design::Inequality>& out) {
   for (const Design::Comparison& comparison : inequality.comparisons) {
     Design::Inequality one = inequality;
     one.name = comparison.name;
     one.comparisons = {{comparison.name,
-                        expr::with_identity(comparison.difference, decimal17(scale), slack),
+                        expr::with_diagonal(comparison.difference, decimals(scale), slack),
                         comparison.strict}};
     out.push_back(std::move(one));
   }
 }
 
-/// a < b becomes a + s I < b, s the scale.
-Design::Inequality demanding(Design::Inequality inequality, double scale) {
+/// a < b becomes a + diag(scale) < b.
+Design::Inequality demanding(Design::Inequality inequality, const std::vector<double>& scale) {
   for (Design::Comparison& comparison : inequality.comparisons)
     if (comparison.strict)
-      comparison.difference = expr::with_identity(comparison.difference, decimal17(-scale));
+      comparison.difference = expr::with_diagonal(comparison.difference, decimals(scale, -1));
   return inequality;
 }
 
@@ -83,26 +89,35 @@ model::Instance with_inequalities(const model::Instance& instance,
   });
 }
 
-ByInequality scales_of(const model::Instance& instance) {
+Diagonals row_scales_of(const model::Instance& instance) {
   const lmi::Inequalities inequalities(instance);
   const lmi::Lmi lmi = lmi::compile(inequalities);
   const lmi::Balance balance = lmi::pose_objective(lmi, {}, 0).balance;
-  ByInequality scales;
+  Diagonals scales;
   for (const Design::Inequality& inequality : instance.design->inequalities) {
-    double& scale = scales[inequality.name];
-    for (std::size_t k = 0; k < lmi.blocks.size(); ++k)
-      if (model::is_comparison_of(lmi.blocks[k].name, inequality.name))
-        for (int r = 0; r < lmi.blocks[k].size; ++r)
-          scale = std::max(scale, std::pow(balance.row(k, r), -2));
+    std::vector<double>& rows = scales[inequality.name];
+    for (std::size_t k = 0; k < lmi.blocks.size(); ++k) {
+      if (!model::is_comparison_of(lmi.blocks[k].name, inequality.name)) continue;
+      rows.resize(static_cast<std::size_t>(lmi.blocks[k].size));
+      for (std::size_t r = 0; r < rows.size(); ++r)
+        rows[r] = std::max(rows[r], std::pow(balance.row(k, static_cast<int>(r)), -2));
+    }
   }
   return scales;
 }
 
-model::Instance elastic(const model::Instance& instance, const ByInequality& scales,
+ByInequality scales_of(const model::Instance& instance) {
+  ByInequality scales;
+  for (const auto& [name, rows] : row_scales_of(instance))
+    scales[name] = rows.empty() ? 0 : *std::max_element(rows.begin(), rows.end());
+  return scales;
+}
+
+model::Instance elastic(const model::Instance& instance, const Diagonals& scales,
                         std::map<std::string, std::string>& slacks) {
   // Without constant parts every solution may be scaled, and every slack with it.
   const bool scaled = lmi::is_homogeneous(lmi::compile(lmi::Inequalities(instance)).blocks);
-  const ByInequality demands = scaled ? scales_of(instance) : ByInequality{};
+  const Diagonals demands = scaled ? row_scales_of(instance) : Diagonals{};
   return with_design(instance, [&](Design& design) {
     std::vector<Design::Inequality> relaxed;
     std::vector<std::string> names;
@@ -135,7 +150,9 @@ Slacks smallest_slacks(const model::Instance& instance, const ByInequality& scal
                        const sdp::Options& solver) {
   constexpr double kNone = 1e-7;  // what the shift of a minimum and its tolerance leave
   std::map<std::string, std::string> names;
-  const model::Gains gains = synthesize(elastic(instance, scales, names), solver);
+  Diagonals multiples;
+  for (const auto& [name, scale] : scales) multiples[name] = {scale};
+  const model::Gains gains = synthesize(elastic(instance, multiples, names), solver);
   Slacks slacks{gains.verdict, gains.solver.status == "optimal", {}};
   if (gains.verdict != model::Verdict::yes) return slacks;
   for (const auto& [inequality, slack] : names) {
@@ -145,8 +162,8 @@ Slacks smallest_slacks(const model::Instance& instance, const ByInequality& scal
   return slacks;
 }
 
-std::optional<double> estimated_violation(const model::Instance& instance,
-                                          const ByInequality& scales, const sdp::Options& solver) {
+std::optional<double> estimated_violation(const model::Instance& instance, const Diagonals& scales,
+                                          const sdp::Options& solver) {
   constexpr double kNear = 1e-4;  // of the objectives
   std::map<std::string, std::string> names;
   const model::Instance relaxed = elastic(instance, scales, names);

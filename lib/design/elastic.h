@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "model/instance.h"
 #include "model/words.h"
@@ -26,16 +27,23 @@ model::Instance with_inequalities(const model::Instance& instance,
 /// A number for each inequality named.
 using ByInequality = std::map<std::string, double>;
 
-/// The largest size of a row of each inequality: s_kr^-2 of the balance (lmi/balance.h).
+/// For each inequality named the diagonal of a matrix: one number for a multiple of I.
+using Diagonals = std::map<std::string, std::vector<double>>;
+
+/// The sizes of the rows of each inequality: s_kr^-2 of the balance (lmi/balance.h), the largest of
+/// its comparisons and points.
+Diagonals row_scales_of(const model::Instance& instance);
+
+/// The largest of them.
 ByInequality scales_of(const model::Instance& instance);
 
 /// Every inequality k of `scales` relaxed by an unknown slack t_k >= 0,
-///   a < b   becomes   a < b + t_k s_k I
+///   a < b   becomes   a < b + t_k diag(s_k)
 /// (each comparison of a chain), and minimize: the sum of the slacks. Where nothing has a constant
-/// part, strict inequalities, relaxed or not, have to hold with room s_k I before the slack: a +
-/// s_k I < b + t_k s_k I, so that t_k = 1 gives all of it up. `slacks` receives the names of the
-/// unknowns t_k by inequality.
-model::Instance elastic(const model::Instance& instance, const ByInequality& scales,
+/// part, strict inequalities, relaxed or not, have to hold with room D_k before the slack, their
+/// row_scales_of: a + D_k < b + t_k diag(s_k), so that t_k = 1 gives all of it up. `slacks` receives
+/// the names of the unknowns t_k by inequality.
+model::Instance elastic(const model::Instance& instance, const Diagonals& scales,
                         std::map<std::string, std::string>& slacks);
 
 /// Slacks when the verdict is yes; no when a certificate excludes the elastic problem too.
@@ -50,8 +58,8 @@ Slacks smallest_slacks(const model::Instance& instance, const ByInequality& scal
                        const sdp::Options& solver);
 
 /// About the smallest sum of slacks, at the first points of each domain, in double and unchecked: a
-/// guide for searches. None where the solver comes to nothing.
-std::optional<double> estimated_violation(const model::Instance& instance,
-                                          const ByInequality& scales, const sdp::Options& solver);
+/// guide for searches, which does not depend on units. None where the solver comes to nothing.
+std::optional<double> estimated_violation(const model::Instance& instance, const Diagonals& scales,
+                                          const sdp::Options& solver);
 
 }  // namespace gainsmith::design

@@ -131,9 +131,9 @@ class OuterSearch {
   }
 
   /// What the slacks of all points are measured in; none where the values of the point are refused.
-  std::optional<ByInequality> scales_at(const search::Point& point) const {
+  std::optional<Diagonals> scales_at(const search::Point& point) const {
     try {
-      return scales_of(without_gains(bind::evaluate(own_.design, at_easy_end(point))));
+      return row_scales_of(without_gains(bind::evaluate(own_.design, at_easy_end(point))));
     } catch (const InputError&) {
       return std::nullopt;
     }
@@ -141,7 +141,7 @@ class OuterSearch {
 
   /// How far a point is from feasible: the smallest sum of slacks. Infinite where the values are
   /// refused or the slacks are not decided.
-  double violation(const ByInequality& scales, const search::Point& point) const {
+  double violation(const Diagonals& scales, const search::Point& point) const {
     constexpr double none = std::numeric_limits<double>::infinity();
     try {
       const auto plain = without_gains(bind::evaluate(own_.design, at_easy_end(point)));

@@ -88,9 +88,15 @@ std::pair<int, int> Binder::index_range(const Expression& expression, const Node
   const Node& to_node = range ? *node.children[1] : node;
   const auto from = whole_index(expression, from_node, size);
   const auto to = whole_index(expression, to_node, size);
-  if (!from || !to)
-    fail(expression, from ? to_node : from_node,
-         "an index must be a whole number known beforehand");
+  if (!from || !to) {
+    const Node& unknown = from ? to_node : from_node;
+    const bool of_time = names_in({expression.text, std::make_shared<Node>(unknown)}).contains("t");
+    fail(expression, unknown,
+         std::string("an index must be a whole number known beforehand") +
+             (of_time ? "; a value at another time is a delay, which 'flow' does not have: see "
+                        "'Delays' in docs/dynamics.md"
+                      : ""));
+  }
   const bool empty = range && *to == *from - 1;
   if (*from < 1 || *to > size || (*from > *to && !empty))
     fail(expression, node,

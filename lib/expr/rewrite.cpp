@@ -115,19 +115,31 @@ Program input_program(const std::string& name, Shape shape) {
   return compose.take(compose.input(name, shape));
 }
 
-Program with_identity(const Program& program, const std::string& scale, const std::string& name) {
+Program with_diagonal(const Program& program, const std::vector<std::string>& diagonal,
+                      const std::string& name) {
   Assembly assembly;
   const int difference = add_program(assembly, program, nullptr);
   const Instruction like = assembly[difference];
   const Shape shape = like.shape;
-  Instruction number = operation(Op::constant, {}, {}, like);
-  number.text = scale;
-  int factor = assembly.add(std::move(number));
+  std::vector<int> numbers;
+  for (const std::string& decimal : diagonal) {
+    Instruction number = operation(Op::constant, {}, {}, like);
+    number.text = decimal;
+    numbers.push_back(assembly.add(std::move(number)));
+  }
+  int room = numbers.front();
+  if (numbers.size() == 1) {
+    room = assembly.add(operation(Op::identity, {room}, shape, like));
+  } else {
+    Instruction column = operation(Op::blocks, numbers, {shape.rows, 1}, like);
+    column.attributes[0] = 1;
+    room = assembly.add(
+        operation(Op::diagonal_matrix, {assembly.add(std::move(column))}, shape, like));
+  }
   if (!name.empty()) {
     const int scalar = assembly.add_input(name, {}, like);
-    factor = assembly.add(operation(Op::multiply, {factor, scalar}, {}, like));
+    room = assembly.add(operation(Op::scale, {scalar, room}, shape, like));
   }
-  const int room = assembly.add(operation(Op::identity, {factor}, shape, like));
   return assembly.extract(assembly.add(operation(Op::add, {difference, room}, shape, like)));
 }
 

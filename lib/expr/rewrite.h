@@ -59,9 +59,9 @@ Program combination(const std::vector<Program>& factors, const std::vector<std::
 /// The program that reads one input.
 Program input_program(const std::string& name, Shape shape);
 
-/// program + scale * s * I, with s the 1 x 1 input `name` (1 where there is no name) and `scale` a
-/// decimal.
-Program with_identity(const Program& program, const std::string& scale,
+/// program + s * D, with s the 1 x 1 input `name` (1 where there is no name) and D the diagonal
+/// matrix of decimals; one alone is for a multiple of I.
+Program with_diagonal(const Program& program, const std::vector<std::string>& diagonal,
                       const std::string& name = {});
 
 }  // namespace gainsmith::expr

@@ -45,23 +45,6 @@ std::uint64_t values_of_event(std::size_t event, const System& system, const Sce
 
 }  // namespace
 
-std::vector<std::string> idle_observers(const Dynamics& dynamics) {
-  std::vector<char> has_states(dynamics.components.size(), 0);
-  std::vector<char> changes(dynamics.components.size(), 0);
-  for (const Dynamics::Variable& variable : dynamics.variables)
-    if (variable.kind == Dynamics::VariableKind::state ||
-        variable.kind == Dynamics::VariableKind::mode)
-      has_states[variable.component] = 1;
-  for (const Dynamics::Assignment& flow : dynamics.flow)
-    changes[dynamics.variables[flow.variable].component] = 1;
-  for (const Dynamics::Reaction& reaction : dynamics.reactions) changes[reaction.component] = 1;
-  std::vector<std::string> idle;
-  for (std::size_t k = 0; k < dynamics.components.size(); ++k)
-    if (dynamics.components[k].observer && has_states[k] != 0 && changes[k] == 0)
-      idle.push_back(dynamics.components[k].name);
-  return idle;
-}
-
 std::vector<std::size_t> late_events(const System& system, const Scenario& scenario) {
   std::vector<std::size_t> late;
   for (std::size_t e = 0; e < system.dynamics.events.size(); ++e) {

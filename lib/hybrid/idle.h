@@ -11,9 +11,6 @@
 
 namespace gainsmith::hybrid {
 
-/// Observers with states of which none ever changes: they have neither flows nor maps.
-std::vector<std::string> idle_observers(const model::Dynamics& dynamics);
-
 /// Events with a clock that is first due after the horizon, in every run.
 std::vector<std::size_t> late_events(const System& system, const Scenario& scenario);
 

@@ -19,6 +19,14 @@ bool ends_line(const std::string& text, std::size_t at) {
   return text[at] == '\n' || (text[at] == '\r' && text[std::min(at + 1, text.size() - 1)] != '\n');
 }
 
+/// "angle [deg]" and "angle (deg)" are called angle.
+bool is_with_unit(const std::string& name, const std::string& column) {
+  if (column.empty() || !name.starts_with(column)) return false;
+  const std::size_t at = name.find_first_not_of(' ', column.size());
+  return at != std::string::npos &&
+         ((name[at] == '[' && name.back() == ']') || (name[at] == '(' && name.back() == ')'));
+}
+
 }  // namespace
 
 CsvTable::CsvTable(std::string text, std::string path, FirstLine first)
@@ -29,9 +37,16 @@ CsvTable::CsvTable(std::string text, std::string path, FirstLine first)
 
 void CsvTable::read(FirstLine first) {
   bool is_first = true;
+  bool may_be_units = true;
   std::size_t at = 0;
   int number = 1;
   while (at < text_.size()) {
+    if (text_[at] == '#') {
+      has_comments_ = true;
+      while (at < text_.size() && !ends_line(text_, at)) ++at;
+      ++at, ++number;
+      continue;
+    }
     Line start{number, at};
     std::size_t begin = at;
     const std::vector<Cell> cells = line(at, number, begin);
@@ -46,6 +61,9 @@ void CsvTable::read(FirstLine first) {
     }
     while (lines_.empty() && first == FirstLine::row && names_.size() < cells.size())
       names_.push_back(std::to_string(names_.size() + 1));
+    if (cells.size() == names_.size() && lines_.empty() && first == FirstLine::names &&
+        std::exchange(may_be_units, false) && is_without_digits(cells))
+      continue;
     if (cells.size() != names_.size())
       throw InputError({path_, start.number, 1}, "the row has " + std::to_string(cells.size()) +
                                                      " cells, the first line " +
@@ -104,7 +122,8 @@ void CsvTable::read_header(const std::vector<Cell>& cells, const Line& line) {
     const std::string name = text(one);
     const Place place = this->place(line, one);
     if (parse_decimal(name))
-      throw InputError(place, "expected a line of column names, found the number " + name);
+      throw InputError(place, "expected a line of column names, found the number " + name +
+                                  (has_comments_ ? "; lines that begin with # are comments" : ""));
     if (std::find(names_.begin(), names_.end(), name) != names_.end())
       throw InputError(place, "there are two columns '" + name + "'");
     names_.push_back(name);
@@ -112,6 +131,12 @@ void CsvTable::read_header(const std::vector<Cell>& cells, const Line& line) {
   if (names_.size() == 1 && names_[0].find(';') != std::string::npos)
     throw InputError({path_, line.number, 1},
                      "the columns are separated by semicolons; expected commas");
+}
+
+bool CsvTable::is_without_digits(const std::vector<Cell>& cells) const {
+  return std::all_of(cells.begin(), cells.end(), [&](const Cell& one) {
+    return !one.quoted && text(one).find_first_of("0123456789") == std::string::npos;
+  });
 }
 
 bool CsvTable::is_heading(const std::vector<Cell>& cells) const {
@@ -135,7 +160,10 @@ std::string CsvTable::text(const Cell& cell) const {
 }
 
 std::optional<std::size_t> CsvTable::find(const std::string& column) const {
-  const auto found = std::find(names_.begin(), names_.end(), column);
+  auto found = std::find(names_.begin(), names_.end(), column);
+  if (found == names_.end())
+    found = std::find_if(names_.begin(), names_.end(),
+                         [&](const std::string& name) { return is_with_unit(name, column); });
   if (found == names_.end()) return std::nullopt;
   return static_cast<std::size_t>(found - names_.begin());
 }

@@ -1,7 +1,8 @@
 // Reading tables of CSV (RFC 4180): a line of column names, then rows of cells; or rows alone.
 //
 // Lines end with LF or CRLF; cells are separated by commas, may be quoted, and spaces around them
-// do not count. Empty lines are left out. Errors name file, line and column of the CSV itself.
+// do not count. Empty lines and those that begin with # are left out; so is a line of units, which
+// has no digit, below the names. A name may end with its unit, as in "angle [deg]". Errors name file, line and column of the CSV itself.
 #pragma once
 
 #include <optional>
@@ -52,6 +53,7 @@ class CsvTable {
   Cell cell(std::size_t& at, int& number, std::size_t& line_begin) const;
   void read_header(const std::vector<Cell>& cells, const Line& line);
   Place place(const Line& line, const Cell& cell) const;
+  bool is_without_digits(const std::vector<Cell>& cells) const;
   bool is_heading(const std::vector<Cell>& cells) const;
   std::string text(const Cell& cell) const;
   const Cell& cell(std::size_t row, std::size_t column) const {
@@ -62,6 +64,7 @@ class CsvTable {
   std::vector<std::string> names_;
   std::vector<Line> lines_;  ///< of the rows
   std::vector<Cell> cells_;  ///< row by row
+  bool has_comments_ = false;
 };
 
 }  // namespace gainsmith::io

@@ -9,6 +9,7 @@
 #include "base/number.h"
 #include "expr/parser.h"
 #include "io/csv_table.h"
+#include "io/log_times.h"
 #include "io/sources.h"
 
 namespace gainsmith::io {
@@ -27,9 +28,7 @@ std::shared_ptr<const CsvTable> table_of(const YamlFile& file, const YamlItem& i
 /// Which rows of which file, and when they are.
 struct Source {
   std::shared_ptr<const CsvTable> table;
-  std::string time = "t";
-  Place time_place;
-  double from = 0;
+  std::shared_ptr<const LogTimes> times;
   std::vector<std::pair<std::size_t, std::string>> words;  ///< by column
 
   bool takes(std::size_t row) const {
@@ -53,17 +52,29 @@ void require_word(const CsvTable& table, const std::pair<std::size_t, std::strin
                               suggestion(word.second, there));
 }
 
-/// `path`: the item with the name of the file; the rest is taken from `map`.
-Source source(const YamlFile& file, const YamlItem& path, YamlMap& map) {
+/// `path`: the item with the name of the file; the rest is taken from `map`, where there is one.
+/// `time`: the item with the column of the times, instead of the key of that name.
+Source source(const YamlFile& file, const YamlItem& path, YamlMap* map,
+              std::optional<YamlItem> time = std::nullopt) {
   Source result;
   result.table = table_of(file, path);
-  result.time_place = path.place;
-  if (const auto time = map.find("time")) {
-    result.time = file.string(time->value, "time");
-    result.time_place = file.place(time->value);
-  }
-  if (const auto from = map.find("from")) result.from = file.number(from->value, "from");
-  for (const YamlItem& item : items_of(file, map.find("rows"), "rows")) {
+  const auto find = [&](const char* key) { return map ? map->find(key) : std::nullopt; };
+  const auto own = find("time");
+  if (!time) time = own;
+  const std::size_t column =
+      time ? result.table->column(file.string(time->value, time->key), file.place(time->value))
+           : result.table->column("t", path.place);
+  const auto scale = find("scale");
+  const auto from = find("from");
+  const double unit = scale ? file.number(scale->value, "scale") : 1;
+  if (!(unit > 0)) throw InputError(file.place(scale->value), "scale: expected a positive number");
+  result.times = std::make_shared<const LogTimes>(
+      *result.table, column, unit,
+      from ? std::optional(file.string(from->value, "from")) : std::nullopt,
+      from ? file.place(from->value) : path.place);
+  if (result.times->begins_by_itself())
+    file.sources(path.value).begins_at_its_first_row(result.table->path(), path.place);
+  for (const YamlItem& item : items_of(file, find("rows"), "rows")) {
     result.words.emplace_back(result.table->column(item.key, item.place),
                               file.string(item.value, item.key));
     require_word(*result.table, result.words.back(), file.place(item.value));
@@ -92,39 +103,49 @@ std::vector<std::size_t> columns(const CsvTable& table, const std::string& name,
   return found;
 }
 
+/// Whether a cell says that there is no value.
+bool is_silent(const CsvTable& table, std::size_t row, std::size_t column) {
+  std::string word = table.text(row, column);
+  std::transform(word.begin(), word.end(), word.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return word.empty() || word == "nan" || word == "na" || word == "n/a" || word == "null";
+}
+
 /// Whether the row has values; some of a vector alone are an error.
 bool has_values(const CsvTable& table, std::size_t row, const std::vector<std::size_t>& columns) {
-  std::size_t empty = 0;
-  for (const std::size_t column : columns)
-    if (table.text(row, column).empty()) ++empty;
-  if (empty == 0 || empty == columns.size()) return empty == 0;
+  const auto silent = std::count_if(columns.begin(), columns.end(), [&](std::size_t column) {
+    return is_silent(table, row, column);
+  });
+  if (silent == 0 || silent == std::ssize(columns)) return silent == 0;
   throw InputError(table.place(row, columns.front()),
                    "the row has some elements of a vector and not the others");
 }
 
-double time_of(const Source& source, std::size_t row, std::size_t column, double before) {
-  const auto time = source.table->number(row, column);
-  const Place place = source.table->place(row, column);
+double time_of(const Source& source, std::size_t row, double before) {
+  const auto time = source.times->at(row);
+  const Place place = source.times->place(row);
   if (!time) throw InputError(place, "the row has no time");
-  if (*time - source.from < before)
-    throw InputError(place, "the time " + brief(*time, 15) + " comes after " +
-                                brief(before + source.from, 15) +
+  if (*time < before)
+    throw InputError(place, "the time " + brief(*time, 15) + " comes after " + brief(before, 15) +
                                 ": rows must be in the order of time");
-  return *time - source.from;
+  return *time;
 }
 
 std::shared_ptr<const model::Series> series(const Source& source, const std::string& name,
                                             const Place& place) {
   const CsvTable& table = *source.table;
-  const std::size_t time = table.column(source.time, source.time_place);
   const std::vector<std::size_t> of = columns(table, name, place);
   auto result = std::make_shared<model::Series>();
   result->file = table.path();
   std::vector<double> values;
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    if (!source.takes(row) || !has_values(table, row, of)) continue;
-    const double before = result->times.empty() ? -HUGE_VAL : result->times.back();
-    result->times.push_back(time_of(source, row, time, before));
+    if (!source.takes(row)) continue;
+    const bool silent = !has_values(table, row, of);
+    auto& times = silent ? result->silent : result->times;
+    // Rows without values may have no time either.
+    if (silent && !source.times->at(row)) continue;
+    times.push_back(time_of(source, row, times.empty() ? -HUGE_VAL : times.back()));
+    if (silent) continue;
     for (const std::size_t column : of) values.push_back(*table.number(row, column));
   }
   if (result->times.empty())
@@ -170,7 +191,7 @@ model::MeasuredText measured_input(const YamlFile& file, const YamlItem& item) {
   result.place = item.place;
   const YamlItem csv = map.require("csv");
   const YamlItem column = map.require("column");
-  const Source rows = source(file, csv, map);
+  const Source rows = source(file, csv, &map);
   result.between = between(file, map, Between::hold);
   map.finish();
   result.series = series(rows, file.string(column.value, "column"), file.place(column.value));
@@ -181,15 +202,13 @@ std::vector<double> measured_times(const YamlFile& file, const YamlItem& at) {
   YamlMap map(file, at.value, at.key, keys::measured_times);
   const YamlItem csv = map.require("csv");
   const YamlItem column = map.require("column");
-  const Source rows = source(file, csv, map);
+  const Source rows = source(file, csv, &map, column);
   map.finish();
-  const std::size_t time =
-      rows.table->column(file.string(column.value, "column"), file.place(column.value));
   std::vector<double> times;
   double before = -HUGE_VAL;
   for (std::size_t row = 0; row < rows.table->rows(); ++row) {
-    if (!rows.takes(row) || !rows.table->number(row, time)) continue;
-    before = time_of(rows, row, time, before);
+    if (!rows.takes(row) || !rows.times->at(row)) continue;
+    before = time_of(rows, row, before);
     if (before >= 0) times.push_back(before);
   }
   if (times.empty())
@@ -210,14 +229,11 @@ void read_log(const YamlFile& file, YamlMap& plant, model::Component& component,
     }
   };
   if (!log.value.IsMap()) {
-    Source rows;
-    rows.table = table_of(file, log);
-    rows.time_place = log.place;
-    read(rows, Between::hold);
+    read(source(file, log, nullptr), Between::hold);
     return;
   }
   YamlMap map(file, log.value, "log", keys::log);
-  const Source rows = source(file, map.require("csv"), map);
+  const Source rows = source(file, map.require("csv"), &map);
   const Between otherwise = between(file, map, Between::hold);
   map.finish();
   read(rows, otherwise);

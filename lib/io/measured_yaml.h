@@ -1,10 +1,10 @@
 // Internal to io: measured data. Paths are relative to the file that names them.
 //
-//   {csv: run.csv, column: u, time: t, between: hold | line, rows: {event: sample}, from: 0}
+//   {csv: run.csv, column: u, time: t, scale: 1, between: hold | line, rows: {event: sample}, from: 0}
 //
-// `time` is the column of the times, t unless said. `rows`: those whose cells in these columns hold
-// these words. `from`: the time in the file at which a run begins. Rows without a value count for
-// nothing.
+// `time` is the column of the times, t unless said, in units of `scale` seconds. `rows`: those whose
+// cells in these columns hold these words. `from`: the time in the file at which a run begins. Rows
+// without a value (empty, NaN, NA) count for nothing.
 #pragma once
 
 #include <optional>

@@ -157,4 +157,11 @@ FileMatrix Sources::matrix(
   return result;
 }
 
+void Sources::begins_at_its_first_row(const std::string& log, const Place& place) {
+  if (begins_at_first_row_.empty()) begins_at_first_row_ = log;
+  if (begins_at_first_row_ != log)
+    throw InputError(place, "the times of " + log + " and of " + begins_at_first_row_ +
+                                " are dates or Unix times: `from` has to say when a run begins");
+}
+
 }  // namespace gainsmith::io

@@ -56,6 +56,10 @@ class Sources {
   FileMatrix matrix(const Reference& reference, const std::string& key,
                     const std::function<FileMatrix(const std::string&, const std::string&)>& read);
 
+  /// Notes that the time of a log is counted from its first row although nothing says so. InputError
+  /// at `place` when that was another log: their rows would be moved against each other.
+  void begins_at_its_first_row(const std::string& log, const Place& place);
+
   /// What was read so far.
   const std::vector<model::StatedFile>& files() const { return files_; }
 
@@ -72,6 +76,7 @@ class Sources {
   std::string gain_file_;
   std::vector<model::StatedFile> stated_;
   std::vector<model::StatedFile> files_;
+  std::string begins_at_first_row_;
 };
 
 }  // namespace gainsmith::io

@@ -161,6 +161,7 @@ struct Dynamics {
     std::string name;  ///< "y", "e", "nominal.e"
     Formula value;
     std::optional<std::size_t> at;  ///< the event at which alone it exists
+    bool output = false;            ///< of the plant or of an observer
   };
 
   /// Of a method with a timer: where nothing says so, states start in the box [-1, 1], and a run

@@ -22,9 +22,10 @@ namespace gainsmith::model {
 enum class Between { hold, line };
 
 struct Series {
-  std::string file;           ///< for messages
-  std::vector<double> times;  ///< never falling; one at least
-  numbers::Matrix values;     ///< a row for each time, a column for each element of the quantity
+  std::string file;            ///< for messages
+  std::vector<double> times;   ///< never falling; one at least
+  numbers::Matrix values;      ///< a row for each time, a column for each element of the quantity
+  std::vector<double> silent;  ///< the times of rows that have no value of it, never falling
 
   /// The first row after t, and the first one not before t; `slack` is added to t first.
   std::size_t after(double t, double slack = 0) const;

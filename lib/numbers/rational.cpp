@@ -1,5 +1,8 @@
 #include "numbers/rational.h"
 
+#include <algorithm>
+#include <array>
+
 #include "base/stop.h"
 #include "expr/evaluate.h"
 #include "numbers/field_rules.h"
@@ -11,13 +14,43 @@ namespace {
 
 using expr::Op;
 
-/// EvaluationError for fractions that are too long to compute with.
-void check_size(const RationalMatrix& x) {
-  constexpr std::size_t kMostBits = 20000;
+/// Operations whose results are no fractions, but for a few operands.
+constexpr bool is_irrational(Op op) {
+  constexpr std::array kOperations = {Op::real_power,
+                                      Op::log,
+                                      Op::sqrt,
+                                      Op::atan2,
+                                      Op::norm,
+                                      Op::pseudo_inverse,
+                                      Op::singular_values,
+                                      Op::range_basis,
+                                      Op::kernel_basis,
+                                      Op::complement_basis,
+                                      Op::jacobian,
+                                      Op::project_polytope,
+                                      Op::project_ellipsoid,
+                                      Op::project_affine,
+                                      Op::project_convex,
+                                      Op::flow_map,
+                                      Op::extremum,
+                                      Op::eigenvalues,
+                                      Op::continuous_riccati,
+                                      Op::discrete_riccati};
+  return std::find(kOperations.begin(), kOperations.end(), op) != kOperations.end();
+}
+
+[[noreturn]] void not_rational(Op op) {
+  throw expr::EvaluationError("the " + expr::to_string(op) + " has no exact fraction");
+}
+
+/// EvaluationError for fractions that are too long to compute with. `times`: as much longer they
+/// will be.
+void check_size(const RationalMatrix& x, Eigen::Index times = 1) {
+  const std::size_t kMostBits = 4000 / static_cast<std::size_t>(std::max<Eigen::Index>(times, 1));
   for (const Rational& value : x.reshaped())
     if (mpz_sizeinbase(mpq_numref(value.backend().data()), 2) > kMostBits ||
         mpz_sizeinbase(mpq_denref(value.backend().data()), 2) > kMostBits)
-      throw expr::EvaluationError("the fraction has more than 6,000 digits");
+      throw expr::EvaluationError("the fraction has more than 1,200 digits");
 }
 
 Rational whole_part(const Rational& x) {
@@ -79,6 +112,7 @@ struct Rules : FieldRules<Rational> {
     }
   }
   void operator()(Is<Op::inverse>, const At& at, Value& out) const {
+    check_size(at[0], at[0].rows());
     const auto inverse = rational_inverse(at[0]);
     if (!inverse) expr::fault::singular(at.instruction);
     out = *inverse;
@@ -100,17 +134,7 @@ struct Rules : FieldRules<Rational> {
     out = Value::Identity(at[0].rows(), at[0].cols());
   }
   template <Op op>
-  requires expr::OneOf<op, Op::real_power, Op::log, Op::sqrt, Op::atan2, Op::norm,
-                       Op::pseudo_inverse, Op::singular_values, Op::range_basis, Op::kernel_basis,
-                       Op::complement_basis, Op::jacobian, Op::project_polytope,
-                       Op::project_ellipsoid, Op::project_affine, Op::project_convex, Op::flow_map,
-                       Op::extremum, Op::eigenvalues, Op::continuous_riccati, Op::discrete_riccati>
-  void operator()(Is<op>, const At&, Value&) const { not_rational(op); }
-
- private:
-  [[noreturn]] static void not_rational(Op op) {
-    throw expr::EvaluationError("the " + expr::to_string(op) + " has no exact fraction");
-  }
+  requires(is_irrational(op)) void operator()(Is<op>, const At&, Value&) const { not_rational(op); }
 };
 
 }  // namespace
@@ -122,7 +146,13 @@ void RationalNumbers::apply(const expr::Instruction& instruction, expr::Operands
   check_size(out);
 }
 
+void require_fractions(const expr::Program& program) {
+  for (const expr::Instruction& one : program.code)
+    if (is_irrational(one.op)) not_rational(one.op);
+}
+
 RationalMatrix rational_value(const expr::Program& program, const RationalValues& values) {
+  require_fractions(program);
   expr::Evaluator<RationalNumbers> evaluator(program);
   for (const expr::Input& input : program.inputs) {
     const auto found = values.find(input.name);

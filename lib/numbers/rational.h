@@ -26,6 +26,10 @@ struct RationalNumbers {
 
 using RationalValues = std::map<std::string, RationalMatrix, std::less<>>;
 
+/// EvaluationError where an operation of the program has no fractions. Said before it is computed:
+/// what others lead to may be long.
+void require_fractions(const expr::Program& program);
+
 /// Evaluates once. EvaluationError when an operation or an input has no value here.
 RationalMatrix rational_value(const expr::Program& program, const RationalValues& values);
 

@@ -68,7 +68,7 @@ void DueEvents::note_sign(std::size_t event, const VectorXd& values, double t) {
     if (wanted && kind != DueKind::crosses) mark.sign = sign;
     return;
   }
-  if (noise && !wanted) {
+  if (!wanted && watch_->may_be_noise(event, values)) {
     mark.pending = sign;
     mark.crossed = false;
     return;

@@ -51,6 +51,13 @@ double time_of(const ode::TurningPoint& turn, const std::vector<ode::Root>& root
   return t;
 }
 
+/// What the rounding of a time on the step makes of the function there.
+double rounding_of_time(CrossingsOnStep& on_step, const StepValues& inside) {
+  constexpr double last_places = 4 * std::numeric_limits<double>::epsilon();
+  const double swing = on_step.value(0, inside.to()) - on_step.value(0, inside.from());
+  return last_places * inside.to() * std::abs(swing) / (inside.to() - inside.from());
+}
+
 }  // namespace
 
 EventWatch::EventWatch(const hybrid::System& system) : system_(&system) {
@@ -65,6 +72,7 @@ EventWatch::EventWatch(const hybrid::System& system) : system_(&system) {
     if (event.crossing) crossing.back().emplace(event.crossing->program, system);
   }
   rounding_.assign(crossing.size(), 0);
+  time_rounding_.assign(crossing.size(), 0);
   for (const model::Dynamics::Component& one : system.dynamics.components)
     for (const auto& flow_set : one.flow_sets)
       flow_sets.push_back(
@@ -106,6 +114,11 @@ bool EventWatch::is_noise(std::size_t event, const VectorXd& values) {
          std::abs((*crossing[event])(values)(0)) <= rounding_[event];
 }
 
+bool EventWatch::may_be_noise(std::size_t event, const VectorXd& values) {
+  return is_noise(event, values) ||
+         std::abs((*crossing[event])(values)(0)) <= rounding_[event] + time_rounding_[event];
+}
+
 hybrid::EventFunction& EventWatch::function_of(const hybrid::NearTurn& turn) {
   if (turn.of == hybrid::NearTurn::Of::crossing) return *crossing[turn.index];
   hybrid::EventCondition& condition =
@@ -128,8 +141,10 @@ std::vector<double> EventWatch::crossings(
     if (times.empty()) times = ode::first_points(inside.from(), inside.to());
     CrossingsOnStep on_step(function, inside, times);
     double before = 0;
-    if (role.of == hybrid::NearTurn::Of::crossing)
+    if (role.of == hybrid::NearTurn::Of::crossing) {
       before = std::exchange(rounding_[role.index], on_step.noise()(0));
+      time_rounding_[role.index] = rounding_of_time(on_step, inside);
+    }
     for (Index element = 0; element < function.size(); ++element) {
       if (!apart.empty() && apart[static_cast<std::size_t>(element)] != 0) continue;
       if (hidden != nullptr)

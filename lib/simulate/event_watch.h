@@ -41,8 +41,10 @@ class EventWatch {
   /// Whether e of an event is 0 but for rounding: that of its terms, and of the values on the step
   /// that `crossings` has searched last.
   bool is_noise(std::size_t event, const Eigen::VectorXd& values);
+  /// Whether it may be 0 but for the rounding of the time of an instant besides.
+  bool may_be_noise(std::size_t event, const Eigen::VectorXd& values);
   /// A jump leads to values that have no rounding of a step.
-  void forget_step(std::size_t event) { rounding_[event] = 0; }
+  void forget_step(std::size_t event) { rounding_[event] = time_rounding_[event] = 0; }
 
   /// The function that a turning point is of.
   hybrid::EventFunction& function_of(const hybrid::NearTurn& turn);
@@ -70,7 +72,8 @@ class EventWatch {
   static bool decides(const Role& role, const Eigen::VectorXd& values);
 
   const hybrid::System* system_;
-  std::vector<double> rounding_;  ///< by event: of e on a step
+  std::vector<double> rounding_;       ///< by event: of e on a step
+  std::vector<double> time_rounding_;  ///< by event: what that of the time makes of e
 };
 
 }  // namespace gainsmith::simulate

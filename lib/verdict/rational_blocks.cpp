@@ -47,6 +47,7 @@ RationalBlock evaluated(const lmi::Inequalities& of, const lmi::Block& block,
   add_point(statement, block, values);
   for (const lmi::Unknown& unknown : of.unknowns.list())
     values[unknown.name] = zeros(unknown.shape);
+  numbers::require_fractions(program);
   expr::Evaluator<numbers::RationalNumbers> evaluator(program);
   for (const expr::Input& input : program.inputs) {
     const auto found = values.find(input.name);

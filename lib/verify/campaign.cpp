@@ -14,6 +14,7 @@
 #include "base/progress.h"
 #include "base/save_pace.h"
 #include "base/stop.h"
+#include "hybrid/doubts.h"
 #include "hybrid/idle.h"
 
 namespace gainsmith::verify {
@@ -166,7 +167,7 @@ CampaignFacts facts_of(const Setup& setup, const CampaignOptions& options) {
   if (facts.asked == 0) throw InputError(texts.campaign.place, "a campaign needs at least one run");
   facts.confidence = options.confidence;
   facts.horizon = setup.horizon();
-  facts.idle_observers = hybrid::idle_observers(setup.events->system.dynamics);
+  facts.doubts = hybrid::doubts_about(texts.dynamics, setup.events->system.constants);
   for (const auto& event : setup.events->system.dynamics.events)
     facts.events.push_back(event.is_built_in() ? "" : event.name);
   for (const claims::Claim& claim : setup.claims())

@@ -86,7 +86,7 @@ struct Report {
   /// undecided runs count as violating. 1 where nothing is drawn.
   double violation_probability = 1;
   std::vector<std::string> silent_events;   ///< of the user's text, that happened in no run
-  std::vector<std::string> idle_observers;  ///< that never change
+  std::vector<std::string> doubts;  ///< hybrid/doubts.h
   std::vector<CheckReport> checks;          ///< in the method's order; none when no run was made
 
   bool interrupted() const { return runs < asked && !ended; }

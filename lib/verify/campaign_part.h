@@ -36,7 +36,7 @@ struct CampaignFacts {
   bool until_violated = false;  ///< ends with the first violated run; of no part of --shard
   std::optional<std::uint64_t> different;
   std::vector<std::string> events;  ///< a name; of a method of the program empty
-  std::vector<std::string> idle_observers;
+  std::vector<std::string> doubts;
   std::vector<ClaimFacts> claims;
 
   bool operator==(const CampaignFacts&) const = default;

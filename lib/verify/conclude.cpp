@@ -151,7 +151,7 @@ Report conclude(const CampaignPart& part) {
   report.asked = facts.asked;
   report.seed = facts.seed;
   report.confidence = facts.confidence;
-  report.idle_observers = facts.idle_observers;
+  report.doubts = facts.doubts;
   report.horizon = facts.horizon;
   report.runs = part.tally.runs;
   report.ended = part.ended();

@@ -228,18 +228,18 @@ std::vector<judge::Fault> faults_of(const hybrid::Trajectory& run, const claims:
 }
 
 /// InputError for a step that makes too many points.
-void check_points(const Setup& setup, double step) {
+void check_points(double length, double step) {
   constexpr double kMostPoints = 1e7;
-  if (step > 0 && setup.horizon() / step > kMostPoints)
-    throw InputError({}, "a step of " + brief(step) + " makes " + brief(setup.horizon() / step, 2) +
-                             " points of a run of length " + brief(setup.horizon()) +
+  if (step > 0 && length / step > kMostPoints)
+    throw InputError({}, "a step of " + brief(step) + " makes " + brief(length / step, 2) +
+                             " points of a run of length " + brief(length) +
                              "; at most 1e7 are written");
 }
 
 }  // namespace
 
 Replay table_of_run(const Setup& setup, hybrid::Trajectory run, double step, bool with_rounding) {
-  check_points(setup, step);
+  check_points(run.end, step);
   Replay result;
   result.run = std::move(run);
   std::optional<Concluding> concluding;
@@ -264,7 +264,7 @@ hybrid::Trajectory run_of(const Setup& setup, std::uint64_t seed, std::uint64_t 
 
 Replay table_of_run(const Setup& setup, std::uint64_t seed, std::uint64_t run, double step,
                     bool with_rounding) {
-  check_points(setup, step);
+  check_points(setup.horizon(), step);
   return table_of_run(setup, run_of(setup, seed, run), step, with_rounding);
 }
 

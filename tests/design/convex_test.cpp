@@ -100,7 +100,8 @@ TEST(ConvexFunctions, NumbersAreComparedWithEachElement) {
 /// An objective with functions of its own needs no other inequality.
 /// The point of a box that is nearest to one outside of it, in each norm.
 TEST(ConvexFunctions, ElementsOfColumnsAndRowsAreCompared) {
-  for (const char* text : {"0 <= x <= 1", "zeros(1, n) <= x' <= ones(1, n)", "zeros(n, 1) <= x <= ones(n, 1)"}) {
+  for (const char* text :
+       {"0 <= x <= 1", "zeros(1, n) <= x' <= ones(1, n)", "zeros(n, 1) <= x <= ones(n, 1)"}) {
     const model::Gains gains =
         solve(std::string("  data: {b: n}\n  unknowns: {x: n}\n  require: {box: \"") + text +
                   "\"}\n  minimize: norm(x - b)\n",
@@ -127,6 +128,62 @@ TEST(ConvexFunctions, LargestValuesOfOthers) {
   EXPECT_NE(input_error([&] { solve(head + "  minimize: \"max(min(x), 0)\"\n", data); })
                 .message()
                 .find("is concave"),
+            std::string::npos);
+}
+
+/// Least squares in a box, by their closed forms where no bound is active.
+TEST(ConvexFunctions, QuadraticForms) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    RandomStream random(0xC1, seed);
+    const Matrix A = random_matrix(random, 5, 3);
+    const Matrix b = random_matrix(random, 5, 1);
+    const Matrix x = A.colPivHouseholderQr().solve(b);
+    const double least = (A * x - b).squaredNorm();
+    const std::string data =
+        "data: {A: " + tests::matrix_yaml(A) + ", b: " + tests::matrix_yaml(b) + "}\n";
+    for (const char* text : {"(A*x - b)'*(A*x - b)", "norm(A*x - b)^2",
+                             "2*(A*x - b)'*0.5*(A*x - b)", "x'*(A'*A)*x - 2*b'*A*x + b'*b"}) {
+      const model::Gains gains = solve(
+          std::string("  data: {A: m x n, b: m}\n  unknowns: {x: n}\n  require: {box: -99 <= x <= "
+                      "99}\n  minimize: \"") +
+              text + "\"\n",
+          data);
+      ASSERT_EQ(gains.verdict, model::Verdict::yes) << text;
+      EXPECT_NEAR(*gains.objective, least, 1e-6 * (1 + b.squaredNorm())) << text;
+    }
+  }
+}
+
+TEST(ConvexFunctions, QuadraticFormsInRequirements) {
+  const std::string head = "  data: {Q: symmetric 2}\n  unknowns: {x: 2, t: scalar}\n";
+  const std::string singular = "data: {Q: [[1, 2], [2, 4]]}\n";
+  // The width of a strip and of a disc; the first is what is left of Q > 0.
+  EXPECT_NEAR(
+      *solve(head + "  require: {a: x'*Q*x < 9, b: -9 <= x(2) <= 9}\n  minimize: -x(1) - 2*x(2)\n",
+             singular)
+           .objective,
+      -3, 1e-5);
+  EXPECT_NEAR(
+      *solve(head + "  require: {a: x'*x + t^2 <= 9, b: 3*t >= 6}\n  minimize: -x(1)\n", singular)
+           .objective,
+      -std::sqrt(5.0), 1e-5);
+  EXPECT_NEAR(*solve(head + "  require: {a: \"sum(i in 1..2, (x(i) - i)^2) <= t\", b: x <= 0}\n  "
+                            "minimize: t\n",
+                     singular)
+                   .objective,
+              5, 1e-5);
+  const auto message = [&](const std::string& text, const std::string& data) {
+    return input_error([&] { solve(head + text, data); }).message();
+  };
+  EXPECT_NE(
+      message("  require: {a: norm(x) <= 1}\n  minimize: x'*Q*x\n", "data: {Q: [[1, 2], [2, 1]]}\n")
+          .find("expected lambda_min(Q) >= 0"),
+      std::string::npos);
+  EXPECT_NE(
+      message("  require: {a: norm(x) <= 1}\n  minimize: -1*x'*x\n", singular).find("is convex"),
+      std::string::npos);
+  EXPECT_NE(message("  require: {a: norm(x) <= 1}\n  minimize: x(1) - x'*x\n", singular)
+                .find("is convex: it can only be asked to be small"),
             std::string::npos);
 }
 

@@ -94,7 +94,7 @@ TEST(Elastic, WithoutConstantPartsASlackIsAPartOfTheRoom) {
 TEST(Elastic, AChainBecomesOneInequalityForEachComparison) {
   const YamlProblem problem(kInterval);
   std::map<std::string, std::string> names;
-  const model::Instance relaxed = elastic(problem.instance, {{"between", 2}}, names);
+  const model::Instance relaxed = elastic(problem.instance, {{"between", {2}}}, names);
   ASSERT_EQ(names.size(), 1U);
   std::vector<std::string> found;
   for (const model::Design::Inequality& inequality : relaxed.design->inequalities)

@@ -249,5 +249,53 @@ TEST(WrongCommandLines, AreNamedWithWhatWasExpected) {
   EXPECT_EQ(runs.json()["runs"], 10);
 }
 
+/// A file that says what was perhaps not meant is valid, with a note; --strict refuses it.
+TEST(SilentMistakes, AreHeardOf) {
+  const Folder folder;
+  struct Case {
+    const char *from, *to, *note;
+  };
+  const std::string campaign = "campaign:   {horizon: 10, runs: 5}\n";
+  const std::string uncertain = "data: {m: 2}\nuncertain: {m: {box: [1, 3]}}\n" + campaign;
+  for (const Case& one : std::vector<Case>{
+           {", new at: sample", "",
+            "the noise 'w' is drawn once a run, so it is a bias: `new at: sample`"},
+           {"w: {normal: 0.03, new at: sample}", "w: {uniform: [-1, 1]}", "drawn once a run"},
+           {"new at: sample", "every: 0.5",
+            "drawn anew after 0.5, and the event 'sample' reads it after 0.2"},
+           {"sample: {every: [0.05, 0.2]}}\n  noise:    {w: {normal: 0.03, new at: sample}}",
+            "sample: {every: [0.05, 0.2]}, slow: {every: 1}}\n  noise:    {w: {normal: 0.03, new "
+            "at: slow}}",
+            "`new at: sample` gives each its own"},
+           {"y: {value: x(1) + w, at: sample}",
+            "y: {value: x(1) + w, at: sample}, z: {value: x(2) + w, at: sample}",
+            "the outputs 'y' and 'z' have the same noise 'w'"},
+           {"flow: {x: f(x)}", "flow: {x: \"f(x) + [0; w]\"}", ""},
+           {"y: {value: x(1) + w, at: sample}", "y: {value: \"[x(1) + w; w]\", at: sample}",
+            "several elements of the output 'y' have the same noise"},
+           {"noise:    {w: {normal: 0.03, new at: sample}}",
+            "noise:    {w: {normal: 0.03, new at: sample}, d: {normal: 1}}", ""}}) {
+    std::string text = with(kRun, one.from, one.to);
+    if (std::string(one.to).find("[x(1) + w; w]") != std::string::npos)
+      text = with(text, "(y - C*xh)", "(y(1) - C*xh)");
+    const std::string file = folder.file("p.yaml", text);
+    const Outcome checked = gainsmith({"check", file});
+    const Outcome strict = gainsmith({"check", "--strict", file});
+    EXPECT_EQ(checked.exit, 0) << one.to << checked.err;
+    EXPECT_TRUE(has(checked.out, one.note)) << one.to << checked.out;
+    EXPECT_EQ(strict.exit, *one.note != '\0' ? 2 : 0) << one.to << strict.err;
+    EXPECT_TRUE(has(strict.err, one.note)) << strict.err;
+    const Outcome verified = gainsmith({"verify", file});
+    EXPECT_TRUE(has(verified.out, one.note)) << verified.out;
+    EXPECT_EQ(gainsmith({"verify", "--strict", file}).exit == 2, *one.note != '\0') << one.to;
+  }
+  const std::string file = folder.file(
+      "p.yaml", with(with(kRun, campaign, uncertain),
+                     "method: filter\n  let:", "method: filter\n  data: {m: scalar}\n  let:"));
+  const Outcome checked = gainsmith({"check", file});
+  EXPECT_TRUE(has(checked.out, "uncertain: the plant does not read 'm'"))
+      << checked.out << checked.err;
+}
+
 }  // namespace
 }  // namespace gainsmith::tests

@@ -196,6 +196,17 @@ TEST(Pictures, SeveralRunsLieOverEachOther) {
   EXPECT_EQ(count(words_of(drawn({"--runs", "0:9", "--panels", "x1"})), "run "), 10U);
 }
 
+/// It ends after 1e-17 s, and a picture of it has no more points than others.
+TEST(Pictures, ARunThatSlidesAtOnceIsDrawn) {
+  const Folder folder;
+  const Outcome made = simulate(folder, {}, "run.svg",
+                                "problem: p\nmethod:\n  plant: {state: {x: {shape: scalar, start: "
+                                "0}, v: {shape: scalar, start: 0}}, flow: {x: v, v: 3*sin(t) - "
+                                "1.5*sign(v)}}\ncampaign: {horizon: 20}\n");
+  EXPECT_TRUE(has(made.out + made.err, "sliding on the switching surface")) << made.err;
+  EXPECT_TRUE(has(text_of(folder.path("run.svg")), "</svg>"));
+}
+
 TEST(Pictures, AreTheSameBytesTwice) {
   const std::vector<std::string> all = {"--panels", "states,claims", "--phase", "x1,x2",
                                         "--band",   "xh:P",          "--runs",  "1,2"};

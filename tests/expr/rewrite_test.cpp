@@ -112,10 +112,13 @@ TEST_F(Rewriting, AComposedProgramIsItsText) {
   EXPECT_THROW(compose.apply(Op::add, {matrix, square}, {2, 2}), std::logic_error);
 }
 
-TEST_F(Rewriting, SlackIsAMultipleOfI) {
-  const Program loose = with_identity(compile("A"), "-2", "t");
+TEST_F(Rewriting, SlackIsAMultipleOfADiagonal) {
+  const Program loose = with_diagonal(compile("A"), {"-2"}, "t");
   const Matrix expected = world.values["A"] - 0.8 * Matrix::Identity(2, 2);
   EXPECT_LT(relative_difference(evaluate(loose, world.values), expected), 1e-15);
+  const Program rows = with_diagonal(compile("A"), {"-2", "3"}, "t");
+  const Matrix looser = world.values["A"] + 0.4 * Matrix{{-2, 0}, {0, 3}};
+  EXPECT_LT(relative_difference(evaluate(rows, world.values), looser), 1e-15);
 }
 
 TEST_F(Rewriting, CallsAreCheckedWhenBound) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "hybrid/doubts.h"
 #include "support/event_problem.h"
 
 namespace gainsmith::hybrid {
@@ -67,13 +68,15 @@ TEST(LateEvents, AreDueAfterTheHorizon) {
   EXPECT_EQ(late, (Names{"late", "first", "fixed"}));
 }
 
-TEST(IdleObservers, HaveStatesAndChangeNoneOfThem) {
+TEST(Doubts, ObserversThatNeverChange) {
   EventProblem problem = still();
   problem.observer("flows").state("a", {}, "0").flow("a", "1");
   problem.observer("jumps").state("b", {}, "0").jump("tick", {{"b", "b + 1"}});
   problem.observer("idle").state("c", {}, "0").state("d", {}, "0");
   problem.observer("stateless");
-  EXPECT_EQ(idle_observers(problem.system().dynamics), Names{"idle"});
+  const System system = problem.system();
+  EXPECT_EQ(doubts_about(system.dynamics, system.constants),
+            Names{"the observer 'idle' never changes: it has no flow, and no map at an event"});
 }
 
 }  // namespace

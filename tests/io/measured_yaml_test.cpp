@@ -92,6 +92,65 @@ TEST_F(Measured, ALogIsAPlant) {
   EXPECT_EQ(design->dynamics->events[0].rows.size(), 2U);
 }
 
+/// An event that a log says does not happen at rows in which the sensor is silent.
+TEST_F(Measured, ASilentSensorCorrectsNothing) {
+  write("gaps.csv", "t,y,z\n0,1,1\n0.1,,2\n0.2,NaN,3\n0.3,NA,4\n0.4,5,\n0.4,,6\n");
+  const auto rows = [&](const std::string& output) {
+    return bind::bind(
+               read("{log: gaps.csv, output: {" + output + "}}", "", "{csv: gaps.csv, column: t}"))
+        .design->dynamics->events[0]
+        .rows;
+  };
+  EXPECT_EQ(rows("y: {column: y, at: sample}"), (std::vector<double>{0, 0.4, 0.4}));
+  EXPECT_EQ(rows("y: {column: y, at: sample}, w: {column: z, at: sample}"),
+            (std::vector<double>{0, 0.4, 0.4}));
+  EXPECT_EQ(rows("w: {column: z, at: sample}").size(), 6U);
+}
+
+TEST_F(Measured, TimesHaveUnitsAndOrigins) {
+  const auto times = [&](const std::string& text, const std::string& more = "") {
+    write("log.csv", text);
+    return input("{csv: log.csv, column: u" + more + "}").series->times;
+  };
+  const std::vector<double> steps{0, 0.1, 0.25};
+  EXPECT_EQ(times("t,u\n0,1\n100,2\n250,3\n", ", scale: 1e-3"), steps);
+  EXPECT_EQ(times("t,u\n1700000000.05,1\n1700000000.15,2\n1700000000.3,3\n"), steps);
+  EXPECT_EQ(times("t,u\n1700000000050,1\n1700000000150,2\n1700000000300,3\n", ", scale: 1e-3"),
+            steps);
+  EXPECT_EQ(times("t,u\n1700000000050000000,1\n1700000000150000000,2\n1700000000300000000,3\n",
+                  ", scale: 1e-9"),
+            steps);
+  EXPECT_EQ(times("t,u\n7,1\n7.1,2\n7.25,3\n", ", from: first row"), steps);
+  EXPECT_EQ(times("t,u\n7000,1\n7100,2\n7250,3\n", ", scale: 0.001, from: 7000"), steps);
+  EXPECT_EQ(times("t,u\n2024-02-29T23:59:59.9Z,1\n2024-03-01T00:00:00Z,2\n"
+                  "2024-03-01 01:00:00.15+01:00,3\n"),
+            steps);
+  EXPECT_EQ(times("t,u\n2026-11-29T08:00:01Z,1\n", ", from: \"2026-11-29T08:00:00Z\""),
+            std::vector<double>{1});
+  EXPECT_EQ(times("# made by a logger\nt [s],u (V)\ns,V\n0,1\n# a break\n0.1,2\n0.25,3\n"), steps);
+  const auto message = [&](const std::string& text, const std::string& more = "") {
+    return input_error([&] { times(text, more); }).message();
+  };
+  EXPECT_NE(message("t,u\n0,1\n", ", from: first").find("expected 'first row' or a time"),
+            std::string::npos);
+  EXPECT_NE(message("t,u\n0,1\n", ", from: \"2026-11-29T08:00:00Z\"").find("as in"),
+            std::string::npos);
+  EXPECT_NE(message("t,u\n0,1\n", ", scale: 0").find("positive"), std::string::npos);
+  EXPECT_NE(message("t,u\n2026-13-29T08:00:00Z,1\n").find("expected a time"), std::string::npos);
+  EXPECT_NE(message("# t,u\n0,1\n").find("lines that begin with #"), std::string::npos);
+}
+
+/// Two logs, each counted from its own first row, would be moved against each other.
+TEST_F(Measured, TwoLogsNeedOneOrigin) {
+  write("a.csv", "t,u\n1700000000,1\n");
+  write("b.csv", "t,u\n1700000001,1\n");
+  EXPECT_NE(refused("{}", "u: {csv: a.csv, column: u}, v: {csv: b.csv, column: u}")
+                .message()
+                .find("`from` has to say when a run begins"),
+            std::string::npos);
+  read("{}", "u: {csv: a.csv, column: u}, v: {csv: b.csv, column: u, from: 1700000000}");
+}
+
 TEST_F(Measured, WhatIsWrongInTheFileIsSaidOfTheFile) {
   const std::string csv = (folder_ / "bad.csv").string();
   write("bad.csv", "t,u,x1,x2\n0,1,1,1\n1,x,1,1\n0.5,2,1,\n,3,1,1\n");

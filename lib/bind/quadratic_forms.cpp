@@ -1,0 +1,85 @@
+#include "bind/quadratic_forms.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "bind/trees.h"
+
+namespace gainsmith::bind {
+
+using expr::Node;
+using expr::NodeKind;
+using expr::NodePtr;
+
+namespace {
+
+bool is_same(const Node& a, const Node& b) {
+  return a.kind == b.kind && a.text == b.text && a.columns == b.columns &&
+         a.relations == b.relations &&
+         std::equal(a.children.begin(), a.children.end(), b.children.begin(), b.children.end(),
+                    [](const NodePtr& x, const NodePtr& y) { return is_same(*x, *y); });
+}
+
+bool is_transpose(const Node& a, const Node& b) {
+  return a.kind == NodeKind::transpose && is_same(*a.children.front(), b);
+}
+
+std::vector<NodePtr> factors_of(const NodePtr& product) {
+  if (product->kind != NodeKind::multiply) return {product};
+  std::vector<NodePtr> factors = factors_of(product->children[0]);
+  for (NodePtr& factor : factors_of(product->children[1])) factors.push_back(std::move(factor));
+  return factors;
+}
+
+}  // namespace
+
+std::optional<QuadraticForm> quadratic_form(const NodePtr& node) {
+  const Trees trees(*node);
+  const auto turned = [&](const NodePtr& one) { return trees.make(NodeKind::transpose, {one}); };
+  if (node->kind == NodeKind::power) {
+    const NodePtr& base = node->children[0];
+    if (node->children[1]->kind != NodeKind::number || node->children[1]->text != "2")
+      return std::nullopt;
+    const bool of_norm =
+        base->kind == NodeKind::call && base->text == "norm" && base->children.size() == 1;
+    const NodePtr& column = of_norm ? base->children.front() : base;
+    return QuadraticForm{column, turned(column), nullptr};
+  }
+  if (node->kind != NodeKind::multiply) return std::nullopt;
+  const std::vector<NodePtr> factors = factors_of(node);
+  const NodePtr& last = factors.back();
+  const auto mirrored =
+      std::find_if(factors.begin(), factors.end() - 1, [&](const NodePtr& factor) {
+        return is_transpose(*factor, *last) || is_transpose(*last, *factor) ||
+               is_same(*factor, *last);
+      });
+  if (mirrored == factors.end() - 1) return std::nullopt;
+  NodePtr weight;
+  for (auto factor = factors.begin(); factor != factors.end() - 1; ++factor)
+    if (factor != mirrored) weight = weight ? trees.times(weight, *factor) : *factor;
+  return QuadraticForm{last, *mirrored, weight};
+}
+
+NodePtr comparison_of(const QuadraticForm& form, const NodePtr& bound, int n, bool weight_is_number,
+                      bool strict) {
+  const Trees trees(*bound);
+  const NodePtr identity = trees.call("eye", trees.number(n));
+  const NodePtr weight = !form.weight       ? identity
+                         : weight_is_number ? trees.times(form.weight, identity)
+                                            : form.weight;
+  return trees.at_most(trees.number(0),
+                       trees.block({bound, form.weight ? trees.times(form.row, weight) : form.row,
+                                    trees.make(NodeKind::mirror, {}), weight}),
+                       strict);
+}
+
+NodePtr convexity_of(const QuadraticForm& form) {
+  const Trees trees(*form.weight);
+  const NodePtr rounding =
+      trees.times(trees.make(NodeKind::number, {}, "1e-12"), trees.call("norm", form.weight));
+  return trees.at_most(trees.make(NodeKind::negate, {rounding}),
+                       trees.call("lambda_min", form.weight), false);
+}
+
+}  // namespace gainsmith::bind

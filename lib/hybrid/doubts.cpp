@@ -1,0 +1,201 @@
+#include "hybrid/doubts.h"
+
+#include <algorithm>
+#include <set>
+
+#include "base/number.h"
+#include "expr/evaluate.h"
+#include "numbers/dense.h"
+
+namespace gainsmith::hybrid {
+
+namespace {
+
+using model::Dynamics;
+
+bool reads(const expr::Program& program, const std::string& name) {
+  return std::any_of(program.inputs.begin(), program.inputs.end(),
+                     [&](const expr::Input& input) { return input.name == name; });
+}
+
+bool reads(const expr::Condition& condition, const std::string& name) {
+  return reads(condition.difference, name) ||
+         std::any_of(condition.parts.begin(), condition.parts.end(),
+                     [&](const expr::Condition& part) { return reads(part, name); });
+}
+
+bool reads(const Dynamics::Reaction& reaction, const std::string& name) {
+  return std::any_of(reaction.passes.begin(), reaction.passes.end(), [&](const auto& pass) {
+    return std::any_of(pass.map.begin(), pass.map.end(), [&](const Dynamics::Assignment& value) {
+      return reads(value.value.program, name);
+    });
+  });
+}
+
+/// How often an operand of the program is an input.
+std::ptrdiff_t uses(const expr::Program& program, const std::string& name) {
+  std::ptrdiff_t count = 0;
+  for (std::size_t at = 0; at < program.code.size(); ++at) {
+    const expr::Instruction& one = program.code[at];
+    if (one.op != expr::Op::input ||
+        program.inputs[static_cast<std::size_t>(one.attributes[0])].name != name)
+      continue;
+    for (const expr::Instruction& user : program.code)
+      count += std::count(user.operands.begin(), user.operands.end(), static_cast<int>(at));
+  }
+  return count;
+}
+
+/// Who reads a noise.
+class Readers {
+ public:
+  Readers(const Dynamics& dynamics, const std::string& name) : dynamics_(dynamics), name_(name) {}
+
+  bool starts() const {
+    return std::any_of(
+        dynamics_.variables.begin(), dynamics_.variables.end(),
+        [&](const auto& one) { return one.start && reads(one.start->program, name_); });
+  }
+  bool flows() const {
+    return std::any_of(dynamics_.flow.begin(), dynamics_.flow.end(),
+                       [&](const auto& flow) { return reads(flow.value.program, name_); });
+  }
+  /// The events whose maps read it.
+  std::vector<std::size_t> events() const {
+    std::set<std::size_t> found;
+    for (const Dynamics::Reaction& reaction : dynamics_.reactions)
+      if (reads(reaction, name_)) found.insert(reaction.event);
+    return {found.begin(), found.end()};
+  }
+  bool conditions() const {
+    return std::any_of(dynamics_.events.begin(), dynamics_.events.end(), [&](const auto& event) {
+      return (event.condition && reads(*event.condition, name_)) ||
+             (event.only_if && reads(*event.only_if, name_)) ||
+             (event.crossing && reads(event.crossing->program, name_));
+    });
+  }
+  std::vector<const Dynamics::Signal*> outputs() const {
+    std::vector<const Dynamics::Signal*> found;
+    for (const Dynamics::Signal& signal : dynamics_.signals)
+      if (signal.output && reads(signal.value.program, name_)) found.push_back(&signal);
+    return found;
+  }
+  bool any() const {
+    return starts() || flows() || !events().empty() || conditions() || !outputs().empty();
+  }
+
+ private:
+  const Dynamics& dynamics_;
+  const std::string& name_;
+};
+
+std::string quoted(const std::string& name) { return "'" + name + "'"; }
+
+class Doubts {
+ public:
+  Doubts(const Dynamics& dynamics, const numbers::Values& constants)
+      : dynamics_(dynamics), constants_(constants) {}
+
+  std::vector<std::string> all() {
+    about_observers();
+    for (const Dynamics::Noise& noise : dynamics_.noise) about(noise);
+    return std::move(found_);
+  }
+
+ private:
+  void about_observers() {
+    std::vector<char> has_states(dynamics_.components.size(), 0);
+    std::vector<char> changes(dynamics_.components.size(), 0);
+    for (const Dynamics::Variable& variable : dynamics_.variables)
+      if (variable.kind == Dynamics::VariableKind::state ||
+          variable.kind == Dynamics::VariableKind::mode)
+        has_states[variable.component] = 1;
+    for (const Dynamics::Assignment& flow : dynamics_.flow)
+      changes[dynamics_.variables[flow.variable].component] = 1;
+    for (const Dynamics::Reaction& reaction : dynamics_.reactions) changes[reaction.component] = 1;
+    for (std::size_t k = 0; k < dynamics_.components.size(); ++k) {
+      const Dynamics::Component& one = dynamics_.components[k];
+      if (one.observer && has_states[k] != 0 && changes[k] == 0)
+        found_.push_back(
+            (one.name == "observer" ? "the observer" : "the observer " + quoted(one.name)) +
+            " never changes: it has no flow, and no map at an event");
+    }
+  }
+
+  void about(const Dynamics::Noise& noise) {
+    const std::string& name = noise.name;
+    const Readers readers(dynamics_, name);
+    if (name.starts_with("plant.")) {
+      const std::string datum = name.substr(std::string("plant.").size());
+      if (!readers.any())
+        found_.push_back("uncertain: the plant does not read " + quoted(datum) +
+                         ", so its runs are as without it; data that are computed from it are "
+                         "uncertain where they are texts");
+      return;
+    }
+    // Amplitudes and frequencies of a sinusoid are drawn once by their meaning.
+    if (name.find('.') != std::string::npos) return;
+    const bool random = noise.has_center() || noise.kind == Dynamics::NoiseKind::uniform;
+    const std::vector<std::size_t> events = readers.events();
+    if (!noise.event && !noise.every) {
+      if (random && !readers.starts() && (!events.empty() || readers.flows()))
+        found_.push_back("the noise " + quoted(name) + " is drawn once a run, so it is a bias: " +
+                         (events.empty() ? "`every: 0.01` draws it anew as time goes on"
+                                         : "`new at: " + dynamics_.events[events[0]].name +
+                                               "` draws it anew at each event"));
+      return;
+    }
+    if (!random) return;
+    about_samples(noise, events);
+    about_outputs(noise, readers.outputs());
+  }
+
+  /// Of a noise that several samples in a row may have in common.
+  void about_samples(const Dynamics::Noise& noise, const std::vector<std::size_t>& events) {
+    const auto length = [&](const std::optional<model::Formula>& formula) -> std::optional<double> {
+      if (!formula) return std::nullopt;
+      try {
+        return numbers::evaluate(formula->program, constants_)(0, 0);
+      } catch (const expr::EvaluationError&) {
+        return std::nullopt;
+      }
+    };
+    const auto lasts =
+        noise.every ? length(noise.every) : length(dynamics_.events[*noise.event].low);
+    for (const std::size_t at : events) {
+      const Dynamics::Event& event = dynamics_.events[at];
+      const auto next = length(event.high);
+      if (noise.event == at || !lasts || !next || !(*next < *lasts)) continue;
+      found_.push_back("the noise " + quoted(noise.name) + " is drawn anew after " + brief(*lasts) +
+                       ", and the event " + quoted(event.name) + " reads it after " + brief(*next) +
+                       " at the latest: several of them have the same error; `new at: " +
+                       event.name + "` gives each its own");
+    }
+  }
+
+  void about_outputs(const Dynamics::Noise& noise,
+                     const std::vector<const Dynamics::Signal*>& outputs) {
+    if (!noise.shape.is_scalar() || outputs.empty()) return;
+    std::string where;
+    if (outputs.size() > 1)
+      where = "the outputs " + quoted(outputs[0]->name) + " and " + quoted(outputs[1]->name);
+    else if (!outputs[0]->value.program.shape().is_scalar() &&
+             uses(outputs[0]->value.program, noise.name) > 1)
+      where = "several elements of the output " + quoted(outputs[0]->name);
+    if (!where.empty())
+      found_.push_back(where + " have the same noise " + quoted(noise.name) +
+                       ", so their errors are equal: give each a noise of its own");
+  }
+
+  const Dynamics& dynamics_;
+  const numbers::Values& constants_;
+  std::vector<std::string> found_;
+};
+
+}  // namespace
+
+std::vector<std::string> doubts_about(const Dynamics& dynamics, const numbers::Values& constants) {
+  return Doubts(dynamics, constants).all();
+}
+
+}  // namespace gainsmith::hybrid

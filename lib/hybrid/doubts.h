@@ -1,0 +1,22 @@
+// What dynamics say that is allowed and perhaps not meant, a sentence each, with its mend:
+//
+//   an observer whose states never change
+//   noise without `new at` that outputs or flows read: one value for the whole run, a bias
+//   noise that changes more slowly than the samples that read it
+//   two outputs, or two elements of one, with the same scalar noise
+//   uncertain data that the plant does not read
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/dynamics.h"
+#include "numbers/real.h"
+
+namespace gainsmith::hybrid {
+
+/// `constants`: of data and parameters.
+std::vector<std::string> doubts_about(const model::Dynamics& dynamics,
+                                      const numbers::Values& constants);
+
+}  // namespace gainsmith::hybrid
