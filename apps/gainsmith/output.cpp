@@ -34,6 +34,10 @@ void make_folder_of(const std::filesystem::path& file) {
 void prepare_outputs(const std::string& input, const std::vector<std::string>& outputs) {
   std::error_code ignored;
   for (const std::string& path : outputs)
+    for (const char* spreadsheet : {".xlsx", ".xls", ".ods"})
+      if (path.ends_with(spreadsheet))
+        throw InputError({path}, "spreadsheets are not written; a CSV file, which they open, is");
+  for (const std::string& path : outputs)
     if (!path.empty() && path != "-" && input != "-" &&
         std::filesystem::equivalent(path, input, ignored))
       throw InputError({path}, "this is the input file; choose another output");

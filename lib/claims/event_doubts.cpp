@@ -388,8 +388,8 @@ std::optional<std::string> EventDoubts::of_jump(std::size_t jump) {
   if (is_on_step(*at))
     return fmt::format("t = {}: the jump of {} takes a step within the errors of its values",
                        brief(at->t, 12), events[own].name);
-  if (watch_.crossing[own] && stays_at_zero(*watch_.crossing[own], jump))
-    return fmt::format("t = {}: {} crosses 0 within its rounding", brief(at->t, 12),
+  if (watch_.crossing[own] && happened_[own] && stays_at_zero(*watch_.crossing[own], jump))
+    return fmt::format("t = {}: {} crosses 0 again within its rounding", brief(at->t, 12),
                        events[own].name);
   const auto has_happened = [&](std::size_t event) {
     return event == at->event || happened_[event];

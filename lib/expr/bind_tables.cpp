@@ -1,8 +1,10 @@
 // interp1(x, y, q): linear interpolation over a table, constant outside of it.
 //
-//   y_1 + sum_k (y_{k+1} - y_k) min(max((q - x_k)/(x_{k+1} - x_k), 0), 1)
+//   y_1 + s_1 (p - x_1) + sum_k (s_k - s_{k-1}) max(p - x_k, 0),   p = min(max(q, x_1), x_n),
+//   s_k = (y_{k+1} - y_k)/(x_{k+1} - x_k),   k from 2 to n - 1
 //
-// min and max make the points of the table kinks that a simulation knows of.
+// min and max make the points of the table kinks that a simulation knows of. There is one for each
+// point, so that beside a point a proof sees the slopes of its two pieces and no others.
 #include <string>
 
 #include "expr/emitter.h"
@@ -56,20 +58,26 @@ Bound Binder::interpolated(const Expression& expression, const Node& node) {
   const int steps = make.subtract(make.part(x, 1, count, 0, 1), make.part(x, 0, last, 0, 1));
   require_rising(expression, node, steps);
   const int rises = make.subtract(make.part(y, 1, count, 0, 1), make.part(y, 0, last, 0, 1));
-  const Shape each{last, queries};
+  const int slopes = make(Op::elementwise_quotient, {rises, steps});
   const int one = make.number("1");
-  // A column for each query.
-  const auto spread = [&](int column) {
-    return queries == 1 ? column : make.multiply(column, make.filled(one, {1, queries}));
-  };
   const int row = shape(q).rows == 1 ? q : make.transpose(q);
-  const int reached = make.subtract(make.multiply(make.filled(one, {last, 1}), row),
-                                    spread(make.part(x, 0, last, 0, 1)));
-  const int parts = make(Op::elementwise_quotient, {reached, spread(steps)});
-  const int raised = make(Op::maximum, {parts, make.zeros(each)});
-  const int weights = make(Op::minimum, {raised, make.filled(one, each)});
-  const int values = make.add(make.filled(make.element(y, 0), {1, queries}),
-                              make.multiply(make.transpose(rises), weights));
+  const auto everywhere = [&](int number) { return make.filled(number, {1, queries}); };
+  const int lowest = everywhere(make.element(x, 0));
+  const int inside =
+      make(Op::minimum, {make(Op::maximum, {row, lowest}), everywhere(make.element(x, last))});
+  int values = make.add(everywhere(make.element(y, 0)),
+                        make(Op::scale, {make.element(slopes, 0), make.subtract(inside, lowest)}));
+  if (last > 1) {
+    const int bends =
+        make.subtract(make.part(slopes, 1, last, 0, 1), make.part(slopes, 0, last - 1, 0, 1));
+    // A column for each query.
+    const int points = make.part(x, 1, last, 0, 1);
+    const int beyond =
+        make.subtract(make.multiply(make.filled(one, {last - 1, 1}), inside),
+                      queries == 1 ? points : make.multiply(points, everywhere(one)));
+    const int reached = make(Op::maximum, {beyond, make.zeros({last - 1, queries})});
+    values = make.add(values, make.multiply(make.transpose(bends), reached));
+  }
   return {shape(q).rows == 1 ? values : make.transpose(values)};
 }
 

@@ -143,6 +143,9 @@ class Rules {
              "I";
     if (op == expr::Op::inverse)
       return "; by a Schur complement A - B*inv(C)*B' > 0 with C > 0 is [A, B; *, C] > 0";
+    if (op == expr::Op::determinant)
+      return "; det(X)^(1/n) is made of blocks, as docs/language.md shows under 'Determinants', and "
+             "log(det(X)) is largest where it is";
     return "";
   }
 
@@ -210,9 +213,11 @@ class Rules {
     int first = 0;
     int second = 0;
     if (!a.has_unknown(&first) || !b.has_unknown(&second)) return;
-    throw expr::EvaluationError("not affine in the unknowns: a product of " +
-                                unknowns_.scalar_name(first) + " and " +
-                                unknowns_.scalar_name(second));
+    const std::string one = unknowns_.scalar_name(first), other = unknowns_.scalar_name(second);
+    throw expr::EvaluationError(
+        "not affine in the unknowns: a product of " + one + " and " + other +
+        "; take the product as one unknown, as Y = P*K with the gain inv(P)*Y, fix one of them as "
+        "data, or search it as a parameter if it is a number");
   }
 
   forall::MonomialTable& monomials_;

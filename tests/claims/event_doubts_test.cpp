@@ -97,6 +97,32 @@ TEST(EventDoubts, AJumpToZeroUpToItsErrorIsUncertain) {
   EXPECT_FALSE(with("p - 2.9"));
 }
 
+/// p comes to the bound of a condition, but for the rounding of two jumps.
+TEST(EventDoubts, AJumpToATieOfAConditionIsUncertain) {
+  const auto with = [](const std::string& to) {
+    EventProblem problem;
+    problem.state("x", {}, "0.7").flow("x", "1").state("p", {}, "0.3").state("n", {}, "0");
+    problem.crossing(EventKind::rises, "first", "x - 1").jump("first", {{"p", to}});
+    problem.when("second", "p > 0.9 and n < 1").jump("second", {{"n", "1"}});
+    return Runs(problem).doubt();
+  };
+  const auto doubt = with("p + p + 0.3");
+  ASSERT_TRUE(doubt);
+  EXPECT_NE(doubt->find("condition of second to a tie"), std::string::npos) << *doubt;
+  EXPECT_FALSE(with("0.9"));
+  EXPECT_FALSE(with("p + 0.7"));
+}
+
+/// Its own jump takes its speed where it has crossed: whether it crosses again is rounding.
+TEST(EventDoubts, ACrossingWithinItsRoundingIsUncertain) {
+  EventProblem problem;
+  problem.state("x", {}, "0.5").flow("x", "v").state("v", {}, "-0.5").flow("v", "-3.99*x");
+  problem.crossing(EventKind::falls, "low", "x + 0.5").jump("low", {{"v", "v + 0.5"}});
+  problem.crossing(EventKind::falls, "far", "x + 9");
+  Runs runs(problem);
+  EXPECT_TRUE(tests::jumps_of(runs.fine).size() == 1 || runs.doubt());
+}
+
 TEST(EventDoubts, ATurningPointWithinTheErrorIsUncertain) {
   EventProblem problem;
   problem.state("x", {2, 1}, "[0; 1]").flow("x", "[x(2); -x(1)]");

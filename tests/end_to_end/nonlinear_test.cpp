@@ -145,6 +145,10 @@ TEST(NonlinearObserver, FrictionAndSaturationAreShownAndAJumpIsNot) {
     const Outcome shown = drone(drag);
     EXPECT_EQ(shown.exit, 0) << drag << "\n" << shown.out << shown.err;
   }
+  // Beside a point of a table there are the slopes of its two pieces, and no others.
+  const Outcome table = synth(
+      observer("[-1, -1]", "[1, 1]", "[x(2); -x(1)]", "interp1([-2, 0, 2], [-2, 0, 4], x(1))"));
+  EXPECT_EQ(table.exit, 0) << table.out << table.err;
   EXPECT_TRUE(says(synth(observer("[-1, -1]", "[1, 1]", "[x(2); -sign(x(2)) - x(1)]", "x(1)")).out,
                    "verdict undecided"));
 }

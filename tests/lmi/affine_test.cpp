@@ -192,6 +192,7 @@ TEST_F(AffineTest, AProductOfUnknownsIsRefusedWithItsPlace) {
   const InputError error = tests::input_error([&] { form("P + Y*C*P"); });
   EXPECT_EQ(error.place().column, 5);
   EXPECT_NE(error.message().find("not affine"), std::string::npos) << error.what();
+  EXPECT_NE(error.message().find("inv(P)*Y"), std::string::npos) << error.what();
   EXPECT_NE(error.message().find("Y(1,1)"), std::string::npos) << error.what();
 }
 
