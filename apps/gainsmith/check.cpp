@@ -84,8 +84,10 @@ std::vector<std::string> check_runs(const model::Instance& instance) {
   for (const std::size_t event : hybrid::late_events(setup->system, setup->scenario))
     late.push_back(design.dynamics->events[event].name);
   if (!late.empty()) notes.push_back(note_on_events(late) + ": it is due after the horizon");
-  const std::string drawn = note_on_runs(hybrid::different_runs(setup->system, setup->scenario));
-  if (!drawn.empty()) notes.push_back(drawn);
+  // Where each run is made once at most, or nothing is claimed of it, nothing has to be drawn.
+  const auto different = hybrid::different_runs(setup->system, setup->scenario);
+  if (different && !design.claims.empty() && design.campaign.runs > *different)
+    notes.push_back(note_on_runs(different));
   return notes;
 }
 

@@ -164,10 +164,21 @@ void check_output(const ExportOptions& options) {
   }
 }
 
+bool has_observer(const model::Design& design) {
+  return design.dynamics &&
+         std::any_of(design.dynamics->components.begin(), design.dynamics->components.end(),
+                     [](const auto& one) { return one.observer; });
+}
+
 ExitCode export_gains(const ExportOptions& options) {
   check_output(options);
   prepare_outputs(options.gains, {options.output});
   LoadedGains loaded = load_gains(options.gains);
+  const model::Design& design = *loaded.stated.design;
+  if (design.gains.empty() && !has_observer(design))
+    throw InputError({options.gains},
+                     "there is nothing to export: the problem has no observer, and no gains; name "
+                     "values under 'gains', as in gains: {xopt: x}");
   ExitCode exit = ExitCode::yes;
   if (options.single) {
     auto single = rounded(options, loaded, exit);
@@ -176,7 +187,6 @@ ExitCode export_gains(const ExportOptions& options) {
   } else if (!hold(options, loaded)) {
     return ExitCode::no;
   }
-  const model::Design& design = *loaded.stated.design;
   const model::Stated stated = bind::state(loaded.stated, loaded.gains);
   std::optional<model::RunTexts> texts;
   if (design.dynamics) texts = model::run_texts(design, stated);

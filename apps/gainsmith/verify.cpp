@@ -218,7 +218,8 @@ Command verify_command() {
            .one_of({"violated"})
            .excludes({"--compare", "--worst"}),
        Option("--strict", options->strict,
-              "a note on what is perhaps not meant, as `check` writes, is an error: exit code 2"),
+              "a note on noise, uncertain data or an observer that is perhaps not meant so is an "
+              "error: exit code 2"),
        shard_option(options->shard,
                     "make only part I of N of the runs, and write it with -o for 'merge'")
            .excludes({"--worst", "--until"}),

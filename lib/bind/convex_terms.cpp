@@ -6,7 +6,6 @@
 #include <span>
 
 #include "bind/convex.h"
-#include "bind/data.h"
 #include "bind/dynamics_names.h"
 #include "bind/families.h"
 #include "bind/inequalities.h"
@@ -101,6 +100,8 @@ bool reads_unknowns(const Binding& binding, const expr::Expression& part,
 bool names_curved(const Binding& binding, const expr::Expression& part, const expr::Scope& scope) {
   const Node& node = *part.root;
   if (curvature_of(node)) return true;
+  if (const NodePtr negated = negated_product(part.root))
+    return names_curved(binding, {part.text, negated}, scope);
   if (const auto form = quadratic_form(part.root);
       form && may_read_unknowns(binding, {part.text, form->column}, scope))
     return true;
@@ -140,7 +141,7 @@ std::optional<KnownForm> form_at(const Binding& binding, const expr::Expression&
   known.elements = column.size();
   if (column.cols == 1) return known;
   std::swap(known.form.column, known.form.row);
-  return column.rows == 1 && node->kind == NodeKind::power ? std::optional(known) : std::nullopt;
+  return column.rows == 1 && node->kind != NodeKind::multiply ? std::optional(known) : std::nullopt;
 }
 
 /// The function of unknowns at a node, convex or concave, if it is one.
@@ -242,6 +243,9 @@ NodePtr with_terms(const Binding& binding, const expr::Expression& text, const N
                    const expr::Scope& scope) {
   constexpr std::size_t kMostTerms = 1000;
   if (!names_curved(binding, {text.text, node}, scope)) return node;
+  // -x'*x is (-(x'))*x as it is read, and means -(x'*x).
+  if (const NodePtr negated = negated_product(node))
+    return with_terms(binding, text, negated, scope);
   const bool indexed = node->kind == NodeKind::call && node->text == "sum" &&
                        node->children.front()->kind == NodeKind::each;
   if (!indexed) {
@@ -318,17 +322,19 @@ NodePtr bounding_unknown(Binding& binding, const expr::Expression& text, const N
   return name;
 }
 
-/// Of a quadratic form with a weight: that it is convex.
+/// Notes the weight of a quadratic form, which has to be shown to be positive semidefinite.
 void ask_convexity(Binding& binding, const expr::Expression& text, const NodePtr& node,
                    const expr::Scope& scope) {
   const auto form = form_at(binding, text, node, scope);
   if (!form || !form->form.weight) return;
-  const NodePtr& weight = form->form.weight;
-  add_assumption(binding,
-                 {"'" + text.quote(*node) + "' is convex",
-                  {text.text, convexity_of(form->form)},
-                  text.place(*weight)},
-                 "lambda_min(" + text.quote(*weight) + ") >= 0");
+  const expr::Expression weight{text.text, form->form.weight};
+  const Place place = text.place(*weight.root);
+  for (const std::string& name : names_in(weight))
+    if (scope.symbols.contains(name) && !binding.names->known.symbols.contains(name))
+      throw InputError(place, "the weight of a square under 'forall' may not depend on '" + name +
+                                  "': take it into the column, as in norm(R*e)^2");
+  binding.design->squares.push_back(
+      {expr::compile(weight, binding.names->known), text.quote(*node), place});
 }
 
 /// The text with bounding unknowns for convex functions where it may be large (sign 1), for concave
@@ -416,10 +422,9 @@ std::vector<expr::Expression> affine_comparisons(Binding& binding, const expr::E
       if (curvature_at(binding, that, side, scope) != wanted ||
           has_curvature(binding, that, other, scope) || is_nested(binding, that, side, scope))
         return false;
-      // [g, e'*Q; Q*e, Q] > 0 would ask for Q > 0.
-      if (const auto form = form_at(binding, that, side, scope);
-          strict && form && form->form.weight)
-        return false;
+      // Such a requirement may be relaxed, which its block [g, e'*Q; Q*e, Q] >= 0 should not be; and
+      // > would ask for Q > 0.
+      if (!quantified && form_at(binding, that, side, scope)) return false;
       ask_convexity(binding, that, side, scope);
       for (expr::Expression& bound : bounds_of(binding, that, side, other, scope, strict))
         comparisons.push_back(std::move(bound));

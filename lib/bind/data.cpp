@@ -287,6 +287,31 @@ void add_definitions(Binding& binding) {
     definitions[signal.name] = {{}, signal.value};
 }
 
+void add_assumption(Binding& binding, const model::Named& assumption) {
+  model::Design::Assumption bound;
+  bound.name = assumption.name;
+  bound.text = assumption.value.text->str();
+  for (const expr::Expression& part : conjuncts(assumption.value))
+    for (const auto& relation : compile_relations(part, binding.names->known)) {
+      if (relation.equation)
+        throw InputError(assumption.place,
+                         "'==' is for requirements only; an assumption is an "
+                         "inequality of scalars, such as 0 < T1 <= T2");
+      refuse_estimate(*binding.design, relation.difference, "an assumption");
+      bound.differences.emplace_back(relation.difference, relation.strict);
+    }
+  for (const std::string& name : names_in(assumption.value)) {
+    const auto value = binding.recorder->values.find(name);
+    if (value == binding.recorder->values.end() || value->second.size() != 1) continue;
+    bound.scalars.push_back(name);
+    for (const auto* list : {&binding.problem().data, &binding.problem().parameters})
+      if (const model::Value* given = find_named(*list, name)) bound.place = given->place;
+  }
+  if (bound.place.file.empty()) bound.place = assumption.place;
+  check_assumption(*binding.design, bound, binding.recorder->values);
+  binding.design->assumptions.push_back(std::move(bound));
+}
+
 int degree_of(const Binding& binding, const model::UnknownDeclaration& unknown,
               model::Design::Unknown& bound) {
   constexpr int kLargest = 30;
@@ -360,31 +385,6 @@ void add_unknowns(Binding& binding) {
 
 }  // namespace
 
-void add_assumption(Binding& binding, const model::Named& assumption, std::string text) {
-  model::Design::Assumption bound;
-  bound.name = assumption.name;
-  bound.text = std::move(text);
-  for (const expr::Expression& part : conjuncts(assumption.value))
-    for (const auto& relation : compile_relations(part, binding.names->known)) {
-      if (relation.equation)
-        throw InputError(assumption.place,
-                         "'==' is for requirements only; an assumption is an "
-                         "inequality of scalars, such as 0 < T1 <= T2");
-      refuse_estimate(*binding.design, relation.difference, "an assumption");
-      bound.differences.emplace_back(relation.difference, relation.strict);
-    }
-  for (const std::string& name : names_in(assumption.value)) {
-    const auto value = binding.recorder->values.find(name);
-    if (value == binding.recorder->values.end() || value->second.size() != 1) continue;
-    bound.scalars.push_back(name);
-    for (const auto* list : {&binding.problem().data, &binding.problem().parameters})
-      if (const model::Value* given = find_named(*list, name)) bound.place = given->place;
-  }
-  if (bound.place.file.empty()) bound.place = assumption.place;
-  check_assumption(*binding.design, bound, binding.recorder->values);
-  binding.design->assumptions.push_back(std::move(bound));
-}
-
 void bind_data(Binding& binding) {
   refuse_unknown_names(binding);
   for (const auto& [name, value] : binding.overrides) {
@@ -411,7 +411,7 @@ void bind_data(Binding& binding) {
     check_scalar_name(*binding.design, name, {binding.problem().file});
   add_definitions(binding);
   for (const model::Named& assumption : binding.method().assume)
-    add_assumption(binding, assumption, assumption.value.text->str());
+    add_assumption(binding, assumption);
   add_unknowns(binding);
 }
 

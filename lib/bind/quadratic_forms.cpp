@@ -25,29 +25,17 @@ bool is_transpose(const Node& a, const Node& b) {
   return a.kind == NodeKind::transpose && is_same(*a.children.front(), b);
 }
 
-std::vector<NodePtr> factors_of(const NodePtr& product) {
+/// `all`: also those of factors in parentheses.
+std::vector<NodePtr> factors_of(const NodePtr& product, bool all) {
   if (product->kind != NodeKind::multiply) return {product};
-  std::vector<NodePtr> factors = factors_of(product->children[0]);
-  for (NodePtr& factor : factors_of(product->children[1])) factors.push_back(std::move(factor));
+  std::vector<NodePtr> factors = factors_of(product->children[0], all);
+  const NodePtr& last = product->children[1];
+  for (NodePtr& factor : all ? factors_of(last, true) : std::vector{last})
+    factors.push_back(std::move(factor));
   return factors;
 }
 
-}  // namespace
-
-std::optional<QuadraticForm> quadratic_form(const NodePtr& node) {
-  const Trees trees(*node);
-  const auto turned = [&](const NodePtr& one) { return trees.make(NodeKind::transpose, {one}); };
-  if (node->kind == NodeKind::power) {
-    const NodePtr& base = node->children[0];
-    if (node->children[1]->kind != NodeKind::number || node->children[1]->text != "2")
-      return std::nullopt;
-    const bool of_norm =
-        base->kind == NodeKind::call && base->text == "norm" && base->children.size() == 1;
-    const NodePtr& column = of_norm ? base->children.front() : base;
-    return QuadraticForm{column, turned(column), nullptr};
-  }
-  if (node->kind != NodeKind::multiply) return std::nullopt;
-  const std::vector<NodePtr> factors = factors_of(node);
+std::optional<QuadraticForm> form_of(const std::vector<NodePtr>& factors, const Trees& trees) {
   const NodePtr& last = factors.back();
   const auto mirrored =
       std::find_if(factors.begin(), factors.end() - 1, [&](const NodePtr& factor) {
@@ -61,25 +49,53 @@ std::optional<QuadraticForm> quadratic_form(const NodePtr& node) {
   return QuadraticForm{last, *mirrored, weight};
 }
 
+}  // namespace
+
+std::optional<QuadraticForm> quadratic_form(const NodePtr& node) {
+  const Trees trees(*node);
+  const auto turned = [&](const NodePtr& one) { return trees.make(NodeKind::transpose, {one}); };
+  const bool of_elements = node->kind == NodeKind::call && node->text == "sum" &&
+                           node->children.size() == 1 &&
+                           node->children[0]->kind == NodeKind::elementwise_power;
+  if (of_elements) return quadratic_form(trees.make(NodeKind::power, node->children[0]->children));
+  if (node->kind == NodeKind::power) {
+    const NodePtr& base = node->children[0];
+    if (node->children[1]->kind != NodeKind::number || node->children[1]->text != "2")
+      return std::nullopt;
+    const bool of_norm =
+        base->kind == NodeKind::call && base->text == "norm" && base->children.size() == 1;
+    const NodePtr& column = of_norm ? base->children.front() : base;
+    return QuadraticForm{column, turned(column), nullptr};
+  }
+  if (node->kind != NodeKind::multiply) return std::nullopt;
+  auto form = form_of(factors_of(node, false), trees);
+  return form ? form : form_of(factors_of(node, true), trees);
+}
+
 NodePtr comparison_of(const QuadraticForm& form, const NodePtr& bound, int n, bool weight_is_number,
                       bool strict) {
   const Trees trees(*bound);
   const NodePtr identity = trees.call("eye", trees.number(n));
-  const NodePtr weight = !form.weight       ? identity
-                         : weight_is_number ? trees.times(form.weight, identity)
-                                            : form.weight;
+  const NodePtr weight =
+      !form.weight ? identity
+      : weight_is_number
+          ? trees.times(form.weight, identity)
+          : trees.make(NodeKind::divide, {trees.call("He", form.weight), trees.number(2)});
   return trees.at_most(trees.number(0),
                        trees.block({bound, form.weight ? trees.times(form.row, weight) : form.row,
                                     trees.make(NodeKind::mirror, {}), weight}),
                        strict);
 }
 
-NodePtr convexity_of(const QuadraticForm& form) {
-  const Trees trees(*form.weight);
-  const NodePtr rounding =
-      trees.times(trees.make(NodeKind::number, {}, "1e-12"), trees.call("norm", form.weight));
-  return trees.at_most(trees.make(NodeKind::negate, {rounding}),
-                       trees.call("lambda_min", form.weight), false);
+NodePtr negated_product(const NodePtr& node) {
+  if (node->kind != NodeKind::multiply) return nullptr;
+  const Trees trees(*node);
+  const NodePtr& first = node->children[0];
+  if (first->kind == NodeKind::negate)
+    return trees.make(NodeKind::negate, {trees.times(first->children[0], node->children[1])});
+  const NodePtr inner = negated_product(first);
+  if (!inner) return nullptr;
+  return trees.make(NodeKind::negate, {trees.times(inner->children[0], node->children[1])});
 }
 
 }  // namespace gainsmith::bind

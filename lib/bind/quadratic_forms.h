@@ -17,15 +17,15 @@ struct QuadraticForm {
   expr::NodePtr weight;  ///< Q, n x n or 1 x 1; none for 1
 };
 
-/// The form that a node may be, by its text alone: e'*e, w*e'*Q*e, x*x, x^2, norm(v)^2. The first two
-/// are numbers, and the third has a number x, only where the shapes say so.
+/// The form that a node may be, by its text alone: e'*e, w*e'*Q*e, x*x, x^2, norm(v)^2,
+/// sum(v.^2). The first two are numbers, and the third has a number x, only where the shapes say so.
 std::optional<QuadraticForm> quadratic_form(const expr::NodePtr& node);
 
 /// [bound, e'*Q; *, Q] >= 0, of n elements, or > 0. `weight_is_number`: Q is a multiple of I.
 expr::NodePtr comparison_of(const QuadraticForm& form, const expr::NodePtr& bound, int n,
                             bool weight_is_number, bool strict);
 
-/// lambda_min(Q) >= 0, but for rounding.
-expr::NodePtr convexity_of(const QuadraticForm& form);
+/// -(a*b*...) for (-a)*b*..., a product with a leading minus; otherwise none.
+expr::NodePtr negated_product(const expr::NodePtr& node);
 
 }  // namespace gainsmith::bind

@@ -1,6 +1,7 @@
 #include "design/optimize.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <mutex>
 #include <optional>
@@ -24,12 +25,12 @@ namespace gainsmith::design {
 
 namespace {
 
-/// The smallest margin of the strict inequalities.
+/// The smallest margin of the strict inequalities; 0 where none is strict.
 double smallest_margin(const model::Gains& gains) {
   double smallest = std::numeric_limits<double>::infinity();
   for (const model::Margin& margin : gains.margins)
     if (margin.strict) smallest = std::min(smallest, margin.reached);
-  return smallest;
+  return std::isfinite(smallest) ? smallest : 0;
 }
 
 class OuterSearch {

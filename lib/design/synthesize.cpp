@@ -1,4 +1,5 @@
 #include "design/synthesize.h"
+#include "design/convexity.h"
 
 #include <algorithm>
 #include <chrono>
@@ -34,7 +35,10 @@ double seconds_since(Clock::time_point start) {
 void refuse_zero_solution(const model::Design& design, const lmi::Lmi& lmi) {
   const bool strict = std::any_of(lmi.blocks.begin(), lmi.blocks.end(),
                                   [](const lmi::Block& block) { return block.strict; });
-  if (strict || !lmi::is_homogeneous(lmi.blocks)) return;
+  // Between the points of a domain there may be constant parts that are 0 at these points.
+  const bool has_domains = std::any_of(design.inequalities.begin(), design.inequalities.end(),
+                                       [](const auto& one) { return !one.domain.empty(); });
+  if (has_domains || strict || !lmi::is_homogeneous(lmi.blocks)) return;
   throw InputError(design.inequalities.front().place,
                    "every inequality is <= or >= without constant data, so 0 is a solution; make "
                    "one strict (<, >)");
@@ -376,6 +380,7 @@ model::Gains evaluated(const model::Instance& instance) {
 model::Gains synthesize(const model::Instance& instance, const sdp::Options& options, Depth depth) {
   const model::Design& design = *instance.design;
   if (design.inequalities.empty() && design.unknowns.empty()) return evaluated(instance);
+  require_convex(instance);
   if (instance.design->quotient) return smallest_quotient(instance, options, depth);
   const auto lower = with_lower_degrees(instance);
   if (!lower || depth == Depth::quick)

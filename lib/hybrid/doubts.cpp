@@ -138,11 +138,12 @@ class Doubts {
     const bool random = noise.has_center() || noise.kind == Dynamics::NoiseKind::uniform;
     const std::vector<std::size_t> events = readers.events();
     if (!noise.event && !noise.every) {
-      if (random && !readers.starts() && (!events.empty() || readers.flows()))
-        found_.push_back("the noise " + quoted(name) + " is drawn once a run, so it is a bias: " +
-                         (events.empty() ? "`every: 0.01` draws it anew as time goes on"
-                                         : "`new at: " + dynamics_.events[events[0]].name +
-                                               "` draws it anew at each event"));
+      if (random && !readers.starts() && !events.empty())
+        found_.push_back(
+            "the noise " + quoted(name) +
+            " is drawn once a run, so it is a bias: `new at: " + dynamics_.events[events[0]].name +
+            "` draws it anew at each event; a bias that is meant is a state that "
+            "starts at random");
       return;
     }
     if (!random) return;

@@ -1,7 +1,7 @@
 // What dynamics say that is allowed and perhaps not meant, a sentence each, with its mend:
 //
 //   an observer whose states never change
-//   noise without `new at` that outputs or flows read: one value for the whole run, a bias
+//   noise without `new at` that samples read: one value for the whole run, a bias
 //   noise that changes more slowly than the samples that read it
 //   two outputs, or two elements of one, with the same scalar noise
 //   uncertain data that the plant does not read

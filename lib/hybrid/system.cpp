@@ -218,6 +218,13 @@ void check_measured(const System& system) {
                                               "the file a run begins",
                                               one.name, series.file, brief(series.times.front())));
     if (!one.event) continue;
+    if (!series.silent.empty() && !at_rows)
+      throw InputError(one.place,
+                       fmt::format("{} has no value in some rows of {}, at t = {} first: let the "
+                                   "event {} take its times from the file, at: {{csv: ...}}, and "
+                                   "it does not happen there",
+                                   one.name, series.file, brief(series.silent.front(), 17),
+                                   system.dynamics.events[*one.event].name));
     for (const double t : system.dynamics.events[*one.event].rows)
       if (!std::binary_search(series.times.begin(), series.times.end(), t))
         throw InputError(

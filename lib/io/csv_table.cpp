@@ -168,6 +168,13 @@ std::optional<std::size_t> CsvTable::find(const std::string& column) const {
   return static_cast<std::size_t>(found - names_.begin());
 }
 
+std::string CsvTable::unit(std::size_t column) const {
+  const std::string& name = names_[column];
+  const std::size_t from = name.find_first_of("[(");
+  if (from == std::string::npos || !is_with_unit(name, name.substr(0, from))) return "";
+  return name.substr(from + 1, name.size() - from - 2);
+}
+
 std::size_t CsvTable::column(const std::string& name, const Place& place) const {
   if (const auto found = find(name)) return *found;
   throw InputError(place, path_ + " has no column '" + name + "'" + suggestion(name, names_));

@@ -28,6 +28,8 @@ class CsvTable {
   std::size_t columns() const { return names_.size(); }
   /// The position of a column; none.
   std::optional<std::size_t> find(const std::string& column) const;
+  /// "ms" of a column "t [ms]" or "t (ms)"; empty where its name has none.
+  std::string unit(std::size_t column) const;
   /// InputError at `place`, which names the column, when there is none, with the nearest spelling.
   std::size_t column(const std::string& name, const Place& place) const;
   std::string text(std::size_t row, std::size_t column) const;

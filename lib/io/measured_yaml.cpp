@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <utility>
 
@@ -52,6 +53,15 @@ void require_word(const CsvTable& table, const std::pair<std::size_t, std::strin
                               suggestion(word.second, there));
 }
 
+/// A unit of time; none of what is no such unit.
+std::optional<double> seconds_of(const std::string& unit) {
+  static const std::map<std::string, double> kUnits = {
+      {"s", 1},     {"ms", 1e-3}, {"us", 1e-6}, {"\u00b5s", 1e-6},
+      {"ns", 1e-9}, {"min", 60},  {"h", 3600}};
+  const auto found = kUnits.find(unit);
+  return found == kUnits.end() ? std::nullopt : std::optional(found->second);
+}
+
 /// `path`: the item with the name of the file; the rest is taken from `map`, where there is one.
 /// `time`: the item with the column of the times, instead of the key of that name.
 Source source(const YamlFile& file, const YamlItem& path, YamlMap* map,
@@ -66,14 +76,18 @@ Source source(const YamlFile& file, const YamlItem& path, YamlMap* map,
            : result.table->column("t", path.place);
   const auto scale = find("scale");
   const auto from = find("from");
-  const double unit = scale ? file.number(scale->value, "scale") : 1;
+  const double unit = scale ? file.number(scale->value, "scale")
+                            : seconds_of(result.table->unit(column)).value_or(1);
   if (!(unit > 0)) throw InputError(file.place(scale->value), "scale: expected a positive number");
   result.times = std::make_shared<const LogTimes>(
       *result.table, column, unit,
       from ? std::optional(file.string(from->value, "from")) : std::nullopt,
       from ? file.place(from->value) : path.place);
-  if (result.times->begins_by_itself())
-    file.sources(path.value).begins_at_its_first_row(result.table->path(), path.place);
+  file.sources(path.value)
+      .takes_unit(result.table->path() + ", column " + std::to_string(column + 1), unit,
+                  scale ? file.place(scale->value) : path.place);
+  if (from || result.times->begins_by_itself())
+    file.sources(path.value).has_origin(result.table->path(), from.has_value(), path.place);
   for (const YamlItem& item : items_of(file, find("rows"), "rows")) {
     result.words.emplace_back(result.table->column(item.key, item.place),
                               file.string(item.value, item.key));

@@ -8,6 +8,7 @@
 #include "base/file.h"
 #include "base/hash.h"
 #include "base/nearest.h"
+#include "base/number.h"
 
 namespace gainsmith::io {
 
@@ -157,11 +158,21 @@ FileMatrix Sources::matrix(
   return result;
 }
 
-void Sources::begins_at_its_first_row(const std::string& log, const Place& place) {
-  if (begins_at_first_row_.empty()) begins_at_first_row_ = log;
-  if (begins_at_first_row_ != log)
-    throw InputError(place, "the times of " + log + " and of " + begins_at_first_row_ +
-                                " are dates or Unix times: `from` has to say when a run begins");
+void Sources::has_origin(const std::string& log, bool stated, const Place& place) {
+  origins_[log] = stated;
+  for (const auto& [other, is_stated] : origins_)
+    if (other != log && !(stated && is_stated))
+      throw InputError(place, "the times of " + log + " and of " + other +
+                                  " are dates or Unix times: `from` has to say of both when a run "
+                                  "begins");
+}
+
+void Sources::takes_unit(const std::string& times, double unit, const Place& place) {
+  const double before = units_.emplace(times, unit).first->second;
+  if (before != unit)
+    throw InputError(place, "scale: the times of " + times + " are in units of " + brief(unit) +
+                                " s here, and of " + brief(before) +
+                                " s elsewhere in this problem");
 }
 
 }  // namespace gainsmith::io

@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -56,9 +57,14 @@ class Sources {
   FileMatrix matrix(const Reference& reference, const std::string& key,
                     const std::function<FileMatrix(const std::string&, const std::string&)>& read);
 
-  /// Notes that the time of a log is counted from its first row although nothing says so. InputError
-  /// at `place` when that was another log: their rows would be moved against each other.
-  void begins_at_its_first_row(const std::string& log, const Place& place);
+  /// Notes where the time of a log is 0: where a problem says (`stated`), or at its first row although
+  /// nothing says so. InputError at `place` when another log begins by itself, or this one does beside
+  /// another: their rows would be moved against each other.
+  void has_origin(const std::string& log, bool stated, const Place& place);
+
+  /// Notes the unit in seconds of the times of a log. InputError at `place` when they were read in
+  /// another one.
+  void takes_unit(const std::string& times, double unit, const Place& place);
 
   /// What was read so far.
   const std::vector<model::StatedFile>& files() const { return files_; }
@@ -76,7 +82,8 @@ class Sources {
   std::string gain_file_;
   std::vector<model::StatedFile> stated_;
   std::vector<model::StatedFile> files_;
-  std::string begins_at_first_row_;
+  std::map<std::string, bool> origins_;  ///< by log: whether it is stated
+  std::map<std::string, double> units_;  ///< by file and column
 };
 
 }  // namespace gainsmith::io

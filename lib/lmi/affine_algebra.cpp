@@ -144,7 +144,8 @@ class Rules {
     if (op == expr::Op::inverse)
       return "; by a Schur complement A - B*inv(C)*B' > 0 with C > 0 is [A, B; *, C] > 0";
     if (op == expr::Op::determinant)
-      return "; det(X)^(1/n) is made of blocks, as docs/language.md shows under 'Determinants', and "
+      return "; det(X)^(1/n) is made of blocks, as docs/language.md shows under 'Determinants', "
+             "and "
              "log(det(X)) is largest where it is";
     return "";
   }
@@ -214,6 +215,11 @@ class Rules {
     int second = 0;
     if (!a.has_unknown(&first) || !b.has_unknown(&second)) return;
     const std::string one = unknowns_.scalar_name(first), other = unknowns_.scalar_name(second);
+    if (one.substr(0, one.find('(')) == other.substr(0, other.find('(')))
+      throw expr::EvaluationError("not affine in the unknowns: a product of " + one + " and " +
+                                  other +
+                                  "; of a column e the square e'*e, or e'*Q*e with Q >= 0, may be "
+                                  "asked to be small");
     throw expr::EvaluationError(
         "not affine in the unknowns: a product of " + one + " and " + other +
         "; take the product as one unknown, as Y = P*K with the gain inv(P)*Y, fix one of them as "

@@ -75,6 +75,13 @@ struct Design {
   };
 
   /// A comparison of scalars that data and parameters must satisfy.
+  /// A convex quadratic form e'*Q*e of unknowns.
+  struct Square {
+    expr::Program weight;  ///< Q, of data
+    std::string text;      ///< of the form
+    Place place;           ///< of Q
+  };
+
   struct Assumption {
     std::string name;
     std::vector<std::pair<expr::Program, bool>> differences;  ///< to be > 0 (true) or >= 0
@@ -269,6 +276,7 @@ struct Design {
   std::vector<Datum> data;
   std::vector<Datum> parameters;  ///< scalars
   std::vector<Assumption> assumptions;
+  std::vector<Square> squares;
   std::vector<Unknown> unknowns;
   std::vector<Inequality> inequalities;
   std::optional<Formula> objective;

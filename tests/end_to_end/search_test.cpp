@@ -233,6 +233,18 @@ TEST(OptimizeTest, AnOpenParameterIsFoundBySynthAndByOptimize) {
   EXPECT_NEAR(piped.json()["searched"]["a"].get<double>(), 2, 0.02);
 }
 
+/// Without a strict inequality no margin tells values apart; each that is feasible will do.
+TEST(OptimizeTest, NothingToSearchForIsNoFault) {
+  const Folder folder;
+  const std::string file =
+      folder.file("p.yaml",
+                  "problem: p\nmethod: {parameters: {b: {search: [0, 3]}}, unknowns: {x: scalar}, "
+                  "require: {c: x >= b}}\ndata: {}\n");
+  const Outcome found = gainsmith({"synth", file, "--json", "-o", folder.path("g.json")});
+  EXPECT_EQ(found.exit, 0) << found.err;
+  EXPECT_EQ(found.json()["verdict"], "yes");
+}
+
 TEST(OptimizeTest, RunHonoursTheSearchAndItsExpectations) {
   const Folder folder;
   const std::string file =

@@ -128,6 +128,14 @@ TEST_F(Measured, TimesHaveUnitsAndOrigins) {
   EXPECT_EQ(times("t,u\n2026-11-29T08:00:01Z,1\n", ", from: \"2026-11-29T08:00:00Z\""),
             std::vector<double>{1});
   EXPECT_EQ(times("# made by a logger\nt [s],u (V)\ns,V\n0,1\n# a break\n0.1,2\n0.25,3\n"), steps);
+  EXPECT_EQ(input_error([&] {
+              read("{}", "u: {csv: log.csv, column: u}, v: {csv: log.csv, column: u, scale: 1e-3}");
+            })
+                .message()
+                .substr(0, 6),
+            "scale:");
+  write("log.csv", "t [ms],u\n0,1\n100,2\n250,3\n");
+  EXPECT_EQ(input("{csv: log.csv, column: u}").series->times, steps);
   const auto message = [&](const std::string& text, const std::string& more = "") {
     return input_error([&] { times(text, more); }).message();
   };
@@ -146,9 +154,15 @@ TEST_F(Measured, TwoLogsNeedOneOrigin) {
   write("b.csv", "t,u\n1700000001,1\n");
   EXPECT_NE(refused("{}", "u: {csv: a.csv, column: u}, v: {csv: b.csv, column: u}")
                 .message()
-                .find("`from` has to say when a run begins"),
+                .find("`from` has to say of both when a run begins"),
             std::string::npos);
-  read("{}", "u: {csv: a.csv, column: u}, v: {csv: b.csv, column: u, from: 1700000000}");
+  EXPECT_NE(
+      refused("{}", "u: {csv: a.csv, column: u}, v: {csv: b.csv, column: u, from: 1700000000}")
+          .message()
+          .find("of both"),
+      std::string::npos);
+  read("{}",
+       "u: {csv: a.csv, column: u, from: first row}, v: {csv: b.csv, column: u, from: 1700000000}");
 }
 
 TEST_F(Measured, WhatIsWrongInTheFileIsSaidOfTheFile) {
