@@ -36,11 +36,22 @@ class RiccatiSolver {
         Q_(numerics::symmetric_part<W>(Q)),
         R_(numerics::symmetric_part<W>(R)),
         S_(S) {
-    const auto inverse = inverted(R_);
-    if (!inverse) throw NoSolution("R is not invertible");
-    const M back = times<W>(*inverse, S_.transpose());
+    auto inverse = inverted(R_);
+    M cross = S_;
+    M weight = Q_;
+    if (!inverse && discrete_) {
+      // X = Y + Z with Y = offset I, as in `found`, of which R + B'Y B may be invertible.
+      offset_ = std::max(norm_1<W>(Q_), norm_1<W>(R_));
+      if (offset_ == W(0)) offset_ = W(1);
+      inverse = inverted(R_ + offset_ * times<W>(B_.transpose(), B_));
+      cross += offset_ * times<W>(A_.transpose(), B_);
+      weight += offset_ * (times<W>(A_.transpose(), A_) - identity(A_.rows()));
+    }
+    if (!inverse)
+      throw NoSolution(discrete_ ? "R + B'*X*B is not invertible" : "R is not invertible");
+    const M back = times<W>(*inverse, cross.transpose());
     start_ = {A_ - times<W>(B_, back), times<W>(times<W>(B_, *inverse), B_.transpose()),
-              Q_ - times<W>(S_, back)};
+              weight - times<W>(cross, back)};
   }
 
   /// `rounding`: of what the solution is rounded to.
@@ -48,7 +59,10 @@ class RiccatiSolver {
     const auto start = discrete_ ? std::optional(start_) : transformed();
     if (!start) explain();
     for (const W& size : {W(0), size_of_solution(*start)})
-      if (const auto X = found(*start, size); X && is_solution(*X, rounding)) return *X;
+      if (auto X = found(*start, size)) {
+        *X += offset_ * identity(A_.rows());
+        if (is_solution(*X, rounding)) return std::move(*X);
+      }
     explain();
   }
 
@@ -225,6 +239,7 @@ class RiccatiSolver {
 
   bool discrete_;
   M A_, B_, Q_, R_, S_;
+  W offset_ = W(0);
   Doubling start_;
 };
 

@@ -205,6 +205,21 @@ TEST_F(ControlWords, WeightsNeedNotSeeUnstableModes) {
             1);
 }
 
+/// Of dare R + B'*X*B has to be invertible, R need not be. Without a weight on the input and with CB
+/// invertible the output is 0 after a step: X = C'*C.
+TEST_F(ControlWords, AWeightOfTheInputMayBeSingular) {
+  EXPECT_LE(world("dare([2, -1; 1, 0], [1; 0], diag([0, 1]), 0) - I").cwiseAbs().maxCoeff(), 1e-14);
+  world.set("A", Matrix{{0.9, 0.2}, {-0.1, 0.7}}).set("B", Matrix{{1}, {0.5}});
+  world.define("C", "[1, 0.3]");
+  EXPECT_LE(world("dare(A, B, C'*C, 0) - C'*C").cwiseAbs().maxCoeff(), 1e-14);
+  world.define("D", "[1, 0; 0.5, 1]");
+  world.define("X", "dare(A, D, I, diag([2, 0]))");
+  EXPECT_LE(
+      world("A'*X*A - X - A'*X*D*inv(diag([2, 0]) + D'*X*D)*D'*X*A + I").cwiseAbs().maxCoeff(),
+      1e-14);
+  expect("dare(A, [1, 1; 1, 1], I, 0)", 1, "R + B'*X*B is not invertible");
+}
+
 /// The game of H-infinity: R is indefinite.
 TEST_F(ControlWords, WeightsNeedNotBeDefinite) {
   world.set("A", Matrix{{0, 1}, {-2, -1}}).set("B", Matrix{{0, 0}, {1, 0.5}});
