@@ -161,9 +161,12 @@ std::string CsvTable::text(const Cell& cell) const {
 
 std::optional<std::size_t> CsvTable::find(const std::string& column) const {
   auto found = std::find(names_.begin(), names_.end(), column);
-  if (found == names_.end())
-    found = std::find_if(names_.begin(), names_.end(),
-                         [&](const std::string& name) { return is_with_unit(name, column); });
+  if (found == names_.end()) {
+    const auto is_it = [&](const std::string& name) { return is_with_unit(name, column); };
+    found = std::find_if(names_.begin(), names_.end(), is_it);
+    // Two columns of one name in two units have to be told apart.
+    if (std::count_if(found, names_.end(), is_it) > 1) return std::nullopt;
+  }
   if (found == names_.end()) return std::nullopt;
   return static_cast<std::size_t>(found - names_.begin());
 }

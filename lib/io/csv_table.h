@@ -2,7 +2,8 @@
 //
 // Lines end with LF or CRLF; cells are separated by commas, may be quoted, and spaces around them
 // do not count. Empty lines and those that begin with # are left out; so is a line of units, which
-// has no digit, below the names. A name may end with its unit, as in "angle [deg]". Errors name file, line and column of the CSV itself.
+// has no digit, below the names. A name may end with its unit, as in "angle [deg]", and is found
+// without it where it is the only one. Errors name file, line and column of the CSV itself.
 #pragma once
 
 #include <optional>

@@ -134,6 +134,10 @@ TEST_F(Measured, TimesHaveUnitsAndOrigins) {
                 .message()
                 .substr(0, 6),
             "scale:");
+  write("log.csv", "t,u [V],u [mV]\n0,1,1000\n");
+  EXPECT_NE(refused("{}", "u: {csv: log.csv, column: u}").message().find("no column 'u'"),
+            std::string::npos);
+  EXPECT_EQ(input("{csv: log.csv, column: 'u [mV]'}").series->values(0, 0), 1000);
   write("log.csv", "t [ms],u\n0,1\n100,2\n250,3\n");
   EXPECT_EQ(input("{csv: log.csv, column: u}").series->times, steps);
   const auto message = [&](const std::string& text, const std::string& more = "") {
