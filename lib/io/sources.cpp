@@ -159,7 +159,10 @@ FileMatrix Sources::matrix(
 }
 
 void Sources::has_origin(const std::string& log, bool stated, const Place& place) {
-  origins_[log] = stated;
+  if (origins_.emplace(log, stated).first->second != stated)
+    throw InputError(place, "`from` is said of " + log +
+                                " in one place and not in another: its rows would be moved against "
+                                "each other");
   for (const auto& [other, is_stated] : origins_)
     if (other != log && !(stated && is_stated))
       throw InputError(place, "the times of " + log + " and of " + other +

@@ -59,7 +59,7 @@ class Sources {
 
   /// Notes where the time of a log is 0: where a problem says (`stated`), or at its first row although
   /// nothing says so. InputError at `place` when another log begins by itself, or this one does beside
-  /// another: their rows would be moved against each other.
+  /// another or does in one place only: rows would be moved against each other.
   void has_origin(const std::string& log, bool stated, const Place& place);
 
   /// Notes the unit in seconds of the times of a log. InputError at `place` when they were read in

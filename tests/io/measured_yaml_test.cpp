@@ -156,6 +156,11 @@ TEST_F(Measured, TimesHaveUnitsAndOrigins) {
 TEST_F(Measured, TwoLogsNeedOneOrigin) {
   write("a.csv", "t,u\n1700000000,1\n");
   write("b.csv", "t,u\n1700000001,1\n");
+  EXPECT_NE(
+      refused("{}", "u: {csv: a.csv, column: u}, v: {csv: a.csv, column: u, from: 1699999999}")
+          .message()
+          .find("in one place and not in another"),
+      std::string::npos);
   EXPECT_NE(refused("{}", "u: {csv: a.csv, column: u}, v: {csv: b.csv, column: u}")
                 .message()
                 .find("`from` has to say of both when a run begins"),
