@@ -29,7 +29,6 @@ class Samples {
   }
 
   const std::map<double, double>& values() const { return values_; }
-  bool resolved() const { return resolved_; }
 
  private:
   double evaluate(double at) {
@@ -39,10 +38,8 @@ class Samples {
     return value;
   }
 
-  /// `earlier` is the bend around here at the depth kEarlier.
-  void refine(double left, double right, int depth, double earlier = 0) {
+  void refine(double left, double right, int depth) {
     constexpr int kDeepest = 24;
-    constexpr int kEarlier = kDeepest - 8;
     constexpr double kSafety = 4;
     constexpr double kResolved = 1e-10;
     const double middle = left + (right - left) / 2;
@@ -52,26 +49,17 @@ class Samples {
     const double m = evaluate(middle);
     // A parabola through the three points dips below the lowest of them by less than the bend.
     const double bend = std::abs(m - 0.5 * (a + b));
-    if (depth == kEarlier) earlier = bend;
-    if (depth == kDeepest) {
-      // Of a kink the bend has shrunk, of a step it has stayed; it grows at a pole.
-      // Rounding stays far below the values.
-      constexpr double kGrown = 16;
-      constexpr double kPart = 0.1;
-      resolved_ &= bend <= std::max(kGrown * earlier, kPart * std::max(std::abs(a), std::abs(b)));
-      return;
-    }
+    if (depth == kDeepest) return;
     if (std::min({a, b, m}) - kSafety * bend > lowest_) return;
     if (bend <= kResolved * std::max(std::abs(a), std::abs(b))) return;
     if (depth > 0 && bend <= 1e-3 * std::abs(std::min({a, b, m}) - lowest_)) return;
-    refine(left, middle, depth + 1, earlier);
-    refine(middle, right, depth + 1, earlier);
+    refine(left, middle, depth + 1);
+    refine(middle, right, depth + 1);
   }
 
   const Curve& curve_;
   std::map<double, double> values_;
   double lowest_ = std::numeric_limits<double>::infinity();
-  bool resolved_ = true;
 };
 
 /// The crossing from falling to rising in [left, right], by regula falsi with halved weights
@@ -106,11 +94,11 @@ double stationary_point(const Curve& curve, double left, double right) {
 
 }  // namespace
 
-CurveMinima local_minima(const Curve& curve, double low, double high) {
-  if (low == high) return {{{low, curve.value(low)}}, true};
+std::vector<CurveMinimum> local_minima(const Curve& curve, double low, double high) {
+  if (low == high) return {{low, curve.value(low)}};
   const Samples samples(curve, low, high);
   const auto& values = samples.values();
-  CurveMinima minima{{}, samples.resolved()};
+  std::vector<CurveMinimum> minima;
   for (auto here = values.begin(); here != values.end(); ++here) {
     const auto before = here == values.begin() ? here : std::prev(here);
     const auto after = std::next(here) == values.end() ? here : std::next(here);
@@ -120,7 +108,7 @@ CurveMinima local_minima(const Curve& curve, double low, double high) {
     CurveMinimum found{here->first, here->second};
     const double at = stationary_point(curve, before->first, after->first);
     if (const double value = curve.value(at); value <= found.value) found = {at, value};
-    minima.list.push_back(found);
+    minima.push_back(found);
   }
   return minima;
 }

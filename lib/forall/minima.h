@@ -19,16 +19,11 @@ struct CurveMinimum {
   double value = 0;
 };
 
-struct CurveMinima {
-  std::vector<CurveMinimum> list;  ///< from the left
-  bool resolved = true;            ///< false when the shortest pieces hold a pole
-};
-
-/// The local minima on [low, high], ends included. The interval is halved until the bend of each
+/// The local minima on [low, high] from the left, ends included. The interval is halved until the bend of each
 /// piece suggests that no minimum below the smallest value found hides in it; each bracketed
 /// minimum is then refined to a root of the derivative. A search: what turns many times between
 /// the first 49 points, which have different distances, can be missed (proof.h does not miss it).
-CurveMinima local_minima(const Curve& curve, double low, double high);
+std::vector<CurveMinimum> local_minima(const Curve& curve, double low, double high);
 
 struct BoxMinimum {
   std::vector<double> at;

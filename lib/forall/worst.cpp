@@ -16,8 +16,11 @@ namespace {
 class Family {
  public:
   Family(const expr::Program& program, const numbers::Values& known, const Point& fixed,
-         const std::vector<const Variable*>& axes, const numbers::Vector& rows)
-      : evaluator_(program), rows_(rows), moving_(axes.size(), numbers::Matrix::Zero(1, 1)) {
+         const std::vector<const Variable*>& axes, const numbers::Vector& rows, Measure measure)
+      : evaluator_(program),
+        rows_(rows),
+        measure_(measure),
+        moving_(axes.size(), numbers::Matrix::Zero(1, 1)) {
     for (const expr::Input& input : program.inputs) {
       const auto chosen = fixed.values.find(input.name);
       if (chosen != fixed.values.end()) {
@@ -32,8 +35,12 @@ class Family {
   numbers::Matrix matrix(const std::vector<double>& at) {
     for (std::size_t i = 0; i < at.size(); ++i) moving_[i](0, 0) = at[i];
     const numbers::Matrix& value = evaluator_.run();
-    if (rows_.size() == 0) return 0.5 * (value + value.transpose());
-    return 0.5 * rows_.asDiagonal() * (value + value.transpose()) * rows_.asDiagonal();
+    numbers::Matrix symmetric = 0.5 * (value + value.transpose());
+    const numbers::Vector own = symmetric.diagonal();
+    const numbers::Vector units =
+        measure_ == Measure::margin ? (own.array() > 0).select(own.array().rsqrt(), 1.0) : rows_;
+    if (units.size() == 0) return symmetric;
+    return units.asDiagonal() * symmetric * units.asDiagonal();
   }
 
   double value(const std::vector<double>& at) {
@@ -60,24 +67,23 @@ class Family {
  private:
   expr::Evaluator<numbers::RealAlgebra> evaluator_;
   const numbers::Vector& rows_;
+  Measure measure_;
   std::vector<numbers::Matrix> moving_;
   numbers::SymmetricEigen solver_;
 };
 
 void add_minima(Family& family, const Point& fixed, const std::vector<const Variable*>& axes,
-                Minima& minima) {
+                std::vector<Minimum>& minima) {
   if (axes.empty()) {
-    minima.list.push_back({family.value({}), fixed});
+    minima.push_back({family.value({}), fixed});
     return;
   }
   if (axes.size() == 1) {
     const Variable& axis = *axes.front();
     const Curve curve{[&](double t) { return family.value({t}); },
                       [&](double t) { return family.slope(t, axis.low, axis.high); }};
-    const CurveMinima curves = local_minima(curve, axis.low, axis.high);
-    minima.resolved &= curves.resolved;
-    for (const CurveMinimum& found : curves.list)
-      minima.list.push_back({found.value, extended(fixed, axis.name, found.at)});
+    for (const CurveMinimum& found : local_minima(curve, axis.low, axis.high))
+      minima.push_back({found.value, extended(fixed, axis.name, found.at)});
     return;
   }
   std::vector<double> low;
@@ -91,21 +97,22 @@ void add_minima(Family& family, const Point& fixed, const std::vector<const Vari
     Point point = fixed;
     for (std::size_t i = 0; i < axes.size(); ++i)
       point = extended(point, axes[i]->name, found.at[i]);
-    minima.list.push_back({found.value, std::move(point)});
+    minima.push_back({found.value, std::move(point)});
   }
 }
 
 }  // namespace
 
-Minima local_minima(const expr::Program& difference, const Domain& domain,
-                    const numbers::Values& known, const numbers::Vector& rows) {
-  Minima minima;
+std::vector<Minimum> local_minima(const expr::Program& difference, const Domain& domain,
+                                  const numbers::Values& known, const numbers::Vector& rows,
+                                  Measure measure) {
+  std::vector<Minimum> minima;
   const auto axes = intervals(domain);
   for (const Point& fixed : finite_points(domain)) {
-    Family family(difference, known, fixed, axes, rows);
+    Family family(difference, known, fixed, axes, rows, measure);
     add_minima(family, fixed, axes, minima);
   }
-  std::stable_sort(minima.list.begin(), minima.list.end(),
+  std::stable_sort(minima.begin(), minima.end(),
                    [](const Minimum& a, const Minimum& b) { return a.value < b.value; });
   return minima;
 }

@@ -130,8 +130,13 @@ class Checker {
     if (!describe_ && blocks_hold) proof = printed_.check(inequality, comparison);
     const bool shown = proof && proof->status == forall::DomainProof::Status::holds;
     if (!shown) {
-      const forall::Minima minima = forall::local_minima(difference, domain, values_, rows);
-      for (const forall::Minimum& minimum : minima.list) meet_point(minimum);
+      const auto meet_minima = [&](forall::Measure measure) {
+        for (const forall::Minimum& minimum :
+             forall::local_minima(difference, domain, values_, rows, measure))
+          meet_point(minimum);
+      };
+      meet_minima(forall::Measure::eigenvalue);
+      if (describe_ && worst.value >= -rounding) meet_minima(forall::Measure::margin);
     }
     margin.reached = worst.value;
     margin.worst_point = worst.point;

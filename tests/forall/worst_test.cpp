@@ -20,7 +20,7 @@ using testing::number;
 
 std::vector<Minimum> minima_of(const std::string& text, const Domain& domain,
                                const numbers::Values& known = {}) {
-  return local_minima(testing::program(text, domain, known), domain, known).list;
+  return local_minima(testing::program(text, domain, known), domain, known);
 }
 
 numbers::Matrix random_rotation(int n, std::mt19937& generator) {
