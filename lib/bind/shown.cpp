@@ -34,6 +34,10 @@ std::vector<Named> moving(const model::Design& design) {
 std::vector<Named> everything(const model::Design& design) {
   constexpr expr::Shape scalar{1, 1};
   std::vector<Named> all = moving(design);
+  if (design.dynamics)
+    for (const model::Dynamics::Variable& variable : design.dynamics->variables)
+      if (variable.kind == model::Dynamics::VariableKind::measured)
+        all.push_back({variable.name, variable.shape});
   for (const model::Design::Claim& claim : design.claims) all.push_back({claim.name, scalar});
   for (const model::Design::Datum& datum : design.data) all.push_back({datum.name, datum.shape});
   for (const model::Design::Datum& one : design.parameters) all.push_back({one.name, one.shape});

@@ -62,8 +62,10 @@ void CsvTable::read(FirstLine first) {
     while (lines_.empty() && first == FirstLine::row && names_.size() < cells.size())
       names_.push_back(std::to_string(names_.size() + 1));
     if (cells.size() == names_.size() && lines_.empty() && first == FirstLine::names &&
-        std::exchange(may_be_units, false) && is_without_digits(cells))
+        std::exchange(may_be_units, false) && are_units(cells)) {
+      for (const Cell& one : cells) units_.push_back(text(one));
       continue;
+    }
     if (cells.size() != names_.size())
       throw InputError({path_, start.number, 1}, "the row has " + std::to_string(cells.size()) +
                                                      " cells, the first line " +
@@ -133,9 +135,11 @@ void CsvTable::read_header(const std::vector<Cell>& cells, const Line& line) {
                      "the columns are separated by semicolons; expected commas");
 }
 
-bool CsvTable::is_without_digits(const std::vector<Cell>& cells) const {
+bool CsvTable::are_units(const std::vector<Cell>& cells) const {
   return std::all_of(cells.begin(), cells.end(), [&](const Cell& one) {
-    return !one.quoted && text(one).find_first_of("0123456789") == std::string::npos;
+    const std::string word = text(one);
+    const std::size_t at = word.find_first_not_of("+-.");
+    return !one.quoted && (at == std::string::npos || word.find_first_of("0123456789") != at);
   });
 }
 
@@ -172,6 +176,11 @@ std::optional<std::size_t> CsvTable::find(const std::string& column) const {
 }
 
 std::string CsvTable::unit(std::size_t column) const {
+  if (!units_.empty() && !units_[column].empty()) {
+    const std::string& unit = units_[column];
+    const bool bare = unit.find_first_of("[(") != 0 || unit.size() < 2;
+    return bare ? unit : unit.substr(1, unit.size() - 2);
+  }
   const std::string& name = names_[column];
   const std::size_t from = name.find_first_of("[(");
   if (from == std::string::npos || !is_with_unit(name, name.substr(0, from))) return "";

@@ -1,8 +1,8 @@
 // Reading tables of CSV (RFC 4180): a line of column names, then rows of cells; or rows alone.
 //
 // Lines end with LF or CRLF; cells are separated by commas, may be quoted, and spaces around them
-// do not count. Empty lines and those that begin with # are left out; so is a line of units, which
-// has no digit, below the names. A name may end with its unit, as in "angle [deg]", and is found
+// do not count. Empty lines and those that begin with # are left out; so is a line of units below the
+// names, in which no cell begins as a number does. A name may end with its unit, as in "angle [deg]", and is found
 // without it where it is the only one. Errors name file, line and column of the CSV itself.
 #pragma once
 
@@ -29,7 +29,7 @@ class CsvTable {
   std::size_t columns() const { return names_.size(); }
   /// The position of a column; none.
   std::optional<std::size_t> find(const std::string& column) const;
-  /// "ms" of a column "t [ms]" or "t (ms)"; empty where its name has none.
+  /// "ms" of the line of units, or of a column "t [ms]" or "t (ms)"; empty without one.
   std::string unit(std::size_t column) const;
   /// InputError at `place`, which names the column, when there is none, with the nearest spelling.
   std::size_t column(const std::string& name, const Place& place) const;
@@ -56,7 +56,7 @@ class CsvTable {
   Cell cell(std::size_t& at, int& number, std::size_t& line_begin) const;
   void read_header(const std::vector<Cell>& cells, const Line& line);
   Place place(const Line& line, const Cell& cell) const;
-  bool is_without_digits(const std::vector<Cell>& cells) const;
+  bool are_units(const std::vector<Cell>& cells) const;
   bool is_heading(const std::vector<Cell>& cells) const;
   std::string text(const Cell& cell) const;
   const Cell& cell(std::size_t row, std::size_t column) const {
@@ -65,8 +65,9 @@ class CsvTable {
 
   std::string text_, path_;
   std::vector<std::string> names_;
-  std::vector<Line> lines_;  ///< of the rows
-  std::vector<Cell> cells_;  ///< row by row
+  std::vector<std::string> units_;  ///< of the line below them; empty without it
+  std::vector<Line> lines_;         ///< of the rows
+  std::vector<Cell> cells_;         ///< row by row
   bool has_comments_ = false;
 };
 

@@ -13,6 +13,7 @@ namespace {
 
 /// In seconds, some 12 days. No run begins so long before its measurements: these are Unix times.
 constexpr double kFarFromZero = 1e6;
+constexpr double kNoSeconds = 1e11;  // of Unix times the year 5138
 constexpr int kMostDecimals = 18;
 
 int decimals_of(const std::string& text) {
@@ -73,6 +74,11 @@ LogTimes::LogTimes(const CsvTable& table, std::size_t column, double scale,
   std::optional<Time> first;
   for (std::size_t row = 0; row < table.rows() && !first; ++row) first = time_of(row);
   if (first && first->is_date) scale_ = 1;
+  if (first && std::abs(first->value) * scale_ > kNoSeconds)
+    throw InputError(place, "the times of " + table.path() + " begin at " +
+                                brief(static_cast<double>(first->value), 4) +
+                                ", which are no seconds; name their unit by scale: 1e-3 for ms, "
+                                "1e-6 for us, 1e-9 for ns");
   if (!first || (from && *from != "first row")) {
     const auto stated = parsed(from.value_or("0"));
     if (!stated || (first && stated->is_date != first->is_date))

@@ -92,6 +92,15 @@ TEST_F(Measured, ALogIsAPlant) {
   EXPECT_EQ(design->dynamics->events[0].rows.size(), 2U);
 }
 
+TEST_F(Measured, AnInputMayHaveAUnit) {
+  const model::Problem problem = parse_problem(
+      "problem: p\nmethod:\n  method: p\n  inputs: {u: {csv: data/run.csv, column: x1}}\n"
+      "  plant: {state: {x: scalar}, flow: {x: u}}\n"
+      "  observer: {state: {z: scalar}, flow: {z: u}}\nunits: {u: m/s^2}\n",
+      (folder_ / "p.yaml").string(), library());
+  EXPECT_NO_THROW(bind::bind(problem));
+}
+
 /// An event that a log says does not happen at rows in which the sensor is silent.
 TEST_F(Measured, ASilentSensorCorrectsNothing) {
   write("gaps.csv", "t,y,z\n0,1,1\n0.1,,2\n0.2,NaN,3\n0.3,NA,4\n0.4,5,\n0.4,,6\n");
@@ -140,6 +149,8 @@ TEST_F(Measured, TimesHaveUnitsAndOrigins) {
   EXPECT_EQ(input("{csv: log.csv, column: 'u [mV]'}").series->values(0, 0), 1000);
   write("log.csv", "t [ms],u\n0,1\n100,2\n250,3\n");
   EXPECT_EQ(input("{csv: log.csv, column: u}").series->times, steps);
+  EXPECT_EQ(times("t,u\nms,m/s^2\n0,1\n100,2\n250,3\n"), steps);
+  EXPECT_EQ(times("t,u\n[ms],[m/s2]\n0,-1\n100,.2\n250,3\n"), steps);
   const auto message = [&](const std::string& text, const std::string& more = "") {
     return input_error([&] { times(text, more); }).message();
   };
@@ -149,6 +160,7 @@ TEST_F(Measured, TimesHaveUnitsAndOrigins) {
             std::string::npos);
   EXPECT_NE(message("t,u\n0,1\n", ", scale: 0").find("positive"), std::string::npos);
   EXPECT_NE(message("t,u\n2026-13-29T08:00:00Z,1\n").find("expected a time"), std::string::npos);
+  EXPECT_NE(message("t,u\n1700000000050,1\n").find("scale: 1e-3 for ms"), std::string::npos);
   EXPECT_NE(message("# t,u\n0,1\n").find("lines that begin with #"), std::string::npos);
 }
 
