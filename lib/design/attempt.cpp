@@ -252,37 +252,42 @@ Attempt attempt(const Posed& posed, Question question, const Solve& solve) {
 
 namespace {
 
-/// From `least` on towards the point inside, as far as it takes; by the records of `minimum`.
+/// At `least`, a fraction of the way to the point inside, where every inequality holds; by the
+/// records of `minimum`.
+std::optional<Attempt> between(const Posed& posed, const Attempt& minimum, std::vector<double> x,
+                               const Attempt& inside, double fraction) {
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] += fraction * (inside.x[i] - x[i]);
+  if (!is_positive(posed, x) || !is_within(minimum.question.bounds, x)) return std::nullopt;
+  verdict::Margins margins = margins_at(posed, minimum, x);
+  if (!verdict::all_hold(margins)) return std::nullopt;
+  Attempt result = minimum;
+  result.point = true;
+  result.x = std::move(x);
+  result.margins = std::move(margins);
+  return result;
+}
+
+/// From `least` on towards the point inside, as far as it takes.
 std::optional<Attempt> blended_from(const Posed& posed, const Attempt& minimum,
                                     const std::vector<double>& least, const Attempt& inside) {
   if (!is_finite(least)) return std::nullopt;
-  std::optional<Attempt> result;
-  const auto holds_at = [&](double fraction) {
-    std::vector<double> x = least;
-    for (std::size_t i = 0; i < x.size(); ++i) x[i] += fraction * (inside.x[i] - least[i]);
-    if (!is_positive(posed, x) || !is_within(minimum.question.bounds, x)) return false;
-    verdict::Margins margins = margins_at(posed, minimum, x);
-    if (!verdict::all_hold(margins)) return false;
-    result = minimum;
-    result->point = true;
-    result->x = std::move(x);
-    result->margins = std::move(margins);
-    return true;
-  };
   constexpr std::array kFractions = {1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7,
                                      1e-6,  1e-5,  1e-4,  1e-3, 1e-2, 1e-1};
   constexpr int kHalvings = 3;
   for (double e : kFractions) {
-    if (!holds_at(e)) continue;
+    auto result = between(posed, minimum, least, inside, e);
+    if (!result) continue;
     // The objective shows what the fraction costs.
     double fails = 0.1 * e;
     for (int k = 0; k < kHalvings; ++k) {
       const double middle = std::sqrt(fails * e);
-      (holds_at(middle) ? e : fails) = middle;
+      auto nearer = between(posed, minimum, least, inside, middle);
+      (nearer ? e : fails) = middle;
+      if (nearer) result = std::move(nearer);
     }
-    break;
+    return result;
   }
-  return result;
+  return std::nullopt;
 }
 
 /// 1 + x_i/r_i >= 0 and 1 - x_i/r_i >= 0 beside the bounds, with r_i = kReach times the largest unknown of
@@ -310,6 +315,16 @@ lmi::GainBounds within_reach(const Attempt& minimum, const Attempt& inside) {
 }
 
 }  // namespace
+
+std::optional<Attempt> near_minimum(const Posed& posed, const Attempt& minimum,
+                                    const Attempt& inside) {
+  constexpr double kCost = 1e-8, kMost = 1e-3;
+  const double least = posed.lmi.objective_at(minimum.x);
+  const double cost = std::abs(posed.lmi.objective_at(inside.x) - least);
+  const double fraction = std::min(kMost, kCost * std::abs(least) / cost);
+  if (!(fraction > 0)) return std::nullopt;
+  return between(posed, minimum, minimum.x, inside, fraction);
+}
 
 std::optional<Attempt> blended(const Posed& posed, const Attempt& minimum, const Attempt& inside,
                                const Solve& solve) {

@@ -137,7 +137,7 @@ struct Attempts {
     return ask(climb, objective(climb, climb.bounds_));
   }
   static std::optional<Attempt> inside(const Climb& climb) {
-    return ask(climb, interior(climb.bounds_));
+    return climb.inside_ ? *climb.inside_ : ask(climb, interior(climb.bounds_));
   }
   /// Not ended by a certificate against x below some 1e16.
   static std::optional<Attempt> large_minimum(const Climb& climb) {
@@ -221,32 +221,54 @@ constexpr std::array<Row, 13> kAttempts = {{
 Climb::Climb(const Posed& posed, lmi::GainBounds bounds, Solve solve)
     : posed_(posed), bounds_(std::move(bounds)), solve_(std::move(solve)) {}
 
+template <class Tries>
+void Climb::make(AttemptKind kind, const char* what, const Tries& tries) {
+  using Clock = std::chrono::steady_clock;
+  check_stop();
+  doing_ = what;
+  const Doing doing(what);
+  const auto start = Clock::now();
+  const Allowance limit(allowance() - spent_);
+  try {
+    if (auto found = tries()) {
+      out_of_allowance_ = found->out_of_allowance;
+      tried_.emplace(kind, std::move(*found));
+    }
+    done_.insert(kind);
+  } catch (const OutOfAllowance&) {
+    out_of_allowance_ = true;
+  }
+  spent_ += limit.spent();
+  seconds_ += std::chrono::duration<double>(Clock::now() - start).count();
+}
+
 void Climb::to_point() { climb(false); }
 
 void Climb::to_end() { climb(true); }
 
+void Climb::to_near_minimum(std::optional<Attempt> inside) {
+  const Attempt* minimum = find(AttemptKind::minimum);
+  inside_ = std::move(inside);
+  if (minimum == nullptr || !minimum->point || minimum->holds()) return;
+  if (!inside_) {
+    make(AttemptKind::inside, "the largest margin", [&] { return Attempts::inside(*this); });
+    const Attempt* found = find(AttemptKind::inside);
+    if (found == nullptr || !found->holds()) return;
+    inside_ = *found;
+    tried_.erase(AttemptKind::inside);
+    done_.erase(AttemptKind::inside);
+  }
+  make(AttemptKind::blended, "a point near the minimum",
+       [&] { return near_minimum(posed_, *minimum, *inside_); });
+  if (find(AttemptKind::blended) == nullptr) done_.erase(AttemptKind::blended);
+}
+
 void Climb::climb(bool to_end) {
-  using Clock = std::chrono::steady_clock;
   for (const Row& row : kAttempts) {
     if (!to_end && (point() != nullptr || refutation() != nullptr)) return;
     if (out_of_allowance_) return;
     if (done_.contains(row.kind) || !row.is_due(*this)) continue;
-    check_stop();
-    doing_ = row.doing;
-    const Doing doing(row.doing);
-    const auto start = Clock::now();
-    const Allowance limit(allowance() - spent_);
-    try {
-      if (auto found = row.tries(*this)) {
-        out_of_allowance_ = found->out_of_allowance;
-        tried_.emplace(row.kind, std::move(*found));
-      }
-      done_.insert(row.kind);
-    } catch (const OutOfAllowance&) {
-      out_of_allowance_ = true;
-    }
-    spent_ += limit.spent();
-    seconds_ += std::chrono::duration<double>(Clock::now() - start).count();
+    make(row.kind, row.doing, [&] { return row.tries(*this); });
   }
 }
 

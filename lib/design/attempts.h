@@ -27,12 +27,13 @@
 //                                                              them alone
 //
 // (An exchange grows by the points at which a solution fails, and begins again; so it does once, by
-// points between its own, before large programs are tried in more digits.) Each attempt is made
-// once at most and its record stays; what they mean together is conclude(). A no comes from an
-// attempt without bounds.
+// points between its own, before large programs are tried in more digits. After some rounds a point
+// near the minimum ends it.) Each attempt is made once at most and its record stays; what they mean
+// together is conclude(). A no comes from an attempt without bounds.
 #pragma once
 
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -63,6 +64,9 @@ class Climb {
 
   /// The attempts up to the first point, or the refutation.
   void to_point();
+  /// Where that is a minimum that fails between its points: a point inside, `inside` where it is
+  /// known, and one near the minimum (near_minimum()).
+  void to_near_minimum(std::optional<Attempt> inside);
   /// All the others that are due.
   void to_end();
 
@@ -71,6 +75,8 @@ class Climb {
   const std::string& doing() const { return doing_; }
   /// nullptr: not tried.
   const Attempt* find(AttemptKind kind) const;
+  /// The point inside that to_near_minimum() used.
+  const std::optional<Attempt>& inside() const { return inside_; }
   /// The attempt whose point counts: the first that is a yes, otherwise the first that holds, or
   /// has one; nullptr without one.
   const Attempt* point() const;
@@ -97,13 +103,17 @@ class Climb {
   friend struct Attempts;
 
   void climb(bool to_end);
+  /// One attempt, within the allowance.
+  template <class Tries>
+  void make(AttemptKind kind, const char* doing, const Tries& tries);
   double allowance() const;
 
   const Posed posed_;
   lmi::GainBounds bounds_;
   Solve solve_;
   std::map<AttemptKind, Attempt> tried_;
-  std::set<AttemptKind> done_;  ///< those that came to nothing included
+  std::optional<Attempt> inside_;  ///< holds
+  std::set<AttemptKind> done_;     ///< those that came to nothing included
   std::string doing_;
   double seconds_ = 0;
   double spent_ = 0;

@@ -11,6 +11,7 @@
 #include "forall/minima.h"
 #include "numbers/dense.h"
 #include "numbers/dual.h"
+#include "numerics/balance.h"
 
 namespace gainsmith::design {
 
@@ -88,8 +89,21 @@ std::complex<double> snapped(const numbers::Matrix& A, const numbers::Matrix& C,
   return axis != lambda && hautus_residual(A, C, axis) <= kRank ? axis : lambda;
 }
 
-/// All eigenvalues of A in the upper half plane, or those of Re lambda >= 0 alone, with what the
-/// output shows of them; the rows of C in units of `sizes`.
+/// Of the largest size, with its sign.
+double largest(const numbers::Vector& v) {
+  Eigen::Index at = 0;
+  v.cwiseAbs().maxCoeff(&at);
+  return v(at);
+}
+
+bool is_left_out(std::complex<double> lambda, double accuracy, Modes which) {
+  return which == Modes::not_decaying    ? lambda.real() < -accuracy
+         : which == Modes::not_shrinking ? std::abs(lambda) < 1 - accuracy
+                                         : false;
+}
+
+/// The eigenvalues of A in the upper half plane that are asked for, with what the output shows of
+/// them; the rows of C in units of `sizes`.
 std::vector<HiddenMode> modes_of(const numbers::Matrix& A, const numbers::Matrix& C,
                                  const numbers::Vector& sizes, Modes which) {
   const Eigen::Index n = A.rows();
@@ -104,14 +118,12 @@ std::vector<HiddenMode> modes_of(const numbers::Matrix& A, const numbers::Matrix
   for (const std::complex<double>& found : eigenvalues) {
     if (found.imag() < 0) continue;
     const std::complex<double> lambda = snapped(A / size, rows, found);
-    if (which == Modes::not_decaying && lambda.real() < -kStable) continue;
+    if (is_left_out(lambda * size, kStable * size, which)) continue;
     const numbers::Svd svd = numbers::full_svd(hautus_matrix(A / size, rows, lambda));
     numbers::Vector v = svd.V.col(2 * n - 1).head(n);
     const numbers::Vector imaginary = svd.V.col(2 * n - 1).tail(n);
     if (imaginary.norm() > v.norm()) v = imaginary;
-    Eigen::Index at = 0;
-    v.cwiseAbs().maxCoeff(&at);
-    modes.push_back({lambda * size, v / v(at), svd.s.tail(1)(0) / svd.s(0), kStable * size});
+    modes.push_back({lambda * size, v / largest(v), svd.s.tail(1)(0) / svd.s(0), kStable * size});
   }
   return modes;
 }
@@ -212,7 +224,19 @@ class Linearisation {
 
 std::optional<HiddenMode> hidden_mode(const numbers::Matrix& A, const numbers::Matrix& C,
                                       Modes modes) {
-  return hidden_among(modes_of(A, C, row_sizes(C), modes), kRank);
+  const std::vector<int> units = numerics::units(A.cwiseAbs(), C.cwiseAbs());
+  numbers::Vector D(A.rows());
+  for (Eigen::Index i = 0; i < D.size(); ++i)
+    D(i) = std::ldexp(1, units[static_cast<std::size_t>(i)]);
+  const numbers::Matrix scaled = C * D.asDiagonal();
+  auto found = hidden_among(modes_of(D.cwiseInverse().asDiagonal() * A * D.asDiagonal(), scaled,
+                                     row_sizes(scaled), modes),
+                            kRank);
+  if (found) {
+    found->direction.array() *= D.array();
+    found->direction /= largest(found->direction);
+  }
+  return found;
 }
 
 namespace {
@@ -322,7 +346,9 @@ std::string hidden_mode_text(const model::Instance& instance) {
   for (const std::string name : {"C", "C2"}) {
     const auto pair = is_shown(design, name) ? pair_of(instance, name) : std::nullopt;
     if (!pair || pair->first.cols() != pair->second.cols()) continue;
-    if (const auto mode = hidden_mode(pair->first, pair->second))
+    const bool jumps = design.dynamics && design.dynamics->flow.empty();
+    if (const auto mode = hidden_mode(pair->first, pair->second,
+                                      jumps ? Modes::not_shrinking : Modes::not_decaying))
       return unseen_mode_text(*mode, name);
   }
   return "";

@@ -13,7 +13,7 @@
 
 namespace gainsmith::design {
 
-/// An eigenvalue lambda of A, Re lambda >= 0, at which [A - lambda I; C] loses rank (Hautus): v is
+/// An eigenvalue lambda of A, Re lambda >= 0 or, of x+ = A x, |lambda| >= 1, at which [A - lambda I; C] loses rank (Hautus): v is
 /// the direction, (A - lambda I) v = 0 and C v = 0 up to rounding.
 struct HiddenMode {
   std::complex<double> eigenvalue;
@@ -22,7 +22,7 @@ struct HiddenMode {
   double accuracy = 0;        ///< how far the eigenvalue may be from that of A
 };
 
-enum class Modes { not_decaying, all };
+enum class Modes { not_decaying, not_shrinking, all };  ///< the second of x+ = A x
 
 /// The hidden mode that is farthest right, in balanced units; none when (A, C) is detectable, or of
 /// all modes observable, as far as double tells.

@@ -58,8 +58,13 @@ class OuterSearch {
         return known_.value("figure near", at,
                             [&] { return figure(point, request_.largest ? -best : best); });
       };
+    const bool keeps_hidden_mode = keeps_a_hidden_mode();
+    if (keeps_hidden_mode) {
+      options.starts = corners();
+      options.evaluations = static_cast<int>(options.starts.size());
+    }
     // A design by formula has nothing to violate.
-    const bool has_slacks = !own_.design->inequalities.empty();
+    const bool has_slacks = !own_.design->inequalities.empty() && !keeps_hidden_mode;
     if (const auto scales = has_slacks ? scales_at(options.starts.front()) : std::nullopt)
       options.violation = [&, scales = *scales](const search::Point& point) {
         return *known_.value("violation", point, [&] { return violation(scales, point); });
@@ -93,6 +98,29 @@ class OuterSearch {
       point.push_back(std::clamp(model::scalar_named(own_, scalar.name).value_or(scalar.axis.high),
                                  scalar.axis.low, scalar.axis.high));
     return point;
+  }
+
+  /// They, and the two ends of all ranges.
+  std::vector<search::Point> corners() const {
+    std::vector<search::Point> points = {own_values(), {}, {}};
+    for (const SearchedScalar& scalar : request_.over) {
+      points[1].push_back(scalar.axis.low);
+      points[2].push_back(scalar.axis.high);
+    }
+    return points;
+  }
+
+  /// Whether the output hides a mode, or the input does not reach it, and no value moves it.
+  bool keeps_a_hidden_mode() const {
+    const auto hides = [&](const search::Point& point) {
+      try {
+        return !hidden_mode_text(bind::evaluate(own_.design, at_easy_end(point))).empty();
+      } catch (const InputError&) {
+        return false;
+      }
+    };
+    const std::vector<search::Point> points = corners();
+    return std::all_of(points.begin(), points.end(), hides);
   }
 
   model::Overrides overrides(const search::Point& point) const {

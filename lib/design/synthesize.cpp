@@ -301,6 +301,11 @@ class Synthesis {
     climb_.emplace(Posed{inequalities_, plan_, lmi_, digits_, check_options(depth_), thin}, bounds_,
                    [this](const auto&... asked) { return solve(asked...); });
     climb_->to_point();
+    constexpr int kDrawsOn = 6;  // rounds after which an exchange does
+    if (round_ >= kDrawsOn) {
+      climb_->to_near_minimum(std::move(inside_));
+      inside_ = climb_->inside();
+    }
     bool again = grown();
     if (!again) {
       climb_->to_end();
@@ -326,9 +331,17 @@ class Synthesis {
   bool grown() {
     constexpr int kMostRounds = 60;
     const Attempt* point = climb_->point();
-    return point != nullptr && !point->holds() && climb_->refutation() == nullptr &&
-           round_ < kMostRounds && !is_out_of_reach(*point) &&
-           grow(plan_, inequalities_, lmi_, *point);
+    if (point == nullptr || point->holds() || climb_->refutation() != nullptr ||
+        round_ >= kMostRounds)
+      return false;
+    // What a minimum violates may be too little to be told; a point inside leads to one near it.
+    const bool by_point = grown_by(point), by_inside = grown_by(climb_->find(AttemptKind::inside));
+    return by_point || by_inside;
+  }
+
+  bool grown_by(const Attempt* attempt) {
+    return attempt != nullptr && attempt->point && !is_out_of_reach(*attempt) &&
+           grow(plan_, inequalities_, lmi_, *attempt);
   }
 
   sdp::Solution solve(const sdp::Problem& problem, const Effort& effort) {
@@ -353,6 +366,7 @@ class Synthesis {
   lmi::Lmi lmi_;
   lmi::GainBounds bounds_;
   std::optional<Climb> climb_;
+  std::optional<Attempt> inside_;  ///< a point that holds, of an exchange that draws on
   int round_ = 1;
   int iterations_ = 0;  ///< of the solver, in all
   bool thickened_ = false;

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 
 #include "bind/stated.h"
@@ -39,6 +40,37 @@ TEST(ForallTest, ExchangeDoesNotAcceptWhatAGridDoesNotSee) {
   const model::Gains found = synthesized(reset_observer(4.0, "exchange"));
   EXPECT_EQ(found.verdict, model::Verdict::undecided) << found.solver.message;
   EXPECT_FALSE(found.certificate);
+}
+
+/// The smallest eigenvalue is least at t = 0, the margin at its largest correlation, t = 0.139.
+TEST(ForallTest, TheMarginIsTheSmallestOnTheWholeInterval) {
+  const model::Gains found = synthesized(
+      "problem: p\nmethod:\n  method: m\n  unknowns: {x: scalar}\n  require:\n    size: 1 < x < 2\n"
+      "    sign: {forall: \"t in [0, 1]\", that: \"x*[1, 0.5*t*(1 - t); *, 0.01 + t^3] > 0\"}\n"
+      "no campaign: static\n");
+  ASSERT_EQ(found.verdict, model::Verdict::yes) << found.solver.message;
+  double least = 1;
+  for (int i = 0; i <= 100000; ++i) {
+    const double t = 1e-5 * i;
+    least = std::min(least, 1 - 0.5 * t * (1 - t) / std::sqrt(0.01 + t * t * t));
+  }
+  const auto margin = std::find_if(found.margins.begin(), found.margins.end(),
+                                   [](const model::Margin& each) { return each.name == "sign"; });
+  ASSERT_NE(margin, found.margins.end());
+  EXPECT_NEAR(margin->reached, least, 1e-9) << margin->worst_point;
+}
+
+/// In these units the minima draw on: each fails a little between the points of the exchange.
+TEST(ForallTest, AMinimumThatDrawsOnEndsAtAPointNearIt) {
+  const model::Gains found = synthesized(
+      "problem: p\nmethod: clock-dependent-reset\ndata:\n"
+      "  A: [[2.8, -1.08002495835528235252410888671875e-13], [15832967439974.4, -3.7]]\n"
+      "  C: [[6710886.4, 4.76837158203125e-7]]\n  T1: 0.4\n  T2: 0.9\n"
+      "  QF: [[8796093022208, 0], [0, 8.5265128291212022304534912109375e-14]]\n"
+      "  QJ: [[8796093022208, 0], [0, 1.7053025658242404460906982421875e-14]]\n"
+      "no campaign: a synthesis alone\n");
+  ASSERT_EQ(found.verdict, model::Verdict::yes) << found.solver.message;
+  EXPECT_NEAR(*found.objective, 21.170929, 21e-6);
 }
 
 TEST(ForallTest, TheWorstPointIsOnTheWholeInterval) {

@@ -42,6 +42,25 @@ TEST(Hautus, EigenvaluesAreNamedWithTheDigitsThatAreKnown) {
   EXPECT_EQ(eigenvalue_in(text_for("[[2e-10, 0, 0], [0, -1, 0], [0, 0, -1]]", C)), "2e-10");
 }
 
+/// x = diag(2^23, 2^-20) z of an observable plant, and of one whose second mode is hidden.
+TEST(Hautus, NothingDependsOnTheUnitsOfTheStates) {
+  EXPECT_EQ(text_for("[[2.8, -1.08002495835528235252410888671875e-13], [15832967439974.4, -3.7]]",
+                     "[[6710886.4, 4.76837158203125e-7]]"),
+            "");
+  const std::string hidden = text_for("[[-1, 0], [1099511627776, 2]]", "[[6710886.4, 0]]");
+  EXPECT_TRUE(has(hidden, "eigenvalue 2 in the direction [0; 1]")) << hidden;
+}
+
+TEST(Hautus, AHiddenModeThatShrinksIsNoReasonInDiscreteTime) {
+  const auto text = [](const std::string& hidden) {
+    const tests::YamlProblem yaml("problem: p\nmethod: discrete-observer\ndata: {A: [[" + hidden +
+                                  ", 0], [0, 2]], C: [[0, 1]]}\nno campaign: static\n");
+    return hidden_mode_text(yaml.instance);
+  };
+  EXPECT_EQ(text("0.5"), "");
+  EXPECT_TRUE(has(text("-1.5"), "eigenvalue -1.5 in the direction [1; 0]")) << text("-1.5");
+}
+
 /// A design of the method on two masses and a spring, of which B and C are given.
 std::string text_of_masses(const std::string& method, const std::string& data) {
   const tests::YamlProblem yaml(
