@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <optional>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -159,74 +158,11 @@ void add_gains(const lmi::Inequalities& inequalities, model::Gains& gains) {
   }
 }
 
-/// Whether what synthesis evaluates reads a coefficient of an unknown function by its name.
-bool names_coefficients(const model::Design& design) {
-  std::set<std::string> coefficients;
-  for (const model::Function& function : model::polynomials(design))
-    for (const std::string& name : function.coefficients()) coefficients.insert(name);
-  const auto reads = [&](const expr::Program& program) {
-    return std::any_of(program.inputs.begin(), program.inputs.end(),
-                       [&](const expr::Input& input) { return coefficients.contains(input.name); });
-  };
-  return std::any_of(design.inequalities.begin(), design.inequalities.end(),
-                     [&](const model::Design::Inequality& inequality) {
-                       return std::any_of(inequality.comparisons.begin(),
-                                          inequality.comparisons.end(),
-                                          [&](const auto& each) { return reads(each.difference); });
-                     }) ||
-         std::any_of(design.gains.begin(), design.gains.end(),
-                     [&](const auto& gain) { return reads(gain.formula.program); }) ||
-         std::any_of(design.report.begin(), design.report.end(),
-                     [&](const auto& each) { return reads(each.value.program); }) ||
-         (design.objective && reads(design.objective->program));
-}
-
-/// Gains of lower degrees as those of the stated ones: the coefficients above are 0.
-void raise_degrees(const model::Instance& instance, model::Gains& gains) {
-  const auto functions = model::polynomials(*instance.design);
-  std::vector<std::pair<std::string, numbers::Matrix>> unknowns;
-  for (const model::UnknownMatrix& unknown : model::unknown_matrices(*instance.design, functions)) {
-    const numbers::Matrix* found = gains.find(unknown.name);
-    unknowns.emplace_back(
-        unknown.name,
-        found != nullptr ? *found : numbers::Matrix::Zero(unknown.shape.rows, unknown.shape.cols));
-  }
-  gains.unknowns = std::move(unknowns);
-  gains.functions.clear();
-  for (const model::Function& function : functions)
-    gains.functions.push_back({function.signature(), function.text(), function.body().program});
-}
-
-/// Unknown functions with half of their degrees; none where there is nothing to halve. What they
-/// satisfy, functions of the stated degrees satisfy.
-std::optional<model::Instance> with_lower_degrees(const model::Instance& instance) {
-  constexpr int kLeast = 16;
-  const auto& unknowns = instance.design->unknowns;
-  if (std::none_of(
-          unknowns.begin(), unknowns.end(),
-          [](const model::Design::Unknown& unknown) { return unknown.degree >= kLeast; }) ||
-      names_coefficients(*instance.design))
-    return std::nullopt;
-  return with_design(instance, [](model::Design& design) {
-    for (model::Design::Unknown& unknown : design.unknowns)
-      if (unknown.degree >= kLeast) unknown.degree /= 2;
-  });
-}
-
-/// Whether the objective chooses among the solutions.
-bool has_minimum(const model::Instance& instance) {
-  if (!instance.design->objective) return false;
-  const lmi::Inequalities inequalities(instance);
-  const lmi::Lmi lmi = lmi::compile(inequalities);
-  return lmi::has_minimum(lmi, lmi::gain_bounds(inequalities, lmi));
-}
-
 /// One synthesis: attempts on a plan of points, which grows.
 class Synthesis {
  public:
-  /// `digits`: more than double where double does not decide.
-  Synthesis(const model::Instance& instance, const sdp::Options& options, Depth depth, bool digits)
-      : inequalities_(instance), options_(options), depth_(depth), digits_(digits) {}
+  Synthesis(const model::Instance& instance, const sdp::Options& options, Depth depth)
+      : inequalities_(instance), options_(options), depth_(depth) {}
 
   /// What is known, also when it was stopped.
   model::Gains run() {
@@ -298,8 +234,9 @@ class Synthesis {
   bool climbs_again() {
     forall::Plan denser = plan_;
     const bool thin = !thickened_ && thicken(denser, inequalities_);
-    climb_.emplace(Posed{inequalities_, plan_, lmi_, digits_, check_options(depth_), thin}, bounds_,
-                   [this](const auto&... asked) { return solve(asked...); });
+    climb_.emplace(
+        Posed{inequalities_, plan_, lmi_, depth_ != Depth::quick, check_options(depth_), thin},
+        bounds_, [this](const auto&... asked) { return solve(asked...); });
     climb_->to_point();
     constexpr int kDrawsOn = 6;  // rounds after which an exchange does
     if (round_ >= kDrawsOn) {
@@ -361,7 +298,6 @@ class Synthesis {
   const lmi::Inequalities inequalities_;
   const sdp::Options& options_;
   const Depth depth_;
-  const bool digits_;
   forall::Plan plan_;
   lmi::Lmi lmi_;
   lmi::GainBounds bounds_;
@@ -373,11 +309,6 @@ class Synthesis {
   double compile_seconds_ = 0;
   double solve_seconds_ = 0;
 };
-
-model::Gains synthesize(const model::Instance& instance, const sdp::Options& options, Depth depth,
-                        bool digits) {
-  return Synthesis(instance, options, depth, digits).run();
-}
 
 /// Gains of formulas alone: nothing is unknown and nothing required.
 model::Gains evaluated(const model::Instance& instance) {
@@ -396,21 +327,7 @@ model::Gains synthesize(const model::Instance& instance, const sdp::Options& opt
   if (design.inequalities.empty() && design.unknowns.empty()) return evaluated(instance);
   require_convex(instance);
   if (instance.design->quotient) return smallest_quotient(instance, options, depth);
-  const auto lower = with_lower_degrees(instance);
-  if (!lower || depth == Depth::quick)
-    return synthesize(instance, options, depth, depth != Depth::quick);
-  // Programs of high degrees are slow, and slower in many digits.
-  if (has_minimum(instance)) {
-    model::Gains gains = synthesize(instance, options, depth, false);
-    if (gains.verdict == model::Verdict::yes) return gains;
-  }
-  model::Gains fewer = synthesize(*lower, options, depth, true);
-  if (fewer.verdict == model::Verdict::yes) {
-    raise_degrees(instance, fewer);
-    fewer.solver.add_message("found with functions of half the degree");
-    return fewer;
-  }
-  return synthesize(instance, options, depth, true);
+  return Synthesis(instance, options, depth).run();
 }
 
 model::Gains synthesize_at(const model::DesignPtr& design, const model::Overrides& overrides,

@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 
 #include "base/eigen_scalars.h"
 #include "base/stop.h"
@@ -19,57 +18,49 @@ using numbers::Matrix;
 using numbers::Vector;
 
 /// L' B L for each term, its lower triangle with sqrt(2) beside the diagonal.
-template <class T, class S>
+template <class S>
 void add_images(const FactoredBlock<S>& one, Index first, Images& images) {
-  const numbers::MatrixOf<T> L = one.L.template cast<T>();
+  const Matrix& L = one.L;
   const Index n = L.rows(), rank = L.cols();
   const Vector rows = one.L.rowwise().norm() * (1 + 1e-12);
   // |L'| |B| |L| is the sum of these terms at most, whatever the order of the sums.
-  const double rounding = static_cast<double>(2 * n + 12) * numbers::unit_roundoff<T>();
+  const double rounding = static_cast<double>(2 * n + 12) * kUnitRoundoff;
   const double root = std::sqrt(2.0);
-  const double work = std::is_same_v<T, double> ? kDoubleWork : kQuadWork;
-  numbers::MatrixOf<T> BL(n, rank);
+  Matrix BL(n, rank);
   for (const auto& [i, elements] : one.block->terms) {
-    spend(static_cast<double>(rank * (n * rank + 2 * static_cast<Index>(elements.size()))) * work);
-    BL.setConstant(T(0));
+    spend(static_cast<double>(rank * (n * rank + 2 * static_cast<Index>(elements.size()))) *
+          kDoubleWork);
+    BL.setConstant(0);
     double error = 0;
     for (const auto& e : elements) {
-      const T b = as<T>(e.mid);
+      const double b = as<double>(e.mid);
       BL.row(e.row) += b * L.row(e.column);
-      error += (rounding * std::abs(as<double>(e.mid)) + e.rad) * rows[e.row] * rows[e.column];
+      error += (rounding * std::abs(b) + e.rad) * rows[e.row] * rows[e.column];
     }
-    numbers::MatrixOf<T> image;
-    if constexpr (std::is_same_v<T, double>)
-      image = L.transpose() * BL;
-    else
-      image = numbers::times<T>(L.transpose(), BL);
+    const Matrix image = L.transpose() * BL;
     Index at = first;
     for (Index c = 0; c < rank; ++c)
-      for (Index r = c; r < rank; ++r)
-        images.G(at++, i) = (r == c ? 1 : root) * as<double>(image(r, c));
+      for (Index r = c; r < rank; ++r) images.G(at++, i) = (r == c ? 1 : root) * image(r, c);
     images.error[i] += error * (1 + 1e-12);
   }
 }
 
 }  // namespace
 
-template <class T, class S>
+template <class S>
 Images images_of(const std::vector<FactoredBlock<S>>& blocks, Index unknowns) {
   Index size = 1;
   for (const FactoredBlock<S>& one : blocks) size += one.L.cols() * (one.L.cols() + 1) / 2;
   Images images{Matrix::Zero(size, unknowns), Vector::Zero(unknowns)};
   Index first = 0;
   for (const FactoredBlock<S>& one : blocks) {
-    add_images<T>(one, first, images);
+    add_images(one, first, images);
     first += one.L.cols() * (one.L.cols() + 1) / 2;
   }
-  if (!std::is_same_v<T, double>)
-    images.error += 4 * kUnitRoundoff * images.G.colwise().norm().transpose();
   return images;
 }
 
-template Images images_of<double>(const std::vector<FactoredBlock<DoubleDouble>>&, Index);
-template Images images_of<DoubleDouble>(const std::vector<FactoredBlock<DoubleDouble>>&, Index);
+template Images images_of(const std::vector<FactoredBlock<DoubleDouble>>&, Index);
 
 std::optional<Basis> basis_of(const Images& images, Index first) {
   Basis of;
@@ -119,7 +110,7 @@ std::optional<Move> move_of(const Basis& by, const ResidualsInDouble& residuals)
 template <class S>
 bool is_exact_in_double(const std::vector<FactoredBlock<S>>& blocks,
                         const ResidualsInDouble& residuals, bool constant) {
-  Images images = images_of<double>(blocks, residuals.r.size());
+  Images images = images_of(blocks, residuals.r.size());
   ResidualsInDouble rest = residuals;
   if (constant) {
     // y_0 = v makes its own row of the residual 0.

@@ -25,9 +25,8 @@ struct Images {
   numbers::Matrix G;
   numbers::Vector error;
 };
-/// The columns g_0 ... g_m of `unknowns` = m + 1, a block after the other, below them a row of zeros;
-/// computed in T.
-template <class T, class S>
+/// The columns g_0 ... g_m of `unknowns` = m + 1, a block after the other, below them a row of zeros.
+template <class S>
 Images images_of(const std::vector<FactoredBlock<S>>& blocks, Eigen::Index unknowns);
 
 /// r_i with |true - r_i| <= error_i; r_0 = -v.

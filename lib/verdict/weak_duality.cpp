@@ -69,15 +69,6 @@ ResidualsInDouble slacks_of(const Factored& of, const Costs& costs) {
   return {rounded, error};
 }
 
-/// Products of numbers, of which double leaves what cancels.
-constexpr double kMostWideWork = 1e8;
-double work_of_images(const std::vector<FactoredBlock<DoubleDouble>>& blocks) {
-  double work = 0;
-  for (const auto& [block, L] : blocks)
-    work += static_cast<double>(block->terms.size()) * std::pow(static_cast<double>(L.rows()), 3);
-  return work;
-}
-
 /// Y_k - theta L_k L_k' >= 0: a factor of a little less in 31 digits.
 bool leaves_positive(const Factored& of, double theta) {
   constexpr double kRounding = 1e-25;  // n (n + 2) of 31 digits
@@ -161,12 +152,10 @@ struct ShownBound {
   double loss = 0;  ///< that multipliers without a residual would not have
 };
 
-/// With the images in T.
-template <class T>
 std::optional<ShownBound> bound_at(Factored of, const Costs& costs) {
   constexpr int kCorrections = 3;
   constexpr double kNoLoss = 1e-15;
-  const Images images = images_of<T>(of.blocks, std::ssize(costs));
+  const Images images = images_of(of.blocks, std::ssize(costs));
   const auto by = basis_of(images, 1);
   if (!by) return std::nullopt;
   std::optional<ShownBound> best;
@@ -194,24 +183,13 @@ std::optional<double> lower_bound(const BlockList& blocks, const Multipliers& Y,
     if (!block.terms.empty()) last = std::max(last, block.terms.back().first);
   if (std::ssize(costs) <= last) costs.resize(static_cast<std::size_t>(last) + 1);
   std::optional<double> best;
-  // Images in double first: they take a twentieth of the time.
   for (const double lift : kLifts) {
     const auto of = factors_of(blocks, Y, lift);
-    const auto found = of ? bound_at<double>(*of, costs) : std::nullopt;
+    const auto found = of ? bound_at(*of, costs) : std::nullopt;
     if (!found) continue;
-    best = found->value;
-    if (found->loss <= kLittle * std::abs(found->value)) return best;
-    break;
+    if (!best || found->value > *best) best = found->value;
+    if (found->loss <= kLittle * std::abs(found->value)) break;
   }
-  const auto wide = [&](double lift) -> std::optional<ShownBound> {
-    const auto of = factors_of(blocks, Y, lift);
-    if (!of || !(work_of_images(of->blocks) < kMostWideWork)) return std::nullopt;
-    return bound_at<DoubleDouble>(*of, costs);
-  };
-  // Where the most that is added shows nothing, less does not.
-  if (!best && !wide(kLifts[std::size(kLifts) - 1])) return std::nullopt;
-  for (const double lift : kLifts)
-    if (const auto found = wide(lift)) return std::max(found->value, best.value_or(found->value));
   return best;
 }
 

@@ -41,23 +41,6 @@ parameters: {degree: )yaml" +
          std::to_string(degree) + "}\n";
 }
 
-/// Without an objective a high degree begins with half of it; the gain file has the stated one.
-TEST(GainFunctionTest, OfAHighDegreeBeginsWithHalfOfIt) {
-  const Folder folder;
-  std::string text = problem_text(24);
-  text.replace(text.find("of: tau, degree"), 15, "of: tau, in: [T1, T2], degree");
-  const std::string path = folder.path("g.json");
-  const Outcome synth = gainsmith({"synth", folder.file("p.yaml", text), "-o", path});
-  ASSERT_EQ(synth.exit, 0) << synth.out << synth.err;
-  EXPECT_NE(synth.out.find("found with functions of half the degree"), std::string::npos);
-  const Json gains = Json::parse(text_of(path));
-  EXPECT_NE(gains["unknowns"]["Z_12"], Json::parse("[[0.0], [0.0]]"));
-  for (int k = 13; k <= 24; ++k)
-    EXPECT_EQ(gains["unknowns"]["Z_" + std::to_string(k)], Json::parse("[[0.0], [0.0]]")) << k;
-  const Outcome verify = gainsmith({"verify", path});
-  EXPECT_EQ(verify.exit, 0) << verify.out << verify.err;
-}
-
 /// Where a text names a coefficient, the degree is the one that is stated.
 TEST(GainFunctionTest, CoefficientsMayBeNamed) {
   const Folder folder;
