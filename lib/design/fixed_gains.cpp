@@ -272,7 +272,7 @@ class Fixing {
   FixedGains result_;
 };
 
-/// The unknowns of the file as one vector; none when one is missing or has another shape.
+/// The unknowns of the file as one vector; none when one is missing, or has another shape or structure.
 std::optional<std::vector<double>> packed(const lmi::Unknowns& unknowns,
                                           const model::Gains& gains) {
   std::vector<double> x(static_cast<std::size_t>(unknowns.size()), 0.0);
@@ -280,8 +280,11 @@ std::optional<std::vector<double>> packed(const lmi::Unknowns& unknowns,
     const numbers::Matrix* matrix = gains.find(unknown.name);
     if (matrix == nullptr || numbers::shape_of(*matrix) != unknown.shape) return std::nullopt;
     for (int k = 0; k < unknown.count; ++k) {
-      const auto [row, column] = unknown.places(k).front();
-      x[static_cast<std::size_t>(unknown.first + k - 1)] = (*matrix)(row, column);
+      const auto places = unknown.places(k);
+      const double value = (*matrix)(places.front().first, places.front().second);
+      for (const auto& [row, column] : places)
+        if ((*matrix)(row, column) != value) return std::nullopt;
+      x[static_cast<std::size_t>(unknown.first + k - 1)] = value;
     }
   }
   return x;

@@ -50,6 +50,7 @@ class ExactFlow : public Flow {
 
   void start(double t, const VectorXd& values, double last) override {
     t_ = t;
+    late_ = 0;
     last_ = last;
     level_ = 0;
     peaks_ = VectorXd::Zero(field_->size());
@@ -73,12 +74,12 @@ class ExactFlow : public Flow {
         grows_ = false;
         continue;
       }
-      const double end = t_ + level.length;
+      const double end = t_ + (level.length + late_);
       if (!series.allFinite()) throw ode::IntegrationError("the flow is not finite", t_, true);
       if (end <= t_)
         throw ode::IntegrationError("the flow is too fast to be followed at this time", t_, false);
       if (moved_ != nullptr) move(series);
-      return end < last_ ? whole_step(level, series, end) : last_step(series, end);
+      return end < last_ ? whole_step(level, series, end) : last_step(level, series, end);
     }
   }
 
@@ -187,8 +188,9 @@ class ExactFlow : public Flow {
     const VectorXd tail = series.rightCols(2).cwiseAbs().rowwise().sum();
     peaks_ = peaks_.cwiseMax(sizes);
     sizes_ = level.maps.back().topRows(n).cwiseAbs().lazyProduct(z_.cwiseAbs());
-    // What has died down to the rounding of rounding is followed no more.
-    const auto size = sizes.array() + series_rounding * peaks_.array();
+    // What has died down so far is followed no more: its squares are nothing.
+    constexpr double kDead = 1e-150;
+    const auto size = sizes.array() + kDead * peaks_.array();
     agrees = (tail.array() <= series_rounding * size).all();
     // Of flows that are polynomials of a low degree the other coefficients are rounding.
     Index last = exact_degree;
@@ -213,14 +215,16 @@ class ExactFlow : public Flow {
     hybrid::DenseStep step = field_->step(t_, end, series);
     z_ = (level.maps.back() * z_).eval();
     if (moved_ != nullptr) z_.head(moves_.size()) += moves_;
+    // The steps are alike, and so is what t_ would lose in each.
+    late_ += level.length - (end - t_);
     t_ = end;
     if (grows_ && level_ < table_->top) ++level_;
     grows_ = true;
     return step;
   }
 
-  hybrid::DenseStep last_step(const Matrix& series, double end) {
-    const double inside = ode::chebyshev::inner(last_, t_, end);
+  hybrid::DenseStep last_step(const Level& level, const Matrix& series, double end) {
+    const double inside = 2 * ((last_ - t_ - late_) / level.length) - 1;
     const Matrix part = end == last_ ? series : ode::chebyshev::part(series, -1, inside);
     hybrid::DenseStep step = field_->step(t_, last_, part);
     z_.head(field_->size()) = ode::chebyshev::at(part, 1);
@@ -231,6 +235,7 @@ class ExactFlow : public Flow {
   VectorField* field_;
   double longest_;
   double t_ = 0, last_ = 0;
+  double late_ = 0;  ///< z_ is that of t_ + late_, half of a last place at most
   Index size_ = 1;
   std::shared_ptr<ode::ExponentialTable> table_;
   int level_ = 0;

@@ -40,6 +40,13 @@ TEST(FixedGains, SynthesizedGainsHoldWithTheirOwnUnknowns) {
   EXPECT_EQ(check.margins.size(), 2U);
 }
 
+TEST(FixedGains, AnUnknownThatIsNoLongerSymmetricIsNotTaken) {
+  Solved solved(kObserver);
+  for (auto& [name, matrix] : solved.gains.unknowns)
+    if (name == "P") matrix(0, 1) += 1;
+  EXPECT_FALSE(solved.check().own_unknowns);
+}
+
 TEST(FixedGains, TheUnknownFollowsFromTheGain) {
   const Solved solved(kObserver);
   const FixedGains fixed = fix_gains(solved.yaml.instance, solved.gains);

@@ -61,7 +61,33 @@ TEST(EventFlow, StiffAndSwingingModesAreExactBetweenStepsToo) {
     return x;
   };
   EXPECT_LT(largest_error(system, steps, exact), 1e-12);
-  EXPECT_LT(steps.size(), 300U);
+  EXPECT_LT(steps.size(), 500U);
+}
+
+/// What each of 20,000 equal steps loses of the time is not lost 20,000 times.
+TEST(EventFlow, AFastSwingKeepsItsPhase) {
+  EventProblem problem;
+  problem.state("x", {2, 1}, "[1; 0]").flow("x", "[1000*x(2); -1000*x(1)]");
+  const hybrid::System system = problem.system();
+  VectorField field(system);
+  const auto flow = exact_flow(field, 20);
+  const auto exact = [](double t) {
+    return VectorXd(Eigen::Vector2d(std::cos(1000 * t), -std::sin(1000 * t)));
+  };
+  EXPECT_LT(largest_error(system, steps_of(system, field, *flow, 20), exact), 2e-11);
+}
+
+/// A claim may multiply it by exp(10*t).
+TEST(EventFlow, WhatDiesKeepsItsDigits) {
+  EventProblem problem;
+  problem.state("x", {2, 1}, "[1; 1]").flow("x", "[-5*x(1); -10*x(2)]");
+  const hybrid::System system = problem.system();
+  VectorField field(system);
+  const auto flow = exact_flow(field, 40);
+  for (const hybrid::DenseStep& step : steps_of(system, field, *flow, 40)) {
+    const double expected = std::exp(-5 * step.to);
+    EXPECT_NEAR(part_of(system, step(step.to), "x")(0), expected, 1e-11 * expected) << step.to;
+  }
 }
 
 TEST(EventFlow, NoiseThatIsHeldIsAnInputAndNoParameter) {
