@@ -41,15 +41,9 @@ std::string claim_line(const model::ClaimRecord& check) {
 
 std::string claims_table(const model::CampaignRecord& campaign) {
   if (campaign.checks.empty()) return "";
-  std::string head;
-  for (const char* name : {"claim", "", "", "worst run", "value", "bound", "(t, j)"})
-    head += text_element("th", name);
   std::string lines;
   for (const model::ClaimRecord& check : campaign.checks) lines += claim_line(check);
-  return element("div",
-                 element("table", element("thead", element("tr", head)) + element("tbody", lines)),
-                 "class=\"wide\"") +
-         "\n";
+  return headed_table({"claim", "", "", "worst run", "value", "bound", "(t, j)"}, lines);
 }
 
 std::string confidence_text(const model::CampaignRecord& campaign) {

@@ -29,7 +29,22 @@ std::string preformatted(std::string_view text, std::string_view attributes) {
   }
 }
 
-std::string formula(std::string_view mathml) { return element("math", mathml); }
+std::string headed_table(const std::vector<std::string_view>& heads, std::string_view rows) {
+  std::string head;
+  for (const std::string_view name : heads) head += text_element("th", name);
+  std::string body;
+  std::size_t column = 0;
+  while (!rows.empty()) {
+    const std::size_t end = std::min(rows.find("<t", 1), rows.size());  // the next row or cell
+    std::string one(rows.substr(0, end));
+    rows.remove_prefix(end);
+    if (one.starts_with("<tr")) column = 0;
+    if (one.starts_with("<td") && column < heads.size() && !heads[column++].empty())
+      one.insert(3, " data-head=\"" + report::escaped(heads[column - 1]) + "\"");
+    body += one;
+  }
+  return element("table", element("thead", element("tr", head)) + element("tbody", body)) + "\n";
+}
 
 std::string section(std::string_view title, const std::string& content) {
   if (content.empty()) return "";

@@ -4,6 +4,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace gainsmith::page {
 
@@ -18,7 +19,9 @@ std::string text_element(std::string_view tag, std::string_view text,
 /// A text with its lines, as a file or a terminal shows it.
 std::string preformatted(std::string_view text, std::string_view attributes = {});
 
-std::string formula(std::string_view mathml);
+/// A table of rows, markup, with the heads of its columns; each cell has its head too, for narrow
+/// pages, where a cell is not below it.
+std::string headed_table(const std::vector<std::string_view>& heads, std::string_view rows);
 
 /// A heading and what is below it; nothing without content.
 std::string section(std::string_view title, const std::string& content);

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "page/element.h"
+#include "page/lines.h"
 #include "page/mathml.h"
 #include "page/rows.h"
 #include "page/symbol.h"

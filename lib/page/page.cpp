@@ -44,15 +44,12 @@ std::string line_of(const Results& results, std::size_t k, bool marks) {
 std::string table_of(const std::vector<Results>& all) {
   const bool marks =
       std::any_of(all.begin(), all.end(), [](const Results& one) { return !one.mark.empty(); });
-  std::string head = marks ? text_element("th", "") : "";
-  for (const char* name : {"problem", "method", "verdict", "optimum", "campaign", "time"})
-    head += text_element("th", name);
+  std::vector<std::string_view> heads = {"problem", "method",   "verdict",
+                                         "optimum", "campaign", "time"};
+  if (marks) heads.insert(heads.begin(), "");
   std::string lines;
   for (std::size_t k = 0; k < all.size(); ++k) lines += line_of(all[k], k, marks) + "\n";
-  return element("div",
-                 element("table", element("thead", element("tr", head)) + element("tbody", lines)),
-                 "class=\"wide\"") +
-         "\n";
+  return headed_table(heads, lines);
 }
 
 /// "118 problems: 90 yes, 20 no, 8 undecided"

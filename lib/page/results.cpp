@@ -130,8 +130,9 @@ std::string matrices(const Results& results, const model::NamedMatrices& named) 
   for (const auto& [name, value] : named) {
     const auto estimate = results.gains.estimates.find(name);
     const bool poles = value.cols() == 2 && is_eigenvalues(results, name);
-    rows += formula_row(poles ? name : "",
-                        poles ? eigenvalues(value) : equation(symbol(name), matrix(value)),
+    const bool says = poles || name.find(' ') != std::string::npos;  // it is no symbol
+    const std::string right = poles ? eigenvalues(value) : matrix(value);
+    rows += formula_row(says ? name : "", says ? right : equation(symbol(name), right),
                         estimate == results.gains.estimates.end() ? "" : escaped(estimate->second));
   }
   return rows;
@@ -160,16 +161,6 @@ std::string cells(std::initializer_list<std::string> texts) {
   return line;
 }
 
-std::string heads(std::initializer_list<std::string_view> names) {
-  std::string line;
-  for (const std::string_view name : names) line += text_element("th", name);
-  return element("thead", element("tr", line));
-}
-
-std::string scrolled_table(const std::string& head, const std::string& lines) {
-  return element("div", element("table", head + element("tbody", lines)), "class=\"wide\"") + "\n";
-}
-
 std::string margins_section(const Results& results) {
   const model::Gains& gains = results.gains;
   if (gains.margins.empty() && gains.bounds.empty()) return "";
@@ -186,15 +177,13 @@ std::string margins_section(const Results& results) {
     text = paragraph(
                "A margin is the smallest eigenvalue after scaling the diagonal to 1: from 0 to 1, "
                "the same in all units, at the worst point.") +
-           scrolled_table(heads({"inequality", "", "margin", "asked", "eigenvalue", "worst at"}),
-                          lines);
+           headed_table({"inequality", "", "margin", "asked", "eigenvalue", "worst at"}, lines);
   std::string bounds;
   for (const model::GainBound& bound : gains.bounds)
     bounds += element(
         "tr", cells({bound.what, brief(bound.reached), brief(bound.bound),
                      bound.active ? "active" : "", bound.is_balanced ? "balanced units" : ""}));
-  if (!bounds.empty())
-    text += scrolled_table(heads({"bound on", "reached", "allowed", "", ""}), bounds);
+  if (!bounds.empty()) text += headed_table({"bound on", "reached", "allowed", "", ""}, bounds);
   if (gains.verdict == model::Verdict::yes && gains.objective)
     text += paragraph("Which requirements limit the optimum, and what each of them costs:") +
             preformatted("gainsmith explain " + model::problem_words(gains.statement.problem_file,
@@ -294,7 +283,7 @@ std::string provenance_section(const Results& results) {
   add("precision", gains.solver.precision);
   for (const auto& [what, seconds] : gains.timings) add(what + " time", brief(seconds, 3) + " s");
   if (results.seconds) add("time of all", brief(*results.seconds, 3) + " s");
-  return section("Provenance", scrolled_table("", lines));
+  return section("Provenance", element("table", element("tbody", lines)));
 }
 
 std::string picture_of(const Results& results) {

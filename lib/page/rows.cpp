@@ -1,6 +1,7 @@
 #include "page/rows.h"
 
 #include "page/element.h"
+#include "page/lines.h"
 #include "page/mathml.h"
 #include "page/symbol.h"
 

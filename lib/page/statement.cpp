@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "page/element.h"
+#include "page/lines.h"
 #include "page/mathml.h"
 #include "page/rows.h"
 #include "page/symbol.h"

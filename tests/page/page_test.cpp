@@ -110,6 +110,19 @@ Results some_results() {
   return results;
 }
 
+TEST(Page, CellsHaveTheirHeadsForNarrowPages) {
+  const std::string text = page({odd_results(), odd_results()}, "t");
+  for (const char* cell : {"<td data-head=\"margin\">0.5</td>", "<td data-head=\"claim\">",
+                           "<td data-head=\"allowed\">1</td>", "<td data-head=\"problem\"><a"})
+    EXPECT_NE(text.find(cell), std::string::npos) << cell;
+}
+
+TEST(Page, ANameOfSeveralWordsIsText) {
+  Results results = some_results();
+  results.gains.report = {{"largest factor", numbers::Matrix::Ones(1, 1)}};
+  EXPECT_NE(page({results}, "t").find(">largest factor</span>"), std::string::npos);
+}
+
 Results with_picture(std::size_t points) {
   Results results = some_results();
   results.name = "p";
