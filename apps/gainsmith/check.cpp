@@ -67,8 +67,10 @@ std::vector<std::string> missing_starts(const model::Design& design) {
 /// which on nothing is claimed. What it says of the runs besides.
 std::vector<std::string> check_runs(const model::Instance& instance) {
   const model::Design& design = *instance.design;
-  std::vector<std::string> notes;
-  if (design.dynamics) notes = hybrid::doubts_about(*design.dynamics, instance.values);
+  std::vector<std::string> notes = bind::unread_names(design);
+  if (design.dynamics)
+    for (std::string& doubt : hybrid::doubts_about(*design.dynamics, instance.values))
+      notes.push_back(std::move(doubt));
   const bool runs = design.dynamics && design.no_campaign.empty() && model::ends(design);
   if (!runs) return notes;
   const std::vector<std::string> nowhere = missing_starts(design);

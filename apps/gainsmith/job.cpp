@@ -13,6 +13,7 @@
 #include "base/file.h"
 #include "base/stop.h"
 #include "bind/instance.h"
+#include "bind/stated.h"
 #include "design/expectations.h"
 #include "design/explain.h"
 #include "design/hautus.h"
@@ -20,6 +21,7 @@
 #include "gainsmith/campaign_text.h"
 #include "gainsmith/explain_text.h"
 #include "gainsmith/kept_job.h"
+#include "gainsmith/notes.h"
 #include "gainsmith/load.h"
 #include "gainsmith/run_table.h"
 #include "gainsmith/search_wanted.h"
@@ -126,6 +128,9 @@ class Job {
     find_error(instance_, gains);
     instance_ = bind::evaluate(instance_.design, gains.searched);
     const auto campaign = verify_and_write(gains);
+    const std::vector<std::string> notes =
+        campaign ? strict_notes(*campaign) : bind::unread_names(*instance_.design);
+    if (options_.strict) refuse_notes(instance_.design->file, notes);
     result.differences = design::differences(
         instance_, gains, campaign ? std::optional(campaign->verdict) : std::nullopt);
     const bool nothing = design::lacks_gains(*instance_.design, gains);
@@ -140,6 +145,7 @@ class Job {
     result.line = verdict_line(gains) + "; " +
                   (campaign ? campaign_line(campaign_record(*campaign, hash_))
                             : "no campaign: " + why_no_campaign(gains));
+    if (!notes.empty()) result.line += "; note: " + notes.front();
     result.report = report(gains, campaign, result);
     write_atomically(folder_ / "summary.txt", summary(gains, campaign, result));
   }

@@ -18,6 +18,7 @@ struct JobOptions {
   std::vector<std::string> set{};  ///< "NAME=VALUE", in each problem
   unsigned threads = 1;            ///< of the search and of the campaign
   bool resume = false;             ///< results that are there stay (kept_job.h)
+  bool strict = false;             ///< notes (notes.h) are errors
 };
 
 struct JobResult {

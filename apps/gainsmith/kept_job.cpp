@@ -59,6 +59,7 @@ std::string job_fingerprint(const model::Instance& instance, const JobOptions& o
   statement["problem"] = instance.design->statement.hash;
   statement["runs"] = number(options.runs);
   statement["seed"] = number(options.seed);
+  if (options.strict) statement["strict"] = true;
   return sha256(io::to_text(statement));
 }
 

@@ -61,16 +61,40 @@ std::string note_on_careful_runs(const verify::Report& report) {
          std::to_string(all) + " stayed open: " + reasons;
 }
 
-std::vector<std::string> notes_on(const verify::Report& report) {
+/// "in this run", "in these runs".
+std::string in_runs(const verify::Report& report) {
+  return report.runs == 1 ? " in this run" : " in these runs";
+}
+
+std::vector<std::string> strict_notes(const verify::Report& report) {
   std::vector<std::string> notes = report.doubts;
+  if (!report.silent_events.empty())
+    notes.push_back(note_on_events(report.silent_events) + in_runs(report));
+  if (report.interrupted()) return notes;
+  bool all_zero = !report.checks.empty();
+  for (const verify::CheckReport& check : report.checks) {
+    if (check.stated && check.measured && !check.worst.sampled)
+      notes.push_back("the claim '" + check.name + "' is never checked" + in_runs(report));
+    all_zero &= check.stated && check.measured && check.worst.sampled && check.worst.value == 0 &&
+                (check.kind == model::ClaimKind::below || check.worst.bound == 0);
+  }
+  if (all_zero)
+    notes.push_back("the value of every claim is 0" + in_runs(report) +
+                    ": perhaps the observers start at the state of the plant, or nothing that "
+                    "moves is measured");
+  return notes;
+}
+
+std::vector<std::string> notes_on(const verify::Report& report) {
+  std::vector<std::string> notes = strict_notes(report);
   if (report.ended && report.runs < report.asked)
     notes.push_back(fmt::format("ended by the first run that violates a claim, of at most {} runs",
                                 report.asked));
   if (const std::string drawn = note_on_runs(report.different); !drawn.empty())
     notes.push_back(drawn);
-  if (!report.silent_events.empty())
-    notes.push_back(note_on_events(report.silent_events) +
-                    (report.runs == 1 ? " in this run" : " in these runs"));
+  if (report.different && !report.ended && !report.interrupted() && report.runs < *report.different)
+    notes.push_back(
+        fmt::format("only {} of the {} different runs were made", report.runs, *report.different));
   if (const std::string careful = note_on_careful_runs(report); !careful.empty())
     notes.push_back(careful);
   return notes;

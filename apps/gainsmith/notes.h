@@ -12,6 +12,10 @@ namespace gainsmith::app {
 
 std::vector<std::string> notes_on(const verify::Report& report);
 
+/// Those of them that --strict refuses: doubts about the text, events that never happen, claims that
+/// are never checked, campaigns all of whose claims are 0.
+std::vector<std::string> strict_notes(const verify::Report& report);
+
 /// InputError with the first of the notes, for --strict.
 void refuse_notes(const std::string& file, const std::vector<std::string>& notes);
 

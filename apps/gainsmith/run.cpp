@@ -214,6 +214,8 @@ Command run_command() {
        Option("--resume", options->job.resume,
               "keep the results that are whole and of the same problem, runs and seed: after a "
               "stop of any kind the same command goes on"),
+       Option("--strict", options->job.strict,
+              "a note on a problem or its runs is an error: WRONG INPUT"),
        Option("--junit", options->junit, "write JUnit XML here"),
        Option("--report", options->report, "write report.html into the folder of the results")
            .excludes({"--shard"}),

@@ -176,6 +176,7 @@ ExitCode verify_gains(const VerifyOptions& options) {
     // Then no violation is confirmed.
   }
   const ExitCode exit = tell_campaign(file, options.output, options.json);
+  if (options.strict) refuse_notes(options.gains, strict_notes(verify::conclude(file.part)));
   if (options.resume.empty() && !work.is_whole())
     say("gainsmith: with --resume FOLDER what is done would be kept\n");
   return exit;

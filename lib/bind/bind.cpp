@@ -13,6 +13,7 @@
 #include "bind/search.h"
 #include "bind/shown.h"
 #include "bind/simulation.h"
+#include "bind/stated.h"
 #include "expr/work.h"
 #include "model/gains.h"
 
@@ -61,6 +62,7 @@ Binding::Binding(std::shared_ptr<const model::Problem> problem, const model::Ove
                        source->files};
   design->statement.hash = statement_hash(design->statement);
   names->known.known = recorder;
+  names->known.read = std::make_shared<std::set<std::string>>();
 }
 
 namespace {
@@ -81,6 +83,11 @@ model::Instance bound(Binding binding) {
   finish_dynamics(binding);
   binding.design->ranks = binding.recorder->ranks;
   binding.design->units = binding.recorder->units_found;
+  const auto read = std::move(binding.names->known.read);
+  for (expr::Scope* scope : {&binding.names->known, &binding.names->design, &binding.names->running,
+                             &binding.names->results})
+    scope->read = nullptr;
+  binding.names->unread = unread_names(binding, *read);
   binding.design->names = binding.names;
   override_gain_bound(*binding.design, binding.overrides, binding.recorder->values);
   return {binding.design, binding.overrides, binding.recorder->values};
@@ -95,6 +102,10 @@ model::Instance bind(std::shared_ptr<const model::Problem> problem,
 
 model::Instance bind(const model::Problem& problem, const model::Overrides& overrides) {
   return bind(std::make_shared<const model::Problem>(problem), overrides);
+}
+
+const std::vector<std::string>& unread_names(const model::Design& design) {
+  return design.names->unread;
 }
 
 model::Instance bind_again(const model::Design& design, const model::Overrides& overrides) {

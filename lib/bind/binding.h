@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -14,10 +15,11 @@ namespace gainsmith::bind {
 
 /// What each part of a design may use (design.h).
 struct Names {
-  expr::Scope known;    ///< data, parameters, definitions
-  expr::Scope design;   ///< and unknowns
-  expr::Scope running;  ///< and gains, states
-  expr::Scope results;  ///< and the objective
+  expr::Scope known;                ///< data, parameters, definitions
+  expr::Scope design;               ///< and unknowns
+  expr::Scope running;              ///< and gains, states
+  expr::Scope results;              ///< and the objective
+  std::vector<std::string> unread;  ///< unread_names()
 };
 
 /// The values of data and parameters so far. Notes the ranks and units that were asked for.
@@ -54,6 +56,9 @@ struct Binding {
   std::map<std::string, expr::Expression> data_texts;  ///< of data and parameters, by name
   std::unique_ptr<DynamicsNames> dynamics_names;       ///< from bind_components() on
 };
+
+/// What the texts of a method of the user's own declare and do not read, a sentence each.
+std::vector<std::string> unread_names(const Binding& binding, const std::set<std::string>& read);
 
 /// Binds the texts of a design anew for values that change its shapes. Ranges and the campaign were
 /// checked with the values of the problem; a scan goes beyond them.

@@ -1,6 +1,9 @@
 // The texts of a gain file, bound (model/stated.h).
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "model/gains.h"
 #include "model/instance.h"
 #include "model/run_texts.h"
@@ -13,5 +16,8 @@ model::Stated state(const model::Instance& instance, const model::Gains& gains);
 
 /// What runs read; InputError for the same, and as model::run_texts.
 model::RunTexts run_texts(const model::Instance& instance, const model::Gains& gains);
+
+/// What the problem's own method declares and no text reads, a sentence each.
+const std::vector<std::string>& unread_names(const model::Design& design);
 
 }  // namespace gainsmith::bind

@@ -18,6 +18,7 @@ int value_of(const std::vector<int>& sizes, std::size_t at) { return sizes[at]; 
 
 Bound Binder::bind_call(const Expression& expression, const Node& node) {
   const std::string& name = node.text;
+  if (scope_.read) scope_.read->insert(name);
   if (const auto found = member_of_mode(expression, node)) return *found;
   if (const auto found = member(expression, node)) {
     Node plain = node;

@@ -135,6 +135,7 @@ Bound Binder::bind_kind(const Expression& expression, const Node& node) {
 
 Bound Binder::bind_name(const Expression& expression, const Node& node) {
   const std::string& name = node.text;
+  if (scope_.read) scope_.read->insert(name);
   if (const auto found = environment_.find(name); found != environment_.end()) return found->second;
   if (const auto found = scope_.symbols.find(name); found != scope_.symbols.end()) {
     Instruction like;

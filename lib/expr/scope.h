@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -81,6 +82,8 @@ struct Scope {
   /// Symbols whose past is not kept, so that no flow_map can have them in its rate, with what to
   /// say of them.
   std::map<std::string, std::string> without_past{};
+  /// The names that texts read, of all scopes that are copies of one; none: they are not noted.
+  std::shared_ptr<std::set<std::string>> read{};
 
   /// All names, for suggestions.
   std::vector<std::string> names() const;

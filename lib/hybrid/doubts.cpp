@@ -32,7 +32,13 @@ bool reads(const Dynamics::Reaction& reaction, const std::string& name) {
   });
 }
 
-/// How often an operand of the program is an input.
+bool reads(const Dynamics::Event& event, const std::string& name) {
+  return (event.condition && reads(*event.condition, name)) ||
+         (event.only_if && reads(*event.only_if, name)) ||
+         (event.crossing && reads(event.crossing->program, name));
+}
+
+/// How often an operand of the program is an input; in a sum with a matrix, for each element.
 std::ptrdiff_t uses(const expr::Program& program, const std::string& name) {
   std::ptrdiff_t count = 0;
   for (std::size_t at = 0; at < program.code.size(); ++at) {
@@ -41,7 +47,8 @@ std::ptrdiff_t uses(const expr::Program& program, const std::string& name) {
         program.inputs[static_cast<std::size_t>(one.attributes[0])].name != name)
       continue;
     for (const expr::Instruction& user : program.code)
-      count += std::count(user.operands.begin(), user.operands.end(), static_cast<int>(at));
+      count += std::count(user.operands.begin(), user.operands.end(), static_cast<int>(at)) *
+               (user.op == expr::Op::fill ? user.shape.size() : 1);
   }
   return count;
 }
@@ -68,17 +75,30 @@ class Readers {
     return {found.begin(), found.end()};
   }
   bool conditions() const {
-    return std::any_of(dynamics_.events.begin(), dynamics_.events.end(), [&](const auto& event) {
-      return (event.condition && reads(*event.condition, name_)) ||
-             (event.only_if && reads(*event.only_if, name_)) ||
-             (event.crossing && reads(event.crossing->program, name_));
-    });
+    return std::any_of(dynamics_.events.begin(), dynamics_.events.end(),
+                       [&](const auto& event) { return reads(event, name_); });
   }
   std::vector<const Dynamics::Signal*> outputs() const {
     std::vector<const Dynamics::Signal*> found;
     for (const Dynamics::Signal& signal : dynamics_.signals)
       if (signal.output && reads(signal.value.program, name_)) found.push_back(&signal);
     return found;
+  }
+  /// Whether a flow or a map of an observer reads it, or the condition of an event that has such a map.
+  bool observers() const {
+    const auto observes = [&](std::size_t component) {
+      return dynamics_.components[component].observer;
+    };
+    return std::any_of(dynamics_.flow.begin(), dynamics_.flow.end(),
+                       [&](const auto& flow) {
+                         return observes(dynamics_.variables[flow.variable].component) &&
+                                reads(flow.value.program, name_);
+                       }) ||
+           std::any_of(dynamics_.reactions.begin(), dynamics_.reactions.end(),
+                       [&](const auto& one) {
+                         return observes(one.component) &&
+                                (reads(one, name_) || reads(dynamics_.events[one.event], name_));
+                       });
   }
   bool any() const {
     return starts() || flows() || !events().empty() || conditions() || !outputs().empty();
@@ -120,6 +140,21 @@ class Doubts {
             (one.name == "observer" ? "the observer" : "the observer " + quoted(one.name)) +
             " never changes: it has no flow, and no map at an event");
     }
+    if (std::any_of(dynamics_.components.begin(), dynamics_.components.end(),
+                    [](const auto& one) { return one.observer; }) &&
+        has_states[0] != 0 && !observers_read_plant())
+      found_.push_back("no observer reads the plant: their estimates do not depend on an output");
+  }
+
+  bool observers_read_plant() const {
+    return std::any_of(dynamics_.variables.begin(), dynamics_.variables.end(),
+                       [&](const auto& one) {
+                         const bool of_plant = one.kind == Dynamics::VariableKind::measured ||
+                                               ((one.kind == Dynamics::VariableKind::state ||
+                                                 one.kind == Dynamics::VariableKind::mode) &&
+                                                one.component == 0);
+                         return of_plant && Readers(dynamics_, one.name).observers();
+                       });
   }
 
   void about(const Dynamics::Noise& noise) {
@@ -131,6 +166,11 @@ class Doubts {
         found_.push_back("uncertain: the plant does not read " + quoted(datum) +
                          ", so its runs are as without it; data that are computed from it are "
                          "uncertain where they are texts");
+      else if (readers.observers())
+        found_.push_back("an observer reads " + quoted(name) +
+                         ", the value in the plant, which it " + "cannot know; " + quoted(datum) +
+                         " is what it knows");
+      about_range(noise, datum);
       return;
     }
     // Amplitudes and frequencies of a sinusoid are drawn once by their meaning.
@@ -138,17 +178,36 @@ class Doubts {
     const bool random = noise.has_center() || noise.kind == Dynamics::NoiseKind::uniform;
     const std::vector<std::size_t> events = readers.events();
     if (!noise.event && !noise.every) {
-      if (random && !readers.starts() && !events.empty())
-        found_.push_back(
-            "the noise " + quoted(name) +
-            " is drawn once a run, so it is a bias: `new at: " + dynamics_.events[events[0]].name +
-            "` draws it anew at each event; a bias that is meant is a state that "
-            "starts at random");
+      const bool is_bias = noise.kind == Dynamics::NoiseKind::normal && !readers.outputs().empty();
+      if (random && !readers.starts() && (is_bias || !events.empty()))
+        found_.push_back("the noise " + quoted(name) + " is drawn once a run, so it is a bias: `" +
+                         (events.empty() ? "every: 0.01` draws it anew after each such time"
+                                         : "new at: " + dynamics_.events[events[0]].name +
+                                               "` draws it anew at each event") +
+                         "; a bias that is meant is a state that starts at random");
       return;
     }
     if (!random) return;
     about_samples(noise, events);
     about_outputs(noise, readers.outputs());
+  }
+
+  /// Of a datum between low and high.
+  void about_range(const Dynamics::Noise& noise, const std::string& datum) {
+    const auto known = constants_.find(datum);
+    if (noise.values.size() != 2 || noise.has_center() || known == constants_.end()) return;
+    try {
+      const numbers::Matrix low = numbers::evaluate(noise.values[0].program, constants_);
+      const numbers::Matrix high = numbers::evaluate(noise.values[1].program, constants_);
+      if (low == high)
+        found_.push_back("uncertain: " + quoted(datum) + " has no range, as low is high");
+      else if (low.size() == 1 && known->second.size() == 1 &&
+               (known->second(0, 0) < low(0, 0) || known->second(0, 0) > high(0, 0)))
+        found_.push_back("uncertain: " + quoted(datum) + " is " + brief(known->second(0, 0)) +
+                         ", outside of its range [" + brief(low(0, 0)) + ", " + brief(high(0, 0)) +
+                         "], which is of the value, not of a factor");
+    } catch (const expr::EvaluationError&) {
+    }
   }
 
   /// Of a noise that several samples in a row may have in common.

@@ -1,10 +1,10 @@
 // What dynamics say that is allowed and perhaps not meant, a sentence each, with its mend:
 //
-//   an observer whose states never change
-//   noise without `new at` that samples read: one value for the whole run, a bias
+//   an observer whose states never change, or observers of which none reads the plant
+//   noise without `new at` that samples or outputs read: one value for the whole run, a bias
 //   noise that changes more slowly than the samples that read it
 //   two outputs, or two elements of one, with the same scalar noise
-//   uncertain data that the plant does not read
+//   uncertain data that the plant does not read or an observer knows, or without a range around them
 #pragma once
 
 #include <string>

@@ -168,6 +168,7 @@ CampaignFacts facts_of(const Setup& setup, const CampaignOptions& options) {
   facts.confidence = options.confidence;
   facts.horizon = setup.horizon();
   facts.doubts = hybrid::doubts_about(texts.dynamics, setup.events->system.constants);
+  facts.doubts.insert(facts.doubts.begin(), setup.unread.begin(), setup.unread.end());
   for (const auto& event : setup.events->system.dynamics.events)
     facts.events.push_back(event.is_built_in() ? "" : event.name);
   for (const claims::Claim& claim : setup.claims())

@@ -43,6 +43,7 @@ std::unique_ptr<const LinearSetup> make_linear_setup(const model::Instance& inst
 std::unique_ptr<const Setup> make_setup(const model::Instance& instance, const model::Gains& gains,
                                         const std::vector<hybrid::GivenRun>* given) {
   auto setup = std::make_unique<Setup>();
+  setup->unread = bind::unread_names(*instance.design);
   setup->events = claims::make_run_setup(bind::run_texts(instance, gains), given);
   const std::vector<expr::Program> functions = functions_of(setup->events->claims);
   setup->linear = make_linear_setup(instance, gains, setup->events->system, functions);

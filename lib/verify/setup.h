@@ -21,6 +21,7 @@ struct Setup {
   std::unique_ptr<const claims::RunSetup>
       errors;  ///< the same with errors as states; none: there are none
   std::unique_ptr<const LinearSetup> linear;  ///< none: the dynamics are of another kind
+  std::vector<std::string> unread;            ///< bind::unread_names()
 
   const std::vector<claims::Claim>& claims() const { return events->claims; }
   /// By which the careful run judges.

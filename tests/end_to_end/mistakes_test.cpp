@@ -274,9 +274,27 @@ TEST(SilentMistakes, AreHeardOf) {
            {"y: {value: x(1) + w, at: sample}", "y: {value: \"[x(1) + w; w]\", at: sample}",
             "several elements of the output 'y' have the same noise"},
            {"noise:    {w: {normal: 0.03, new at: sample}}",
-            "noise:    {w: {normal: 0.03, new at: sample}, d: {normal: 1}}", ""}}) {
+            "noise:    {w: {normal: 0.03, new at: sample}, d: {normal: 1}}",
+            "nothing reads the noise 'd'"},
+           {"value: x(1) + w,", "value: x(1),", "nothing reads the noise 'w'"},
+           {"noise:    {w: {normal: 0.03, new at: sample}}",
+            "inputs: {u: sin(t)}\n  noise:    {w: {normal: 0.03, new at: sample}}",
+            "nothing reads the input 'u'"},
+           {"method: filter\n  let:", "method: filter\n  parameters: {a: {default: 2}}\n  let:",
+            "nothing reads the parameter 'a'"},
+           {"{value: x(1) + w, at: sample}", "{value: x + w, at: sample}",
+            "several elements of the output 'y' have the same noise"},
+           {"xh + K*(y - C*xh)", "xh + K*(C*xh - C*xh)",
+            "no observer reads the plant: their estimates do not depend on an output"},
+           {"w: {normal: 0.03, new at: sample}}\n  plant:    {state: {x: {shape: 2, start: [1, "
+            "0]}}, output: "
+            "{y: {value: x(1) + w, at: sample}}",
+            "w: {normal: 0.03, new at: sample}, b: {normal: 1}}\n  plant:    {state: {x: {shape: "
+            "2, start: [1, "
+            "0]}}, output: {y: {value: x(1) + w, at: sample}, z: x(2) + b}",
+            "the noise 'b' is drawn once a run, so it is a bias: `every: 0.01`"}}) {
     std::string text = with(kRun, one.from, one.to);
-    if (std::string(one.to).find("[x(1) + w; w]") != std::string::npos)
+    if (has(one.to, "[x(1) + w; w]") || has(one.to, "value: x + w,"))
       text = with(text, "(y - C*xh)", "(y(1) - C*xh)");
     const std::string file = folder.file("p.yaml", text);
     const Outcome checked = gainsmith({"check", file});
@@ -288,13 +306,40 @@ TEST(SilentMistakes, AreHeardOf) {
     const Outcome verified = gainsmith({"verify", file});
     EXPECT_TRUE(has(verified.out, one.note)) << verified.out;
     EXPECT_EQ(gainsmith({"verify", "--strict", file}).exit == 2, *one.note != '\0') << one.to;
+    const Outcome run = gainsmith({"run", file, "-o", folder.path("out")});
+    EXPECT_NE(run.exit, 2) << run.out;
+    EXPECT_TRUE(has(run.out, one.note)) << run.out;
+    EXPECT_EQ(gainsmith({"run", "--strict", file, "-o", folder.path("out")}).exit,
+              *one.note != '\0' ? 2 : 0);
   }
-  const std::string file = folder.file(
-      "p.yaml", with(with(kRun, campaign, uncertain),
-                     "method: filter\n  let:", "method: filter\n  data: {m: scalar}\n  let:"));
-  const Outcome checked = gainsmith({"check", file});
-  EXPECT_TRUE(has(checked.out, "uncertain: the plant does not read 'm'"))
-      << checked.out << checked.err;
+  const auto noted = [&](const std::string& flow, const std::string& range) {
+    const std::string text =
+        with(with(with(kRun, campaign, with(uncertain, "[1, 3]", range)),
+                  "method: filter\n  let:", "method: filter\n  data: {m: scalar}\n  let:"),
+             "flow: {x: f(x)}", "flow: {x: " + flow + "}");
+    return gainsmith({"check", folder.file("p.yaml", text)}).out;
+  };
+  EXPECT_TRUE(has(noted("f(x)", "[1, 3]"), "uncertain: the plant does not read 'm'"));
+  EXPECT_TRUE(has(noted("m*f(x)", "[3, 3]"), "'m' has no range, as low is high"));
+  EXPECT_TRUE(has(noted("m*f(x)", "[0.8, 1.2]"), "'m' is 2, outside of its range [0.8, 1.2]"));
+  EXPECT_FALSE(has(noted("m*f(x)", "[1, 3]"), "note"));
+}
+
+/// What only runs show.
+TEST(SilentMistakes, OfRunsAreHeardOf) {
+  const Folder folder;
+  const auto noted = [&](const std::string& text) {
+    const std::string file = folder.file("p.yaml", text);
+    EXPECT_EQ(gainsmith({"verify", "--strict", file}).exit, 2);
+    return gainsmith({"verify", file}).out;
+  };
+  const std::string same =
+      with(with(kRun, "value: x(1) + w,", "value: x(1),"), "start: 0}, P", "start: [1, 0]}, P");
+  EXPECT_TRUE(has(noted(same), "the value of every claim is 0 in these runs"));
+  const std::string never =
+      with(with(kRun, "events:   {", "events:   {hit: {when: x(1) > 50}, "), "to: 0.5}",
+           "to: 0.5}, hits: {below: norm(e), bound: 1, over: hit}");
+  EXPECT_TRUE(has(noted(never), "the claim 'hits' is never checked in these runs"));
 }
 
 }  // namespace

@@ -1,0 +1,39 @@
+#include <algorithm>
+
+#include "bind/binding.h"
+
+namespace gainsmith::bind {
+
+std::vector<std::string> unread_names(const Binding& binding, const std::set<std::string>& read) {
+  const model::Method& method = binding.method();
+  std::vector<std::string> sentences;
+  // What is declared elsewhere may be meant for other problems.
+  const auto is_own = [&](const auto& one) { return one.place.file == binding.problem().file; };
+  std::set<std::string> defaults;
+  for (const model::Declaration& one : method.data)
+    if (one.fallback) defaults.merge(expr::names_in(*one.fallback));
+  const auto is_read = [&](const std::string& name) {
+    const auto member = read.lower_bound(name + "_");
+    return read.contains(name) || read.contains("plant." + name) || defaults.contains(name) ||
+           (member != read.end() && member->starts_with(name + "_"));
+  };
+  const auto add = [&](const std::string& what, const auto& list) {
+    for (const auto& one : list)
+      if (is_own(one) && !is_read(one.name))
+        sentences.push_back("nothing reads the " + what + " '" + one.name + "'");
+  };
+  add("datum", method.data);
+  add("parameter", method.parameters);
+  add("input", method.inputs);
+  add("noise", method.noise);
+  const bool has_runs = method.has_dynamics && !method.gains.empty();
+  if (has_runs && is_own(method.gains.front()) &&
+      std::none_of(method.gains.begin(), method.gains.end(),
+                   [&](const auto& gain) { return read.contains(gain.name); }))
+    sentences.push_back(
+        "neither the plant nor an observer reads a gain: the runs say nothing of '" +
+        method.gains.front().name + "'");
+  return sentences;
+}
+
+}  // namespace gainsmith::bind
