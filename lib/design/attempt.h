@@ -106,9 +106,9 @@ Attempt attempt(const Posed& posed, Question question, const Solve& solve);
 std::optional<Attempt> blended(const Posed& posed, const Attempt& minimum, const Attempt& inside,
                                const Solve& solve);
 
-/// The point between them whose objective is 1e-8 of itself above that of the minimum's point, where every
-/// inequality holds there: what fails between the points of an exchange fails by so little that more
-/// points would not change the optimum.
+/// The point between them whose objective is 1e-8 of itself above that of the minimum's point, where
+/// every inequality holds there: what fails between the points of an exchange then fails by so
+/// little that more points would not change the optimum.
 std::optional<Attempt> near_minimum(const Posed& posed, const Attempt& minimum,
                                     const Attempt& inside);
 

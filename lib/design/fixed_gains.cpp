@@ -272,7 +272,8 @@ class Fixing {
   FixedGains result_;
 };
 
-/// The unknowns of the file as one vector; none when one is missing, or has another shape or structure.
+/// The unknowns of the file as one vector; none when one is missing, or has another shape or
+/// structure.
 std::optional<std::vector<double>> packed(const lmi::Unknowns& unknowns,
                                           const model::Gains& gains) {
   std::vector<double> x(static_cast<std::size_t>(unknowns.size()), 0.0);

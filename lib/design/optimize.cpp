@@ -58,23 +58,24 @@ class OuterSearch {
         return known_.value("figure near", at,
                             [&] { return figure(point, request_.largest ? -best : best); });
       };
-    const bool keeps_hidden_mode = keeps_a_hidden_mode();
-    if (keeps_hidden_mode) {
-      options.starts = corners();
-      options.evaluations = static_cast<int>(options.starts.size());
-    }
     // A design by formula has nothing to violate.
-    const bool has_slacks = !own_.design->inequalities.empty() && !keeps_hidden_mode;
+    const bool has_slacks = !own_.design->inequalities.empty();
     if (const auto scales = has_slacks ? scales_at(options.starts.front()) : std::nullopt)
       options.violation = [&, scales = *scales](const search::Point& point) {
         return *known_.value("violation", point, [&] { return violation(scales, point); });
       };
-    const auto search = [&] {
-      const Doing doing("evaluations", static_cast<std::uint64_t>(options.evaluations));
+    const auto search = [&](const search::MinimizeOptions& asked) {
+      const Doing doing("evaluations", static_cast<std::uint64_t>(asked.evaluations));
       doing_ = &doing;
-      return search::minimize(cold, axes, local_, options);
+      return search::minimize(cold, axes, local_, asked);
     };
-    return result(search());
+    if (keeps_a_hidden_mode()) {
+      search::MinimizeOptions few;
+      few.starts = corners();
+      few.evaluations = static_cast<int>(few.starts.size());
+      if (const search::Minimum none = search(few); !none.point) return result(none);
+    }
+    return result(search(options));
   }
 
  private:
@@ -100,7 +101,7 @@ class OuterSearch {
     return point;
   }
 
-  /// They, and the two ends of all ranges.
+  /// These, and the two ends of all ranges.
   std::vector<search::Point> corners() const {
     std::vector<search::Point> points = {own_values(), {}, {}};
     for (const SearchedScalar& scalar : request_.over) {

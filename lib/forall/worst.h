@@ -13,11 +13,12 @@ struct Minimum {
   Point point;       ///< values of all variables
 };
 
-/// Of diag(s) B diag(s): s the given units of the rows (empty: 1), or those in which the diagonal is 1,
-/// where it is positive (lmi/correlation.h).
+/// Of diag(s) B diag(s): s the given units of the rows (empty: 1), or those in which the diagonal is
+/// 1, where it is positive (lmi/correlation.h).
 enum class Measure { eigenvalue, margin };
 
-/// The local minima over the domain, the smallest first, of the smallest eigenvalue of a symmetric matrix given as text.
+/// The local minima over the domain, the smallest first, of the smallest eigenvalue of a symmetric
+/// matrix given as text.
 /// The text is evaluated over double, so any dependence on the variables is taken. Over a polytope
 /// the vertices are enough: the eigenvalue is concave in its variable. Over one interval see
 /// local_minima; `known` gives data, parameters and unknowns, `rows` the units of the rows.

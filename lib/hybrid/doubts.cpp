@@ -84,7 +84,7 @@ class Readers {
       if (signal.output && reads(signal.value.program, name_)) found.push_back(&signal);
     return found;
   }
-  /// Whether a flow or a map of an observer reads it, or the condition of an event that has such a map.
+  /// Whether a flow or a map of an observer reads it, or the condition of an event with such a map.
   bool observers() const {
     const auto observes = [&](std::size_t component) {
       return dynamics_.components[component].observer;
@@ -168,8 +168,8 @@ class Doubts {
                          "uncertain where they are texts");
       else if (readers.observers())
         found_.push_back("an observer reads " + quoted(name) +
-                         ", the value in the plant, which it " + "cannot know; " + quoted(datum) +
-                         " is what it knows");
+                         ", the value in the plant, which it cannot know; it knows " +
+                         quoted(datum));
       about_range(noise, datum);
       return;
     }

@@ -4,7 +4,8 @@
 //   noise without `new at` that samples or outputs read: one value for the whole run, a bias
 //   noise that changes more slowly than the samples that read it
 //   two outputs, or two elements of one, with the same scalar noise
-//   uncertain data that the plant does not read or an observer knows, or without a range around them
+//   uncertain data that the plant does not read or an observer knows, or without a range around
+//   them
 #pragma once
 
 #include <string>

@@ -1,8 +1,9 @@
 // Reading tables of CSV (RFC 4180): a line of column names, then rows of cells; or rows alone.
 //
 // Lines end with LF or CRLF; cells are separated by commas, may be quoted, and spaces around them
-// do not count. Empty lines and those that begin with # are left out; so is a line of units below the
-// names, in which no cell begins as a number does. A name may end with its unit, as in "angle [deg]", and is found
+// do not count. Empty lines and those that begin with # are left out; so is a line of units below
+// the names, in which no cell begins as a number does. A name may end with its unit, as in
+// "angle [deg]", and is found
 // without it where it is the only one. Errors name file, line and column of the CSV itself.
 #pragma once
 

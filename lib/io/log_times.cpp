@@ -77,7 +77,7 @@ LogTimes::LogTimes(const CsvTable& table, std::size_t column, double scale,
   if (first && std::abs(first->value) * scale_ > kNoSeconds)
     throw InputError(place, "the times of " + table.path() + " begin at " +
                                 brief(static_cast<double>(first->value), 4) +
-                                ", which are no seconds; name their unit by scale: 1e-3 for ms, "
+                                ", which cannot be seconds; give their unit by scale: 1e-3 for ms, "
                                 "1e-6 for us, 1e-9 for ns");
   if (!first || (from && *from != "first row")) {
     const auto stated = parsed(from.value_or("0"));

@@ -13,12 +13,6 @@ bool Design::Inequality::calls_functions() const {
   });
 }
 
-const Design::Inequality* find_inequality(const Design& design, const std::string& name) {
-  for (const Design::Inequality& inequality : design.inequalities)
-    if (inequality.name == name) return &inequality;
-  return nullptr;
-}
-
 bool is_comparison_of(const std::string& comparison, const std::string& inequality) {
   const std::size_t at = std::min(inequality.find(" at "), inequality.size());
   const std::string stem = inequality.substr(0, at) + ".";

@@ -309,9 +309,6 @@ struct Design {
 
 using DesignPtr = std::shared_ptr<const Design>;
 
-/// The inequality of a name; nullptr when there is none.
-const Design::Inequality* find_inequality(const Design& design, const std::string& name);
-
 /// Whether a comparison ("flow", "flow.2", "flow.2 at i = 1") is one of an inequality of this name
 /// ("flow", "flow at i = 1").
 bool is_comparison_of(const std::string& comparison, const std::string& inequality);

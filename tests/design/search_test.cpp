@@ -114,6 +114,19 @@ TEST(Search, ParametersWithoutAValueAreFound) {
   EXPECT_EQ(gains.search->over, (std::vector<std::string>{"a", "b"}));
 }
 
+/// No b moves what y does not show: the own values and the ends of the range are tried, no more.
+TEST(Search, AHiddenModeEndsItWithItsName) {
+  const YamlProblem problem(
+      "problem: p\nmethod: static-output-feedback\n"
+      "data: {A: [[1, 0], [0, 2]], B: [[1], [1]], C: [[1, 0]]}\nno campaign: static\n");
+  const model::Gains gains =
+      synthesize_searched(problem.instance, request_of(problem.instance), 1, {});
+  EXPECT_EQ(gains.verdict, model::Verdict::undecided);
+  EXPECT_EQ(gains.search->evaluations, 3);
+  EXPECT_NE(gains.solver.message.find("eigenvalue 2 in the direction [0; 1]"), std::string::npos)
+      << gains.solver.message;
+}
+
 TEST(Search, ThreadsDoNotChangeTheResult) {
   const YamlProblem problem(kBowl);
   const SearchRequest request = request_of(problem.instance);
