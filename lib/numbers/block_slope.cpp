@@ -5,7 +5,7 @@
 
 #include "numbers/dual.h"
 #include "numbers/foundation.h"
-#include "numbers/small_svd.h"
+#include "numbers/small_dense.h"
 
 namespace gainsmith::numbers {
 

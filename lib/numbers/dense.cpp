@@ -12,7 +12,7 @@
 #include <limits>
 #include <unsupported/Eigen/MatrixFunctions>
 
-#include "numbers/small_svd.h"
+#include "numbers/small_dense.h"
 #include "numerics/balance.h"
 
 namespace gainsmith::numbers {
@@ -79,19 +79,6 @@ Svd full_svd(const Matrix& M) {
 
 namespace {
 
-/// Powers of two d with d_i^2 M_ii from 1 to 4, of a symmetric M with a diagonal > 0; ones
-/// otherwise. In them neither the pivots nor the condition of a positive definite matrix depend on
-/// its units.
-Vector symmetric_units(const Matrix& M) {
-  Vector d = Vector::Ones(M.rows());
-  if (!(M.diagonal().array() > 0).all() || M != M.transpose()) return d;
-  for (Eigen::Index i = 0; i < d.size(); ++i) {
-    if (!std::isfinite(M(i, i))) return Vector::Ones(M.rows());
-    d[i] = std::ldexp(1.0, -static_cast<int>(std::floor(std::ilogb(M(i, i)) / 2.0)));
-  }
-  return d;
-}
-
 Inverse inverse_by_lu(const Matrix& M) {
   const Eigen::PartialPivLU<Matrix> lu(M);
   Inverse found{lu.inverse(), 0};
@@ -103,22 +90,14 @@ Inverse inverse_by_lu(const Matrix& M) {
 }  // namespace
 
 Inverse inverse(const Matrix& M) {
-  const Vector d = symmetric_units(M);
+  const auto d = symmetric_units<Vector>(M);
   Inverse plain = inverse_by_lu(d.asDiagonal() * M * d.asDiagonal());
   plain.matrix = d.asDiagonal() * plain.matrix * d.asDiagonal();
   return in_better_units(std::move(plain), M, inverse_by_lu, scale);
 }
 
 ComplexMatrix complex_inverse(const ComplexMatrix& M) {
-  // Of R + i I as the real [R, -I; I, R].
-  const Eigen::Index n = M.rows();
-  Matrix real(2 * n, 2 * n);
-  real << M.real(), -M.imag(), M.imag(), M.real();
-  const Matrix found = Eigen::PartialPivLU<Matrix>(real).inverse();
-  ComplexMatrix result(n, n);
-  result.real() = found.topLeftCorner(n, n);
-  result.imag() = found.bottomLeftCorner(n, n);
-  return result;
+  return Eigen::PartialPivLU<ComplexMatrix>(M).inverse();
 }
 
 }  // namespace gainsmith::numbers

@@ -14,13 +14,17 @@
 #include "base/number.h"
 #include "base/stop.h"
 #include "numbers/dense.h"
-#include "numbers/hessenberg.h"
 #include "numbers/spectrum.h"
 #include "numbers/wide_dense.h"
 #include "numerics/working.h"
 
 namespace gainsmith::numbers {
 
+template <class W>
+struct Eigenvalue {
+  W real{0};
+  W imaginary{0};
+};
 template <class W>
 std::vector<Eigenvalue<W>> balanced_eigenvalues(const MatrixOf<W>& M);
 

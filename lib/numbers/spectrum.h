@@ -19,8 +19,7 @@ struct NoSolution : std::runtime_error {
 /// |M| in the digits it is computed in is 0. M is balanced first (numerics/balance.h), so that
 /// units that are powers of two do not matter.
 ///
-/// Francis' double shifts on the Hessenberg form (Wilkinson & Reinsch, Handbook II/14 and II/15).
-/// NoSolution when an eigenvalue is not found, which no matrix is known for.
+/// NoSolution when the real Schur form (Eigen's) is not found, which no matrix is known for.
 template <class Scalar>
 MatrixOf<Scalar> real_eigenvalues(const MatrixOf<Scalar>& M);
 

@@ -1,13 +1,14 @@
 // Internal to numbers: spectrum.h, instantiated by one source for double and one for more digits.
 #pragma once
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
+#include "base/stop.h"
 #include "numbers/ball.h"
-#include "numbers/hessenberg.h"
 #include "numbers/riccati_rules.h"
 #include "numbers/spectrum.h"
 #include "numerics/balance.h"
@@ -15,21 +16,45 @@
 
 namespace gainsmith::numbers {
 
+/// From the blocks on the diagonal of the real Schur form, of one row or two.
+template <class W>
+std::vector<Eigenvalue<W>> eigenvalues(const MatrixOf<W>& M) {
+  using std::sqrt;
+  if (M.size() == 0) return {};
+  check_stop();
+  const Eigen::RealSchur<MatrixOf<W>> schur(M, false);
+  if (schur.info() != Eigen::Success) throw NoSolution("an eigenvalue is not found");
+  const MatrixOf<W>& T = schur.matrixT();
+  std::vector<Eigenvalue<W>> found;
+  for (Eigen::Index i = 0; i < T.rows(); ++i) {
+    if (i + 1 == T.rows() || T(i + 1, i) == W(0)) {
+      found.push_back({T(i, i), W(0)});
+      continue;
+    }
+    const W p = (T(i, i) - T(i + 1, i + 1)) / W(2);
+    const W q = p * p + T(i, i + 1) * T(i + 1, i);
+    const W root = sqrt(q < W(0) ? W(-q) : q);
+    found.push_back({W(T(i + 1, i + 1) + p), root});
+    found.push_back({W(T(i + 1, i + 1) + p), W(-root)});
+    ++i;
+  }
+  return found;
+}
+
 template <class W>
 std::vector<Eigenvalue<W>> balanced_eigenvalues(const MatrixOf<W>& M) {
   const auto scale = [](const W& x, int exponent) { return times_power_of_two(x, exponent); };
   const std::vector<int> units =
       numerics::balance(M.unaryExpr([](const W& x) { return std::abs(static_cast<double>(x)); }));
   const MatrixOf<W> B = numerics::in_units(M, units, scale);
-  auto found = Hessenberg<W>(B).eigenvalues();
-  if (!found) throw NoSolution("an eigenvalue is not found");
+  std::vector<Eigenvalue<W>> found = eigenvalues<W>(B);
   constexpr double kRoundings = 64;
   const W nothing = W(kRoundings * static_cast<double>(M.rows())) *
                     std::numeric_limits<W>::epsilon() * (M.size() == 0 ? W(0) : norm_1<W>(B));
-  for (Eigenvalue<W>& one : *found)
+  for (Eigenvalue<W>& one : found)
     for (W* part : {&one.real, &one.imaginary})
       if (*part <= nothing && -*part <= nothing) *part = W(0);
-  return *std::move(found);
+  return found;
 }
 
 template <class Scalar>

@@ -5,8 +5,7 @@
 
 #include "numbers/block_slope.h"
 #include "numbers/real.h"
-#include "numbers/small_inverse.h"
-#include "numbers/small_svd.h"
+#include "numbers/small_dense.h"
 
 namespace gainsmith::numbers {
 

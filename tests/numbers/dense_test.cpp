@@ -9,7 +9,7 @@
 #include <functional>
 #include <random>
 
-#include "numbers/small_svd.h"
+#include "numbers/small_dense.h"
 #include "support/linear_algebra.h"
 
 namespace gainsmith::numbers {
