@@ -307,6 +307,7 @@ std::vector<std::string> campaign_causes(const verify::Report& report,
         violation_text(*check, report) +
         (check->kind == model::ClaimKind::shrinks ? fmt::format("; {}", kLongerHorizon) : "") +
         replay(check->worst_run));
+  if (!report.growing.empty()) causes.push_back(report.growing);
   return causes;
 }
 
@@ -324,6 +325,7 @@ std::string campaign_summary(const verify::Report& report, const std::string& ga
     text +=
         fmt::format("  {} did not reach the horizon; run {}: {}\n", runs_text(report.unfinished),
                     report.unfinished_run, unfinished_text(report));
+  if (!report.growing.empty()) text += "  why         " + report.growing + "\n";
   text += undecided_text(report, gains_file);
   for (const std::string& note : notes_on(report)) text += "  note        " + note + "\n";
   if (report.violation_probability < 1)

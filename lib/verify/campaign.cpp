@@ -16,6 +16,7 @@
 #include "base/stop.h"
 #include "hybrid/doubts.h"
 #include "hybrid/idle.h"
+#include "verify/growing.h"
 
 namespace gainsmith::verify {
 
@@ -169,6 +170,7 @@ CampaignFacts facts_of(const Setup& setup, const CampaignOptions& options) {
   facts.horizon = setup.horizon();
   facts.doubts = hybrid::doubts_about(texts.dynamics, setup.events->system.constants);
   facts.doubts.insert(facts.doubts.begin(), setup.unread.begin(), setup.unread.end());
+  facts.growing = growing_mode(setup.judged());
   for (const auto& event : setup.events->system.dynamics.events)
     facts.events.push_back(event.is_built_in() ? "" : event.name);
   for (const claims::Claim& claim : setup.claims())

@@ -85,9 +85,10 @@ struct Report {
   /// With that confidence the probability that a run of this campaign violates is at most this;
   /// undecided runs count as violating. 1 where nothing is drawn.
   double violation_probability = 1;
-  std::vector<std::string> silent_events;   ///< of the user's text, that happened in no run
-  std::vector<std::string> doubts;  ///< hybrid/doubts.h
-  std::vector<CheckReport> checks;          ///< in the method's order; none when no run was made
+  std::vector<std::string> silent_events;  ///< of the user's text, that happened in no run
+  std::vector<std::string> doubts;         ///< hybrid/doubts.h
+  std::string growing;  ///< of a violated campaign: why, where the dynamics tell (growing.h)
+  std::vector<CheckReport> checks;  ///< in the method's order; none when no run was made
 
   bool interrupted() const { return runs < asked && !ended; }
 };

@@ -37,6 +37,7 @@ struct CampaignFacts {
   std::optional<std::uint64_t> different;
   std::vector<std::string> events;  ///< a name; of a method of the program empty
   std::vector<std::string> doubts;
+  std::string growing;  ///< growing_mode()
   std::vector<ClaimFacts> claims;
 
   bool operator==(const CampaignFacts&) const = default;

@@ -170,6 +170,7 @@ Report conclude(const CampaignPart& part) {
       report.violations > 0 ? confirm_worst(part, report) : std::optional(false);
   if (!confirmed) return report;
   if (*confirmed) report.verdict = model::CampaignVerdict::violated;
+  if (*confirmed) report.growing = facts.growing;
   if (report.violations > 0 && !*confirmed) {
     report.undecided += std::exchange(report.violations, 0);
     report.first_undecided = unconfirmed_run(report);
