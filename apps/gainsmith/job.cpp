@@ -21,8 +21,8 @@
 #include "gainsmith/campaign_text.h"
 #include "gainsmith/explain_text.h"
 #include "gainsmith/kept_job.h"
-#include "gainsmith/notes.h"
 #include "gainsmith/load.h"
+#include "gainsmith/notes.h"
 #include "gainsmith/run_table.h"
 #include "gainsmith/search_wanted.h"
 #include "gainsmith/summary.h"
@@ -288,7 +288,7 @@ std::string mark_of(ExitCode exit) {
     case ExitCode::no:
       return "NO";
     case ExitCode::bad_input:
-      return "WRONG INPUT";
+      return "ERROR";
     case ExitCode::undecided:
       return "UNDECIDED";
     case ExitCode::fault:

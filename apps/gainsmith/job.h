@@ -43,7 +43,7 @@ struct JobResult {
 JobResult run_job(const std::filesystem::path& problem, const std::string& name,
                   const std::filesystem::path& folder, const JobOptions& options);
 
-/// "ok", "NO", "WRONG INPUT", "UNDECIDED", "FAULT".
+/// "ok", "NO", "ERROR", "UNDECIDED", "FAULT".
 std::string mark_of(ExitCode exit);
 
 }  // namespace gainsmith::app

@@ -215,7 +215,7 @@ Command run_command() {
               "keep the results that are whole and of the same problem, runs and seed: after a "
               "stop of any kind the same command goes on"),
        Option("--strict", options->job.strict,
-              "a note on a problem or its runs is an error: WRONG INPUT"),
+              "a note on a problem or its runs is an error (exit code 2)"),
        Option("--junit", options->junit, "write JUnit XML here"),
        Option("--report", options->report, "write report.html into the folder of the results")
            .excludes({"--shard"}),

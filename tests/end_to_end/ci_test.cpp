@@ -69,7 +69,7 @@ TEST(Ci, AnEmptyFolderStopsNothingElse) {
   const Outcome outcome = gainsmith({"run", folder.path("all"), folder.path("empty"), "-o",
                                      folder.path("out"), "--junit", junit});
   EXPECT_EQ(outcome.exit, 2);
-  EXPECT_TRUE(has(outcome.out, "2 problems: 1 ok, 1 WRONG INPUT")) << outcome.out;
+  EXPECT_TRUE(has(outcome.out, "2 problems: 1 ok, 1 ERROR")) << outcome.out;
   EXPECT_TRUE(has(text_of(junit), "tests=\"2\" failures=\"0\" errors=\"1\"")) << text_of(junit);
 }
 

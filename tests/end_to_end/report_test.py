@@ -99,7 +99,7 @@ class Pages(unittest.TestCase):
         self.assertEqual(again.stdout, page)
         rows = [" ".join(row.itertext()) for row in elements(page, "tr")]
         for name, words in [("a&b 'c'", ["ok", "yes", "held in 20 runs"]), ("impossible", ["ok", "no"]),
-                            ("wrong", ["WRONG INPUT", "wrong.yaml:2:1"])]:
+                            ("wrong", ["ERROR", "wrong.yaml:2:1"])]:
             row = next(row for row in rows if name in row)
             for word in words:
                 self.assertIn(word, row)
