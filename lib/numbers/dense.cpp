@@ -2,14 +2,9 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstdint>
-#include <cstdlib>
-#include <limits>
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include "numbers/small_dense.h"
@@ -37,22 +32,9 @@ Matrix Cholesky::solve(const Matrix& B) const {
   return result;
 }
 
-Matrix inverse_of_factor(const Matrix& M) {
-  const Eigen::HouseholderQR<Matrix> factor(M);
-  const Matrix R = factor.matrixQR().topRows(M.cols());
-  return R.triangularView<Eigen::Upper>().solve(Matrix::Identity(M.cols(), M.cols()));
-}
-
 namespace {
 
-/// x 2^exponent: a product, where the factor is a normal number.
-double scale(double x, int exponent) {
-  using Limits = std::numeric_limits<double>;
-  constexpr int bias = Limits::max_exponent - 1;
-  if (std::abs(exponent) >= bias) return std::ldexp(x, exponent);
-  const auto bits = static_cast<std::uint64_t>(bias + exponent) << (Limits::digits - 1);
-  return x * std::bit_cast<double>(bits);
-}
+double scale(double x, int exponent) { return std::ldexp(x, exponent); }
 
 }  // namespace
 

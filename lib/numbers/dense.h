@@ -61,10 +61,6 @@ class Cholesky {
   bool definite_ = false;
 };
 
-/// R^-1 of M = Q R with orthonormal Q, R upper triangular; M has as many rows as columns, or more.
-/// Not finite where columns are dependent.
-Matrix inverse_of_factor(const Matrix& M);
-
 /// e^M, in balanced units (numerics/balance.h): in units that are powers of two apart it has the
 /// same digits.
 Matrix exponential(const Matrix& M);

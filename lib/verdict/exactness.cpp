@@ -27,17 +27,20 @@ void add_images(const FactoredBlock<S>& one, Index first, Images& images) {
   const double rounding = static_cast<double>(2 * n + 12) * kUnitRoundoff;
   const double root = std::sqrt(2.0);
   Matrix BL(n, rank);
+  std::vector<Index> touched;  // rows of B
   for (const auto& [i, elements] : one.block->terms) {
     spend(static_cast<double>(rank * (n * rank + 2 * static_cast<Index>(elements.size()))) *
           kDoubleWork);
     BL.setConstant(0);
+    touched.clear();
     double error = 0;
     for (const auto& e : elements) {
+      if (std::ranges::find(touched, e.row) == touched.end()) touched.push_back(e.row);
       const double b = as<double>(e.mid);
       BL.row(e.row) += b * L.row(e.column);
       error += (rounding * std::abs(b) + e.rad) * rows[e.row] * rows[e.column];
     }
-    const Matrix image = L.transpose() * BL;
+    const Matrix image = L(touched, Eigen::all).transpose() * BL(touched, Eigen::all);
     Index at = first;
     for (Index c = 0; c < rank; ++c)
       for (Index r = c; r < rank; ++r) images.G(at++, i) = (r == c ? 1 : root) * image(r, c);
@@ -62,7 +65,11 @@ Images images_of(const std::vector<FactoredBlock<S>>& blocks, Index unknowns) {
 
 template Images images_of(const std::vector<FactoredBlock<DoubleDouble>>&, Index);
 
+/// R by Cholesky factors of Q'Q with a shift above its rounding, Q = G R, until Q'Q is near I (Fukaya
+/// et al., "Shifted Cholesky QR", 2020).
 std::optional<Basis> basis_of(const Images& images, Index first) {
+  constexpr double kNear = 1e-3;
+  constexpr int kMostFactors = 5;  // each makes the condition 1e4 times less
   Basis of;
   of.first = first;
   of.lengths = images.G.colwise().norm();
@@ -75,13 +82,20 @@ std::optional<Basis> basis_of(const Images& images, Index first) {
   if (size < m) return std::nullopt;
   const Vector lengths = of.lengths(of.used);
   of.G = images.G(Eigen::all, of.used) * lengths.cwiseInverse().asDiagonal();
-  of.R = numbers::inverse_of_factor(of.G);
-  const Matrix Q = of.G * of.R;
-  Matrix rest = -Matrix::Identity(m, m);
-  rest.selfadjointView<Eigen::Lower>().rankUpdate(Q.transpose());
-  rest.triangularView<Eigen::StrictlyUpper>() = rest.transpose();
   const double rows = static_cast<double>(size), columns = static_cast<double>(m);
   of.roundings = 2 * (rows + columns + 8) * kUnitRoundoff;
+  const Matrix I = of.R = Matrix::Identity(m, m);
+  Matrix Q = of.G, rest;
+  for (int factors = 0;; ++factors) {
+    rest = -I;
+    rest.selfadjointView<Eigen::Lower>().rankUpdate(Q.transpose());
+    rest.triangularView<Eigen::StrictlyUpper>() = rest.transpose();
+    if (rest.norm() < kNear || factors == kMostFactors) break;
+    const numbers::Cholesky factor(rest + (1 + columns * of.roundings) * I);
+    if (!factor || of.roundings * of.R.norm() > 1) return std::nullopt;
+    of.R *= factor.lower_solve(I).transpose();
+    Q = of.G * of.R.triangularView<Eigen::Upper>();
+  }
   const double singular = 1 - rest.norm() - of.roundings * Q.squaredNorm();
   const Vector error =
       (images.error(of.used).cwiseQuotient(lengths) * (1 + 1e-12)).array() + 4 * kUnitRoundoff;

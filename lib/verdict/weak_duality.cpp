@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 #include "base/unit_roundoff.h"
@@ -123,30 +124,6 @@ BlockList blocks_of(const lmi::Inequalities& of, const lmi::Lmi& lmi, const lmi:
   return blocks;
 }
 
-}  // namespace
-
-Costs exact_objective(const lmi::Inequalities& of) {
-  lmi::Balance units;
-  units.unknowns.assign(static_cast<std::size_t>(of.unknowns.size()), 0);
-  return ExactBlocks<DoubleDouble>(of, units).objective();
-}
-
-Costs on_face(const Faces& faces, const Costs& costs) {
-  const numbers::RationalMatrix& N = faces.directions();
-  Costs result(static_cast<std::size_t>(N.cols()) + 1);
-  result[0] = costs[0];
-  for (std::size_t i = 1; i < costs.size(); ++i) {
-    if (costs[i].is_zero()) continue;
-    result[0] = result[0] + costs[i] * ball_of(faces.origin()[i - 1]);
-    for (std::size_t j = 1; j < result.size(); ++j)
-      result[j] =
-          result[j] + costs[i] * ball_of(N(static_cast<Index>(i) - 1, static_cast<Index>(j) - 1));
-  }
-  return result;
-}
-
-namespace {
-
 struct ShownBound {
   double value = 0;
   double loss = 0;  ///< that multipliers without a residual would not have
@@ -175,20 +152,46 @@ std::optional<ShownBound> bound_at(Factored of, const Costs& costs) {
 
 }  // namespace
 
+Costs exact_objective(const lmi::Inequalities& of) {
+  lmi::Balance units;
+  units.unknowns.assign(static_cast<std::size_t>(of.unknowns.size()), 0);
+  return ExactBlocks<DoubleDouble>(of, units).objective();
+}
+
+Costs on_face(const Faces& faces, const Costs& costs) {
+  const numbers::RationalMatrix& N = faces.directions();
+  Costs result(static_cast<std::size_t>(N.cols()) + 1);
+  result[0] = costs[0];
+  for (std::size_t i = 1; i < costs.size(); ++i) {
+    if (costs[i].is_zero()) continue;
+    result[0] = result[0] + costs[i] * ball_of(faces.origin()[i - 1]);
+    for (std::size_t j = 1; j < result.size(); ++j)
+      result[j] =
+          result[j] + costs[i] * ball_of(N(static_cast<Index>(i) - 1, static_cast<Index>(j) - 1));
+  }
+  return result;
+}
+
 std::optional<double> lower_bound(const BlockList& blocks, const Multipliers& Y, Costs costs) {
-  constexpr double kLifts[] = {0, 1e-15, 1e-13, 1e-11, 1e-9, 1e-7};
+  constexpr double kLifts[] = {1e-7, 1e-9, 1e-11, 1e-13, 1e-15};
   constexpr double kLittle = 1e-11;  // of the bound: 31 digits would show hardly more
   int last = 0;
   for (const auto& block : blocks)
     if (!block.terms.empty()) last = std::max(last, block.terms.back().first);
   if (std::ssize(costs) <= last) costs.resize(static_cast<std::size_t>(last) + 1);
-  std::optional<double> best;
-  for (const double lift : kLifts) {
+  const auto with = [&](double lift) {
     const auto of = factors_of(blocks, Y, lift);
-    const auto found = of ? bound_at(*of, costs) : std::nullopt;
-    if (!found) continue;
-    if (!best || found->value > *best) best = found->value;
-    if (found->loss <= kLittle * std::abs(found->value)) break;
+    return of ? bound_at(*of, costs) : std::nullopt;
+  };
+  const auto plain = with(0);
+  auto best = plain ? std::optional(plain->value) : std::nullopt;
+  if (best && plain->loss <= kLittle * std::abs(*best)) return best;
+  // The less is added, the larger is theta, and the better a bound that is shown.
+  double before = -std::numeric_limits<double>::infinity();
+  for (const double lift : kLifts) {
+    const auto found = with(lift);
+    if (!found || found->value <= before) break;
+    best = std::max(best, std::optional(before = found->value));
   }
   return best;
 }
