@@ -171,7 +171,9 @@ void add_inequality(Binding& binding, const model::Requirement& requirement, con
   model::Design::Inequality bound;
   bound.name = member.title_of(requirement.name);
   bound.place = requirement.place;
-  expr::Scope scope = binding.names->design;
+  const bool adds = !requirement.forall.empty();  // names; otherwise nothing is copied
+  expr::Scope own = adds ? binding.names->design : expr::Scope{};
+  expr::Scope& scope = adds ? own : binding.names->design;
   const expr::Expression that = instantiate(requirement.that, member, scope);
   bound.that_place = that.place(*that.root);
   for (const model::Forall& forall : requirement.forall) {
@@ -184,8 +186,7 @@ void add_inequality(Binding& binding, const model::Requirement& requirement, con
   }
   std::vector<expr::Expression> comparisons;
   for (const expr::Expression& part : expr::conjuncts(that))
-    for (expr::Expression& comparison :
-         affine_comparisons(binding, part, scope, !requirement.forall.empty()))
+    for (expr::Expression& comparison : affine_comparisons(binding, part, scope, adds))
       comparisons.push_back(std::move(comparison));
   add_comparisons(comparisons, bound, requirement.name, member.label, scope);
   for (const auto& comparison : bound.comparisons)

@@ -119,7 +119,9 @@ std::vector<Minimum> local_minima(const expr::Program& difference, const Domain&
 
 numbers::Matrix matrix_at(const expr::Program& difference, const Point& point,
                           const numbers::Values& known) {
-  numbers::Values values = known;
+  numbers::Values values;  // a problem may have thousands
+  for (const expr::Input& input : difference.inputs)
+    if (const auto found = known.find(input.name); found != known.end()) values.insert(*found);
   for (const auto& [name, matrix] : point.values) values.insert_or_assign(name, matrix);
   const numbers::Matrix value = numbers::evaluate(difference, values);
   return 0.5 * (value + value.transpose());

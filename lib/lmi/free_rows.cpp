@@ -109,7 +109,9 @@ void for_each_equation(const BalanceElements& elements, int from, Visit visit) {
 /// What is solved so far.
 class Solved {
  public:
-  explicit Solved(int rows) : sums_(static_cast<std::size_t>(rows)) { take_values(); }
+  explicit Solved(int rows) : sums_(static_cast<std::size_t>(rows)), users_(sums_.size()) {
+    for (std::size_t row = 0; row < sums_.size(); ++row) values_.push_back(value_of_free(row));
+  }
 
   /// Solves the equation for one of its rows; false when none has a factor +-1 and one is asked
   /// for.
@@ -132,16 +134,17 @@ class Solved {
     const long sign = pivot->second > 0 ? -1 : 1;
     sum.erase(pivot);
     for (auto& [other, factor] : sum) factor *= sign;
-    for (auto& known : sums_) {
-      if (!known) continue;
-      const auto place = find(*known, row);
-      if (place == known->end()) continue;
+    for (const std::size_t user : std::exchange(users_[static_cast<std::size_t>(row)], {})) {
+      Sum& known = *sums_[user];
+      const auto place = find(known, row);
+      if (place == known.end()) continue;
       const long factor = place->second;
-      known->erase(place);
-      add(sum, factor, *known);
+      known.erase(place);
+      add(sum, factor, known);
+      take_value(user, sum);
     }
-    sums_[static_cast<std::size_t>(row)] = std::move(sum);
-    take_values();
+    sums_[static_cast<std::size_t>(row)] = sum;
+    take_value(static_cast<std::size_t>(row), sum);
     return true;
   }
 
@@ -173,18 +176,13 @@ class Solved {
     return z ^ (z >> 31);
   }
 
-  void take_values() {
-    values_.resize(sums_.size());
-    for (std::size_t row = 0; row < sums_.size(); ++row) {
-      if (!sums_[row]) {
-        values_[row] = value_of_free(row);
-        continue;
-      }
-      values_[row] = 0;
-      for (const auto& [other, factor] : *sums_[row])
-        values_[row] +=
-            static_cast<std::uint64_t>(factor) * value_of_free(static_cast<std::size_t>(other));
-    }
+  /// Of a row whose sum has got these terms.
+  void take_value(std::size_t row, const Sum& terms) {
+    for (const auto& term : terms) users_[static_cast<std::size_t>(term.first)].push_back(row);
+    values_[row] = 0;
+    for (const auto& [other, factor] : *sums_[row])
+      values_[row] +=
+          static_cast<std::uint64_t>(factor) * value_of_free(static_cast<std::size_t>(other));
   }
 
   std::uint64_t value(const Element& e, int objective) const {
@@ -192,8 +190,9 @@ class Solved {
            (e.second == objective ? 0 : values_[static_cast<std::size_t>(e.second)]);
   }
 
-  std::vector<std::optional<Sum>> sums_;  ///< by row
-  std::vector<std::uint64_t> values_;     ///< by row, whole numbers modulo 2^64
+  std::vector<std::optional<Sum>> sums_;         ///< by row
+  std::vector<std::vector<std::size_t>> users_;  ///< of each row: whose sums may have it
+  std::vector<std::uint64_t> values_;            ///< by row, whole numbers modulo 2^64
 };
 
 /// The equations whose first row is in [low, high) and that do not follow, in their order.
