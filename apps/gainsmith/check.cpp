@@ -69,7 +69,8 @@ std::vector<std::string> check_runs(const model::Instance& instance) {
   const model::Design& design = *instance.design;
   std::vector<std::string> notes = bind::unread_names(design);
   if (design.dynamics)
-    for (std::string& doubt : hybrid::doubts_about(*design.dynamics, instance.values))
+    for (std::string& doubt :
+         hybrid::doubts_about(*design.dynamics, design.claims, instance.values))
       notes.push_back(std::move(doubt));
   const bool runs = design.dynamics && design.no_campaign.empty() && model::ends(design);
   if (!runs) return notes;

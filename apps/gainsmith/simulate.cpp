@@ -112,7 +112,8 @@ std::string notes_text(const model::Instance& instance, const std::vector<std::u
     for (std::size_t e = 0; e < events; ++e)
       if (happened[e] == 0) silent[e].push_back(runs[k]);
   }
-  std::vector<std::string> notes = hybrid::doubts_about(*design.dynamics, instance.values);
+  std::vector<std::string> notes =
+      hybrid::doubts_about(*design.dynamics, design.claims, instance.values);
   std::map<std::vector<std::uint64_t>, std::vector<std::string>> alike;
   for (std::size_t e = 0; e < events; ++e)
     if (!silent[e].empty() && !design.dynamics->events[e].is_built_in())

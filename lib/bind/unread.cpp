@@ -14,8 +14,9 @@ std::vector<std::string> unread_names(const Binding& binding, const std::set<std
     if (one.fallback) defaults.merge(expr::names_in(*one.fallback));
   const auto is_read = [&](const std::string& name) {
     const auto member = read.lower_bound(name + "_");
-    return read.contains(name) || read.contains("plant." + name) || defaults.contains(name) ||
-           (member != read.end() && member->starts_with(name + "_"));
+    const auto is_of_part = [&](const auto& one) { return one.ends_with("." + name); };
+    return read.contains(name) || std::ranges::any_of(read, is_of_part) ||
+           defaults.contains(name) || (member != read.end() && member->starts_with(name + "_"));
   };
   const auto add = [&](const std::string& what, const auto& list) {
     for (const auto& one : list)
@@ -26,6 +27,7 @@ std::vector<std::string> unread_names(const Binding& binding, const std::set<std
   add("parameter", method.parameters);
   add("input", method.inputs);
   add("noise", method.noise);
+  for (const model::Component& observer : method.observers) add("state", observer.states);
   const bool has_runs = method.has_dynamics && !method.gains.empty();
   if (has_runs && is_own(method.gains.front()) &&
       std::none_of(method.gains.begin(), method.gains.end(),

@@ -1,6 +1,7 @@
 #include "hybrid/doubts.h"
 
 #include <algorithm>
+#include <optional>
 #include <set>
 
 #include "base/number.h"
@@ -13,29 +14,22 @@ namespace {
 
 using model::Dynamics;
 
-bool reads(const expr::Program& program, const std::string& name) {
-  return std::any_of(program.inputs.begin(), program.inputs.end(),
-                     [&](const expr::Input& input) { return input.name == name; });
-}
-
 bool reads(const expr::Condition& condition, const std::string& name) {
-  return reads(condition.difference, name) ||
-         std::any_of(condition.parts.begin(), condition.parts.end(),
-                     [&](const expr::Condition& part) { return reads(part, name); });
+  return condition.difference.uses(name) ||
+         std::ranges::any_of(condition.parts, [&](const auto& part) { return reads(part, name); });
 }
 
 bool reads(const Dynamics::Reaction& reaction, const std::string& name) {
-  return std::any_of(reaction.passes.begin(), reaction.passes.end(), [&](const auto& pass) {
-    return std::any_of(pass.map.begin(), pass.map.end(), [&](const Dynamics::Assignment& value) {
-      return reads(value.value.program, name);
-    });
+  return std::ranges::any_of(reaction.passes, [&](const auto& pass) {
+    return std::ranges::any_of(pass.map,
+                               [&](const auto& one) { return one.value.program.uses(name); });
   });
 }
 
 bool reads(const Dynamics::Event& event, const std::string& name) {
   return (event.condition && reads(*event.condition, name)) ||
          (event.only_if && reads(*event.only_if, name)) ||
-         (event.crossing && reads(event.crossing->program, name));
+         (event.crossing && event.crossing->program.uses(name));
 }
 
 /// How often an operand of the program is an input; in a sum with a matrix, for each element.
@@ -59,13 +53,13 @@ class Readers {
   Readers(const Dynamics& dynamics, const std::string& name) : dynamics_(dynamics), name_(name) {}
 
   bool starts() const {
-    return std::any_of(
-        dynamics_.variables.begin(), dynamics_.variables.end(),
-        [&](const auto& one) { return one.start && reads(one.start->program, name_); });
+    return std::ranges::any_of(dynamics_.variables, [&](const auto& one) {
+      return one.start && one.start->program.uses(name_);
+    });
   }
   bool flows() const {
-    return std::any_of(dynamics_.flow.begin(), dynamics_.flow.end(),
-                       [&](const auto& flow) { return reads(flow.value.program, name_); });
+    return std::ranges::any_of(dynamics_.flow,
+                               [&](const auto& one) { return one.value.program.uses(name_); });
   }
   /// The events whose maps read it.
   std::vector<std::size_t> events() const {
@@ -75,13 +69,13 @@ class Readers {
     return {found.begin(), found.end()};
   }
   bool conditions() const {
-    return std::any_of(dynamics_.events.begin(), dynamics_.events.end(),
-                       [&](const auto& event) { return reads(event, name_); });
+    return std::ranges::any_of(dynamics_.events,
+                               [&](const auto& event) { return reads(event, name_); });
   }
   std::vector<const Dynamics::Signal*> outputs() const {
     std::vector<const Dynamics::Signal*> found;
     for (const Dynamics::Signal& signal : dynamics_.signals)
-      if (signal.output && reads(signal.value.program, name_)) found.push_back(&signal);
+      if (signal.output && signal.value.program.uses(name_)) found.push_back(&signal);
     return found;
   }
   /// Whether a flow or a map of an observer reads it, or the condition of an event with such a map.
@@ -89,16 +83,14 @@ class Readers {
     const auto observes = [&](std::size_t component) {
       return dynamics_.components[component].observer;
     };
-    return std::any_of(dynamics_.flow.begin(), dynamics_.flow.end(),
-                       [&](const auto& flow) {
-                         return observes(dynamics_.variables[flow.variable].component) &&
-                                reads(flow.value.program, name_);
-                       }) ||
-           std::any_of(dynamics_.reactions.begin(), dynamics_.reactions.end(),
-                       [&](const auto& one) {
-                         return observes(one.component) &&
-                                (reads(one, name_) || reads(dynamics_.events[one.event], name_));
-                       });
+    const auto flows = [&](const Dynamics::Assignment& one) {
+      return observes(dynamics_.variables[one.variable].component) && one.value.program.uses(name_);
+    };
+    return std::ranges::any_of(dynamics_.flow, flows) ||
+           std::ranges::any_of(dynamics_.reactions, [&](const auto& one) {
+             return observes(one.component) &&
+                    (reads(one, name_) || reads(dynamics_.events[one.event], name_));
+           });
   }
   bool any() const {
     return starts() || flows() || !events().empty() || conditions() || !outputs().empty();
@@ -109,6 +101,8 @@ class Readers {
   const std::string& name_;
 };
 
+using VariableKind = Dynamics::VariableKind;
+
 std::string quoted(const std::string& name) { return "'" + name + "'"; }
 
 class Doubts {
@@ -116,20 +110,19 @@ class Doubts {
   Doubts(const Dynamics& dynamics, const numbers::Values& constants)
       : dynamics_(dynamics), constants_(constants) {}
 
-  std::vector<std::string> all() {
+  std::vector<std::string> all(const std::vector<model::Design::Claim>& claims) {
     about_observers();
+    for (std::size_t k = 0; k < dynamics_.events.size(); ++k) about(k, claims);
+    for (const model::Design::Claim& claim : claims) about(claim);
     for (const Dynamics::Noise& noise : dynamics_.noise) about(noise);
     return std::move(found_);
   }
 
  private:
   void about_observers() {
-    std::vector<char> has_states(dynamics_.components.size(), 0);
-    std::vector<char> changes(dynamics_.components.size(), 0);
+    std::vector<char> has_states(dynamics_.components.size(), 0), changes(has_states);
     for (const Dynamics::Variable& variable : dynamics_.variables)
-      if (variable.kind == Dynamics::VariableKind::state ||
-          variable.kind == Dynamics::VariableKind::mode)
-        has_states[variable.component] = 1;
+      if (is_own(variable)) has_states[variable.component] = 1;
     for (const Dynamics::Assignment& flow : dynamics_.flow)
       changes[dynamics_.variables[flow.variable].component] = 1;
     for (const Dynamics::Reaction& reaction : dynamics_.reactions) changes[reaction.component] = 1;
@@ -147,14 +140,50 @@ class Doubts {
   }
 
   bool observers_read_plant() const {
-    return std::any_of(dynamics_.variables.begin(), dynamics_.variables.end(),
-                       [&](const auto& one) {
-                         const bool of_plant = one.kind == Dynamics::VariableKind::measured ||
-                                               ((one.kind == Dynamics::VariableKind::state ||
-                                                 one.kind == Dynamics::VariableKind::mode) &&
-                                                one.component == 0);
-                         return of_plant && Readers(dynamics_, one.name).observers();
-                       });
+    return std::ranges::any_of(dynamics_.variables, [&](const auto& one) {
+      const bool of_plant =
+          one.kind == VariableKind::measured || (is_own(one) && one.component == 0);
+      return of_plant && Readers(dynamics_, one.name).observers();
+    });
+  }
+
+  static bool is_own(const Dynamics::Variable& one) {
+    return one.kind == VariableKind::state || one.kind == VariableKind::mode;
+  }
+
+  void about(std::size_t event, const std::vector<model::Design::Claim>& claims) {
+    const auto none = [&](const auto& list, const auto& of) {
+      return std::ranges::none_of(list, [&](const auto& one) { return of(one) == event; });
+    };
+    const auto of = [](const auto& one) { return one.event; };
+    if (!dynamics_.events[event].is_built_in() && none(dynamics_.reactions, of) &&
+        none(dynamics_.noise, of) && none(dynamics_.measured, of) &&
+        none(claims, [](const auto& one) { return one.over; }) &&
+        none(dynamics_.signals, [](const auto& one) { return one.at; }) &&
+        std::ranges::none_of(dynamics_.variables, [&](const auto& one) {
+          return one.of == event && VariableKind::count <= one.kind &&
+                 one.kind <= VariableKind::passes;
+        }))
+      found_.push_back("nothing happens at the event " + quoted(dynamics_.events[event].name));
+  }
+
+  void about(const model::Design::Claim& claim) {
+    if (const auto factor = value_of(claim.factor); factor && (*factor)(0, 0) > 1)
+      found_.push_back("the claim " + quoted(claim.name) + " lets its value grow: `to` is " +
+                       brief((*factor)(0, 0)));
+  }
+
+  /// None where the formula is not of constants.
+  std::optional<numbers::Matrix> value_of(const std::optional<model::Formula>& formula) const {
+    const auto is_known = [&](const auto& one) { return constants_.contains(one.name); };
+    if (!formula || !formula->program.functions.empty() ||
+        !std::ranges::all_of(formula->program.inputs, is_known))
+      return std::nullopt;
+    try {
+      return numbers::evaluate(formula->program, constants_);
+    } catch (const expr::EvaluationError&) {
+      return std::nullopt;
+    }
   }
 
   void about(const Dynamics::Noise& noise) {
@@ -196,40 +225,29 @@ class Doubts {
   void about_range(const Dynamics::Noise& noise, const std::string& datum) {
     const auto known = constants_.find(datum);
     if (noise.values.size() != 2 || noise.has_center() || known == constants_.end()) return;
-    try {
-      const numbers::Matrix low = numbers::evaluate(noise.values[0].program, constants_);
-      const numbers::Matrix high = numbers::evaluate(noise.values[1].program, constants_);
-      if (low == high)
-        found_.push_back("uncertain: " + quoted(datum) + " has no range, as low is high");
-      else if (low.size() == 1 && known->second.size() == 1 &&
-               (known->second(0, 0) < low(0, 0) || known->second(0, 0) > high(0, 0)))
-        found_.push_back("uncertain: " + quoted(datum) + " is " + brief(known->second(0, 0)) +
-                         ", outside of its range [" + brief(low(0, 0)) + ", " + brief(high(0, 0)) +
-                         "], which is of the value, not of a factor");
-    } catch (const expr::EvaluationError&) {
-    }
+    const auto low = value_of(noise.values[0]), high = value_of(noise.values[1]);
+    if (!low || !high) return;
+    if (*low == *high)
+      found_.push_back("uncertain: " + quoted(datum) + " has no range, as low is high");
+    else if (low->size() == 1 && known->second.size() == 1 &&
+             (known->second(0, 0) < (*low)(0, 0) || known->second(0, 0) > (*high)(0, 0)))
+      found_.push_back("uncertain: " + quoted(datum) + " is " + brief(known->second(0, 0)) +
+                       ", outside of its range [" + brief((*low)(0, 0)) + ", " +
+                       brief((*high)(0, 0)) + "], which is of the value, not of a factor");
   }
 
   /// Of a noise that several samples in a row may have in common.
   void about_samples(const Dynamics::Noise& noise, const std::vector<std::size_t>& events) {
-    const auto length = [&](const std::optional<model::Formula>& formula) -> std::optional<double> {
-      if (!formula) return std::nullopt;
-      try {
-        return numbers::evaluate(formula->program, constants_)(0, 0);
-      } catch (const expr::EvaluationError&) {
-        return std::nullopt;
-      }
-    };
-    const auto lasts =
-        noise.every ? length(noise.every) : length(dynamics_.events[*noise.event].low);
+    const auto lasts = value_of(noise.every ? noise.every : dynamics_.events[*noise.event].low);
     for (const std::size_t at : events) {
       const Dynamics::Event& event = dynamics_.events[at];
-      const auto next = length(event.high);
-      if (noise.event == at || !lasts || !next || !(*next < *lasts)) continue;
-      found_.push_back("the noise " + quoted(noise.name) + " is drawn anew after " + brief(*lasts) +
-                       ", and the event " + quoted(event.name) + " reads it after " + brief(*next) +
-                       " at the latest: several of them have the same error; `new at: " +
-                       event.name + "` gives each its own");
+      const auto next = value_of(event.high);
+      if (noise.event == at || !lasts || !next || (*next)(0, 0) >= (*lasts)(0, 0)) continue;
+      found_.push_back(
+          "the noise " + quoted(noise.name) + " is drawn anew after " + brief((*lasts)(0, 0)) +
+          ", and the event " + quoted(event.name) + " reads it after " + brief((*next)(0, 0)) +
+          " at the latest: several of them have the same error; `new at: " + event.name +
+          "` gives each its own");
     }
   }
 
@@ -254,8 +272,10 @@ class Doubts {
 
 }  // namespace
 
-std::vector<std::string> doubts_about(const Dynamics& dynamics, const numbers::Values& constants) {
-  return Doubts(dynamics, constants).all();
+std::vector<std::string> doubts_about(const Dynamics& dynamics,
+                                      const std::vector<model::Design::Claim>& claims,
+                                      const numbers::Values& constants) {
+  return Doubts(dynamics, constants).all(claims);
 }
 
 }  // namespace gainsmith::hybrid

@@ -4,6 +4,7 @@
 //   noise without `new at` that samples or outputs read: one value for the whole run, a bias
 //   noise that changes more slowly than the samples that read it
 //   two outputs, or two elements of one, with the same scalar noise
+//   an event at which nothing happens, a claim that a value shrinks to more than it is
 //   uncertain data that the plant does not read or an observer knows, or without a range around
 //   them
 #pragma once
@@ -11,13 +12,14 @@
 #include <string>
 #include <vector>
 
-#include "model/dynamics.h"
+#include "model/design.h"
 #include "numbers/real.h"
 
 namespace gainsmith::hybrid {
 
 /// `constants`: of data and parameters.
 std::vector<std::string> doubts_about(const model::Dynamics& dynamics,
+                                      const std::vector<model::Design::Claim>& claims,
                                       const numbers::Values& constants);
 
 }  // namespace gainsmith::hybrid

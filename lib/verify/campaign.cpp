@@ -168,7 +168,7 @@ CampaignFacts facts_of(const Setup& setup, const CampaignOptions& options) {
   if (facts.asked == 0) throw InputError(texts.campaign.place, "a campaign needs at least one run");
   facts.confidence = options.confidence;
   facts.horizon = setup.horizon();
-  facts.doubts = hybrid::doubts_about(texts.dynamics, setup.events->system.constants);
+  facts.doubts = hybrid::doubts_about(texts.dynamics, texts.claims, setup.events->system.constants);
   facts.doubts.insert(facts.doubts.begin(), setup.unread.begin(), setup.unread.end());
   facts.growing = growing_mode(setup.judged());
   for (const auto& event : setup.events->system.dynamics.events)

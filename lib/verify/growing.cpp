@@ -95,8 +95,8 @@ std::string growing_mode(const claims::RunSetup& setup) {
   };
   const numbers::ComplexVector all_modes = numbers::eigenvalues(M);
   const std::complex<double> most = *std::ranges::max_element(all_modes, {}, growth);
-  constexpr double kGrows = 1e-6;  // of |M|: an eigenvalue of a Jordan block is known to the root
-  if (!(growth(most) > kGrows * M.cwiseAbs().maxCoeff())) return "";
+  // An eigenvalue of a Jordan block is known to the root of rounding.
+  if (!(growth(most) > 1e-6 * M.cwiseAbs().maxCoeff())) return "";
   std::string text = brief(most.real(), 4);
   if (most.imag() != 0) text += " +- " + brief(std::abs(most.imag()), 4) + "i";
   return "the closed loop grows: its eigenvalue " + text +

@@ -75,7 +75,7 @@ TEST(Doubts, ObserversThatNeverChange) {
   problem.observer("idle").state("c", {}, "0").state("d", {}, "0");
   problem.observer("stateless");
   const System system = problem.system();
-  EXPECT_EQ(doubts_about(system.dynamics, system.constants),
+  EXPECT_EQ(doubts_about(system.dynamics, {}, system.constants),
             (Names{"the observer 'idle' never changes: it has no flow, and no map at an event",
                    "no observer reads the plant: their estimates do not depend on an output"}));
 }
