@@ -403,20 +403,18 @@ std::vector<std::string> fixed_mode_texts(const model::Instance& instance) {
   const auto a = instance.values.find("A");
   if (a == instance.values.end() || !is_declared(*instance.design, "A", true)) return texts;
   const numbers::Matrix& A = a->second;
-  for (const char* name : {"C", "C2"}) {
-    const auto c = instance.values.find(name);
-    if (c == instance.values.end() || c->second.cols() != A.cols()) continue;
-    if (const auto mode = hidden_mode(A, c->second, Modes::all))
-      texts.push_back("no gain moves the mode " + eigenvalue_text(*mode) + ": " + name +
-                      " does not show the direction " + direction_text(*mode));
-  }
-  for (const char* name : {"B", "B2"}) {
-    const auto b = instance.values.find(name);
-    if (b == instance.values.end() || b->second.rows() != A.rows()) continue;
-    if (const auto mode = hidden_mode(A.transpose(), b->second.transpose(), Modes::all))
-      texts.push_back("no gain moves the mode " + eigenvalue_text(*mode) + ": " + name +
-                      " does not reach the combination " + direction_text(*mode) +
-                      " of the states");
+  for (const std::string name : {"C", "C2", "B", "B2"}) {
+    const auto other = instance.values.find(name);
+    if (other == instance.values.end()) continue;
+    const bool input = name[0] == 'B';
+    const numbers::Matrix own = input ? A.transpose() : A;
+    const numbers::Matrix by = input ? other->second.transpose() : other->second;
+    if (by.cols() != own.cols()) continue;
+    if (const auto mode = hidden_mode(own, by, Modes::all))
+      texts.push_back(
+          "no gain moves the mode " + eigenvalue_text(*mode) + ": " + name +
+          (input ? " does not reach the combination " : " does not show the direction ") +
+          direction_text(*mode) + (input ? " of the states" : ""));
   }
   return texts;
 }

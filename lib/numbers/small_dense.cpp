@@ -8,8 +8,7 @@ namespace gainsmith::numbers {
 namespace {
 
 constexpr int kLargest = 8;
-/// Where inverse() tries other units: twice the root of epsilon.
-constexpr double kPlainCondition = 0x1p-25;
+constexpr double kPlain = 0x1p25;  ///< a condition at which inverse() tries no other units
 
 using Small =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kLargest, kLargest>;
@@ -28,7 +27,7 @@ bool small_inverse(const Matrix& M, double* out) {
   const auto d = symmetric_units<SmallVector>(M);
   const Small A = d.asDiagonal() * M * d.asDiagonal();
   const Small X = Eigen::PartialPivLU<Small>(A).inverse();
-  if (!X.allFinite() || norm_1(A) * norm_1(X) >= 1 / kPlainCondition) return false;
+  if (!X.allFinite() || norm_1(A) * norm_1(X) >= kPlain) return false;
   Eigen::Map<Matrix>(out, M.rows(), M.cols()) = d.asDiagonal() * X * d.asDiagonal();
   return true;
 }

@@ -33,32 +33,21 @@ template <class S>
 WideInverse<S> inverse_by_gauss(const MatrixOf<S>& M) {
   using std::abs;
   const Eigen::Index n = M.rows();
-  MatrixOf<S> left = M;
-  MatrixOf<S> right = MatrixOf<S>::Identity(n, n);
+  MatrixOf<S> both(n, 2 * n);
+  both << M, MatrixOf<S>::Identity(n, n);
   for (Eigen::Index j = 0; j < n; ++j) {
     check_stop();
     Eigen::Index pivot = j;
     for (Eigen::Index i = j + 1; i < n; ++i)
-      if (abs(left(i, j)) > abs(left(pivot, j))) pivot = i;
-    if (!(abs(left(pivot, j)) > S(0))) return {MatrixOf<S>::Zero(n, n), S(0)};
-    for (Eigen::Index k = 0; k < n; ++k) {
-      std::swap(left(j, k), left(pivot, k));
-      std::swap(right(j, k), right(pivot, k));
-    }
-    const S by = left(j, j);
-    for (Eigen::Index k = 0; k < n; ++k) {
-      left(j, k) /= by;
-      right(j, k) /= by;
-    }
-    for (Eigen::Index i = 0; i < n; ++i) {
-      if (i == j || left(i, j) == S(0)) continue;
-      const S factor = left(i, j);
-      for (Eigen::Index k = 0; k < n; ++k) {
-        left(i, k) -= factor * left(j, k);
-        right(i, k) -= factor * right(j, k);
-      }
-    }
+      if (abs(both(i, j)) > abs(both(pivot, j))) pivot = i;
+    if (!(abs(both(pivot, j)) > S(0))) return {MatrixOf<S>::Zero(n, n), S(0)};
+    both.row(j).swap(both.row(pivot));
+    both.row(j) /= S(both(j, j));
+    for (Eigen::Index i = 0; i < n; ++i)
+      if (const S factor = both(i, j); i != j && factor != S(0))
+        both.row(i) -= factor * both.row(j);
   }
+  const MatrixOf<S> right = both.rightCols(n);
   return {right, S(1) / (norm_1(M) * norm_1(right))};
 }
 
@@ -110,12 +99,11 @@ void rotate_columns(MatrixOf<S>& B, MatrixOf<S>& V, const S& least, const S& rou
         const S zeta = (b - a) / (S(2) * c);
         const S t = (zeta < S(0) ? S(-1) : S(1)) / (abs(zeta) + sqrt(S(1) + zeta * zeta));
         const S cosine = S(1) / sqrt(S(1) + t * t), sine = cosine * t;
-        for (MatrixOf<S>* both : {&B, &V})
-          for (Eigen::Index i = 0; i < both->rows(); ++i) {
-            const S x = (*both)(i, p), y = (*both)(i, q);
-            (*both)(i, p) = cosine * x - sine * y;
-            (*both)(i, q) = sine * x + cosine * y;
-          }
+        for (MatrixOf<S>* both : {&B, &V}) {
+          const MatrixOf<S> x = both->col(p), y = both->col(q);
+          both->col(p) = cosine * x - sine * y;
+          both->col(q) = sine * x + cosine * y;
+        }
       }
     if (still) return;
   }

@@ -27,12 +27,11 @@ void add_images(const FactoredBlock<S>& one, Index first, Images& images) {
   const double rounding = static_cast<double>(2 * n + 12) * kUnitRoundoff;
   const double root = std::sqrt(2.0);
   Matrix BL(n, rank);
-  std::vector<Index> touched;  // rows of B
   for (const auto& [i, elements] : one.block->terms) {
     spend(static_cast<double>(rank * (n * rank + 2 * static_cast<Index>(elements.size()))) *
           kDoubleWork);
     BL.setConstant(0);
-    touched.clear();
+    std::vector<Index> touched;  // rows of B
     double error = 0;
     for (const auto& e : elements) {
       if (std::ranges::find(touched, e.row) == touched.end()) touched.push_back(e.row);

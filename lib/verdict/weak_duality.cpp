@@ -173,7 +173,6 @@ Costs on_face(const Faces& faces, const Costs& costs) {
 }
 
 std::optional<double> lower_bound(const BlockList& blocks, const Multipliers& Y, Costs costs) {
-  constexpr double kLifts[] = {1e-7, 1e-9, 1e-11, 1e-13, 1e-15};
   constexpr double kLittle = 1e-11;  // of the bound: 31 digits would show hardly more
   int last = 0;
   for (const auto& block : blocks)
@@ -188,7 +187,7 @@ std::optional<double> lower_bound(const BlockList& blocks, const Multipliers& Y,
   if (best && plain->loss <= kLittle * std::abs(*best)) return best;
   // The less is added, the larger is theta, and the better a bound that is shown.
   double before = -std::numeric_limits<double>::infinity();
-  for (const double lift : kLifts) {
+  for (const double lift : {1e-7, 1e-9, 1e-11, 1e-13, 1e-15}) {
     const auto found = with(lift);
     if (!found || found->value <= before) break;
     best = std::max(best, std::optional(before = found->value));

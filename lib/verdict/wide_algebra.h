@@ -53,8 +53,7 @@ MatrixOf<S> lower_inverse(const MatrixOf<S>& L) {
   for (Eigen::Index j = 0; j < n; ++j) {
     inverse(j, j) = S(1) / L(j, j);
     for (Eigen::Index i = j + 1; i < n; ++i) {
-      S sum(0);
-      for (Eigen::Index k = j; k < i; ++k) sum += L(i, k) * inverse(k, j);
+      const S sum = L.row(i).segment(j, i - j).dot(inverse.col(j).segment(j, i - j));
       inverse(i, j) = -sum / L(i, i);
     }
   }
