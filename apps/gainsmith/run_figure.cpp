@@ -49,6 +49,25 @@ std::vector<PlannedPanel> parted(const PlannedPanel& planned) {
   return panels;
 }
 
+/// Behind each estimate what corrects it.
+PlannedPanel with_measurements(PlannedPanel panel, const DrawnRun& run) {
+  constexpr int kGrey = 7;
+  std::vector<PlannedLine> lines;
+  for (const Correction& one : run.corrections) {
+    const auto draws = [&](std::size_t column) {
+      return [column](const PlannedLine& line) {
+        return line.columns == std::vector{column} && !line.across && !line.size;
+      };
+    };
+    if (std::ranges::any_of(panel.lines, draws(one.estimate)) &&
+        std::ranges::none_of(panel.lines, draws(one.measured)) &&
+        std::ranges::none_of(lines, draws(one.measured)))
+      lines.push_back({{one.measured}, {}, run.replay.columns[one.measured].name, false, kGrey});
+  }
+  panel.lines.insert(panel.lines.begin(), lines.begin(), lines.end());
+  return panel;
+}
+
 /// A tick at each event.
 void add_marks(const Replay& replay, report::Figure& figure) {
   for (std::size_t row = 0; row < replay.events.size(); ++row)
@@ -164,7 +183,8 @@ DrawnRun drawn_run(const verify::Setup& setup, std::uint64_t number, hybrid::Tra
       fill(replay.run.end / std::min(kPoints * std::ceil(std::sqrt(bend)), kMostPoints));
   }
   verify::add_rounding(setup, step, replay);
-  return {number, std::move(replay)};
+  auto corrected = corrections(setup.events->system, replay);
+  return {number, std::move(replay), std::move(corrected)};
 }
 
 std::vector<double> values_of(const Replay& replay, std::size_t column) {
@@ -244,7 +264,7 @@ std::string run_figure(const std::string& title, const std::vector<DrawnRun>& ru
       figure.panels.push_back(std::move(claims));
     if (!panel.claims.empty()) continue;
     if (runs.size() == 1)
-      figure.panels.push_back(panel_of(panel, runs));
+      figure.panels.push_back(panel_of(with_measurements(panel, runs.front()), runs));
     else
       for (const PlannedPanel& part : parted(panel)) figure.panels.push_back(panel_of(part, runs));
   }

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "gainsmith/corrections.h"
 #include "gainsmith/run_table.h"
 #include "model/design.h"
 #include "verify/replay.h"
@@ -35,6 +36,7 @@ struct RunView {
 struct DrawnRun {
   std::uint64_t number = 0;
   verify::Replay replay;
+  std::vector<Correction> corrections{};
 };
 
 /// "states", "errors", "inputs", "claims".

@@ -22,6 +22,13 @@ std::string own_name(const Column& column) {
   return column.observer.empty() ? column.name : column.name.substr(column.name.rfind('.') + 1);
 }
 
+/// "P1_2".
+bool is_of_matrix(const std::string& name) {
+  const auto is_digit = [](char c) { return '0' <= c && c <= '9'; };
+  const std::size_t at = name.rfind('_');
+  return at != std::string::npos && at > 0 && is_digit(name[at - 1]) && is_digit(name.back());
+}
+
 /// Whether the stem is named, alone or with its observer.
 bool has_stem(const Column& column, const std::string& name) {
   return column.stem == name || column.observer + "." + column.stem == name;
@@ -204,7 +211,7 @@ class Planner {
       if (panels_.size() < kMostPanels) add_quantity({k});
   }
 
-  /// Where the plant has neither, as a log: one panel a state of the observers.
+  /// Where the plant has neither, as a log: one panel a state of the observers, matrices last.
   void add_own_states() {
     std::vector<std::string> names;
     for (const std::size_t k : columns(
@@ -212,6 +219,7 @@ class Planner {
       if (const std::string name = own_name(column(k));
           std::find(names.begin(), names.end(), name) == names.end())
         names.push_back(name);
+    std::ranges::stable_partition(names, [](const auto& one) { return !is_of_matrix(one); });
     for (const std::string& name : names)
       if (panels_.size() < kMostPanels)
         add_quantity(columns([&](const Column& one) {

@@ -100,6 +100,28 @@ TEST(MeasuredTest, ALogOfSamplesGivesTheSameEstimates) {
   EXPECT_EQ(at_event(run, "y", "sample"), at_event(again, "y", "sample"));
 }
 
+/// y(1) is compared with xh(1): its panel has both, that of xh(2) the estimate alone.
+TEST(MeasuredTest, AMeasurementIsDrawnBehindTheStateThatItCorrects) {
+  const Folder folder;
+  folder.file("log.csv", "t,y,u\n0,1,0\n0.5,0.9,0\n1,0.4,0\n1.5,-0.1,0\n");
+  const std::string problem =
+      problem_with("{sample: {at: {csv: log.csv, column: t}}}",
+                   "  inputs: {u: {csv: log.csv, column: u}}\n"
+                   "  plant: {log: log.csv, output: {y: {column: y, at: sample}}}\n" +
+                       kObserver);
+  const auto legends = [&](const std::string& panels) {
+    const std::string svg = folder.path("run.svg");
+    const Outcome outcome =
+        gainsmith({"simulate", folder.file("p.yaml", with(problem, "horizon: 5", "horizon: 1.5")),
+                   "--plot", svg, "--panels", panels});
+    EXPECT_EQ(outcome.exit, 0) << outcome.err;
+    const std::string picture = text_of(svg);
+    return std::pair(has(picture, ">y<"), has(picture, ">xh1<") || has(picture, ">xh2<"));
+  };
+  EXPECT_EQ(legends("xh1"), std::pair(true, true));
+  EXPECT_EQ(legends("xh2"), std::pair(false, true));
+}
+
 TEST(MeasuredTest, LinesBetweenRowsErrByTheSquareOfTheirDistance) {
   const std::string follower =
       "  observer: {state: {zh: {shape: 2, start: 0}}, flow: {zh: \"A*zh + b*u + [3; 2]*(z - "
