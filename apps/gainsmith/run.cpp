@@ -132,6 +132,7 @@ std::vector<ProblemFile> own_problems(const RunOptions& options) {
   const std::vector<ProblemFile> all = problem_files(options.problems);
   if (!options.shard.empty()) {
     std::vector<std::string> names;
+    names.reserve(all.size());
     for (const ProblemFile& problem : all) names.push_back(problem.name);
     write_problem_list(options.output, names);
   }

@@ -219,7 +219,8 @@ class Planner {
       if (const std::string name = own_name(column(k));
           std::find(names.begin(), names.end(), name) == names.end())
         names.push_back(name);
-    std::ranges::stable_partition(names, [](const auto& one) { return !is_of_matrix(one); });
+    std::stable_partition(names.begin(), names.end(),
+                          [](const auto& one) { return !is_of_matrix(one); });
     for (const std::string& name : names)
       if (panels_.size() < kMostPanels)
         add_quantity(columns([&](const Column& one) {
@@ -316,7 +317,7 @@ class Planner {
 
   /// The elements of a name: exactly it, or that of each observer.
   std::vector<std::size_t> elements(const std::string& name) const {
-    const auto found =
+    std::vector<std::size_t> found =
         columns([&](const Column& one) { return one.name == name || own_name(one) == name; });
     if (found.empty() && !columns([&](const Column& one) { return has_stem(one, name); }).empty())
       throw InputError(

@@ -208,9 +208,9 @@ void add_comparisons(const std::vector<expr::Expression>& comparisons,
       relations.push_back(std::move(relation));
   const std::string at = member.empty() ? "" : " at " + member;
   for (std::size_t k = 0; k < relations.size(); ++k) {
-    const std::string number = relations.size() > 1 ? "." + std::to_string(k + 1) : "";
+    const std::string end = (relations.size() > 1 ? "." + std::to_string(k + 1) : "") + at;
     bound.comparisons.push_back(
-        {stem + number + at, std::move(relations[k].difference), relations[k].strict});
+        {stem + end, std::move(relations[k].difference), relations[k].strict});
   }
 }
 
