@@ -1,0 +1,340 @@
+"""Whole gain files: what is proved, what is not, and damaged files."""
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from fractions import Fraction
+
+import helper
+from helper import CERTIFY, gain, one_claim, path, problem, with_text
+from no import prove_no
+from yes import prove_yes
+
+YES = ["lyapunov", "observer", "sampled", "equations", "modes", "polytope", "clock", "box",
+       "bounds", "edge"]
+NO = ["lyapunov-no", "undetectable", "uncontrollable", "sampled-no", "disk-no"]
+
+def results(found):
+    claims, gains, at_gains = prove_yes(found)
+    return {c.name: c.result for c in claims}
+
+def result(*arguments, **more):
+    """The result of a problem with one claim."""
+    (found,) = results(one_claim(*arguments, **more)).values()
+    return found
+
+def least_of_flow(a):
+    """The least eigenvalue of expm(a t)'expm(a t), t in [0, 2], by a search with 40 digits."""
+    def least(t):
+        # Squares of a shorter time keep the series of the helper exact enough.
+        e = helper.exponential(a, t / 4)
+        e = helper.product(e, e)
+        e = helper.product(e, e)
+        g = helper.product(helper.transposed(e), e)
+        half, d = (g[0][0] + g[1][1]) / 2, (g[0][0] - g[1][1]) / 2
+        return helper.to_decimal(half) - helper.to_decimal(d * d + g[0][1] ** 2).sqrt()
+
+    centre = min((Fraction(k, 40) for k in range(81)), key=least)
+    low, high = max(centre - Fraction(1, 40), Fraction(0)), min(centre + Fraction(1, 40),
+                                                                Fraction(2))
+    for _ in range(45):
+        third = (high - low) / 3
+        if least(low + third) < least(high - third): high -= third
+        else: low += third
+        low, high = Fraction(round(low * 2 ** 90), 2 ** 90), Fraction(round(high * 2 ** 90),
+                                                                      2 ** 90)
+    return min(Fraction(least(t)) for t in (low, high, centre))
+
+class Yes(unittest.TestCase):
+    def test_files_are_proved(self):
+        count = {"modes": 6, "bounds": 5, "observer": 3, "lyapunov": 2, "equations": 4, "edge": 4}
+        for name in YES:
+            found = results(gain(name))
+            self.assertEqual(set(found.values()), {"proved"}, name)
+            self.assertEqual(len(found), count.get(name, len(found)), name)
+
+    def test_every_requirement_is_a_claim(self):
+        self.assertEqual(list(results(gain("sampled"))), ["positive", "step"])
+        self.assertEqual(list(results(gain("modes"))), [
+            "positive at i = 1", "positive at i = 2", "mode at i = 1", "mode at i = 2",
+            "switch at i = 1, j = 2", "switch at i = 2, j = 1"])
+        found = with_text("lyapunov", ("decrease: He(P*A) < 0", "decrease: eig(P) < 0"))
+        self.assertEqual(results(found), {"positive": "proved", "decrease": "open"})
+        found = with_text("lyapunov", ("P > I", "I < P < 1e9*I"))
+        self.assertEqual(list(results(found)), ["positive.1", "positive.2", "decrease"])
+
+    def test_strict_and_not_strict(self):
+        found = results(with_text("edge", ("psd: P >= 0", "psd: P > 0")))
+        self.assertEqual(found["psd"], "refuted")
+        for that, value, expected in (
+                ("x >= 0", "0", "proved"), ("x > 0", "0", "refuted"), ("x <= 0", "0", "proved"),
+                ("x < 0", "0", "refuted"), ("x < 1e-200", "0", "proved"), ("0 < x < 1", "1", None),
+                ("x == 1", "1", "proved"), ("x == 1", "1.0000000000000001", "refuted"),
+                ("[x, 1; 1, 1] >= 0", "1", "proved"), ("[x, 1; 1, 1] > 0", "1", "refuted"),
+                ("[0, x; x, 1] >= 0", "1e-90", "refuted"), ("norm(x) <= 1", "1", "proved"),
+                ("norm([x; 0]) < 1", "1", "refuted"), ("abs(x) <= 1", "-1", "proved"),
+                ("abs(x) < 1", "-1", "refuted"), ("max(x, 2*x) <= 2", "1", "proved"),
+                ("max(x, 2*x) < 2", "1", "refuted"), ("max(x, 0) <= [3; 0.5]", "1", "refuted"),
+                ("abs(x) <= [3; 0.5]", "1", "refuted"), ("abs(x) <= [3; 1]", "-1", "proved"), ("min(x, 2*x) >= 1", "1", "proved"),
+                ("min(x, 2*x) > 1", "1", "refuted"), ("[x; 2; -1] > 0", "1", "refuted"),
+                ("[x; 2; 1] > 0", "1", "proved"), ("[x, 2, -1] > 0", "1", "refuted"),
+                ("lambda_max([x, 1; 1, x]) <= 2", "1", "proved"),
+                ("lambda_max([x, 1; 1, x]) < 2", "1", "refuted"),
+                ("lambda_min([x, 1; 1, x]) >= 0", "1", "proved"),
+                ("lambda_min([x, 1; 1, x]) > 0", "1", "refuted")):
+            found = set(results(one_claim("", that, {"x": value})).values())
+            if expected: self.assertEqual(found, {expected}, (that, value))
+            else: self.assertEqual(found, {"proved", "refuted"})
+
+    def test_intervals(self):
+        for forall, that, expected in (
+                ("t in [0, 1]", "exp(t) >= x + t + 1", "open"),         # touches at 0
+                ("t in [0, 1]", "exp(t) > t + 0.9999999", "proved"),
+                ("t in [0, 3]", "cos(t) > -0.9899925", "proved"),       # cos 3 = -0.98999249660
+                ("t in [0, 3]", "cos(t) > -0.9899924", "refuted"),
+                ("t in [0, 4]", "cos(t) > -1.0000001", "proved"),
+                ("t in [0, 4]", "cos(t) > -0.9999999", "refuted"),
+                ("t in [1, 2]", "1/t > 0.4999999", "proved"),
+                ("t in [1, 2]", "1/t > 0.5000001", "refuted"),
+                ("t in [1, 2]", "1/t > 0.5", "refuted"),
+                ("t in [1, 2]", "log(t) + 1 > 0.9999999", "proved"),
+                ("t in [1, 2]", "log(t) > 0.0000001", "refuted"),
+                ("t in [1, 9]", "sqrt(t) > 0.9999999", "proved"),
+                ("t in [1, 9]", "sqrt(t) > 1.0000001", "refuted"),
+                ("t in [-1, 1]", "1/t > -1e9", "refuted"),
+                ("t in [0, 2]", "x < 1", "proved"), ("t in [0, 2]", "x < 0", "refuted"),
+                ("t in [0, 2]", "(t - 1)*0 == 0", "proved"),
+                ("t in [0, 2]", "t*x == x", "proved"), ("t in [0, 2]", "t == 1", "open"),
+                ("t in [0, 2]", "(t - 1.3)^2 > 1e-9*(t - 5)", "proved"),
+                ("t in [0, 2]", "(t - 1.3)^2 > 1e-9", "refuted"),
+                ("t in [-1, 2]", "t^2 > 0", "open"),
+                ("t in [0, pi]", "sin(t) > -1e-9", "proved"),
+                ("t in [2, 1]", "x < 1", "open"),
+                ("t in {0.1, 0.5}", "t < 0.5", None),
+                ("k in 1..3", "k < 3", None)):
+            found = results(one_claim(forall, that))
+            if expected: self.assertEqual(set(found.values()), {expected}, (forall, that))
+            else: self.assertEqual(set(found.values()), {"proved", "refuted"}, that)
+
+    def test_values_just_below_and_above_the_least_of_a_flow(self):
+        """expm(A t)'expm(A t) > g I on [0, 2], with g 1e-8 below and above the true least value.
+
+        CERTIFY_FLOWS is the number of random matrices A."""
+        for k in range(int(os.environ.get("CERTIFY_FLOWS", "2"))):
+            random = helper.random.Random(k)
+            a = [[Fraction(random.randint(-150, 150), 100) for _ in range(2)] for _ in range(2)]
+            bottom = least_of_flow(a)
+            rows = "; ".join(", ".join(str(helper.to_decimal(x)) for x in r) for r in a)
+            for side, expected in ((-1, "proved"), (1, "refuted")):
+                g = bottom * (1 + Fraction(side, 10 ** 8))
+                text = "expm([%s]*t)'*expm([%s]*t) > %s*eye(2)" % (
+                    rows, rows, str(helper.to_decimal(g))[:40])
+                found = result("t in [0, 2]", text)
+                self.assertIn(found, (expected, "open"), (k, text))
+                if side < 0: self.assertEqual(found, "proved", (k, text))
+
+    def test_boxes_and_columns(self):
+        for that, expected in (("v(1)^2 + v(2)^2 < 5.0001", "proved"),
+                               ("v(1)^2 + v(2)^2 < 4.9999", "refuted"),
+                               ("v(1)*v(2) > -2.0001", "proved"),
+                               ("v(1)*v(2) > -1.999", "refuted")):
+            self.assertEqual(result("v in [[-1; -2], [1; 2]]", that), expected, that)
+
+    def test_polytopes_need_affine_matrices(self):
+        self.assertEqual(set(results(one_claim("t in conv{-1, 1}", "t^2 >= 1")).values()), {"open"})
+        self.assertEqual(set(results(one_claim("t in conv{-1, 1}", "t >= -1")).values()),
+                         {"proved"})
+
+    def test_unknowns(self):
+        found = gain("lyapunov")
+        found["unknowns"]["P"][0][1] = helper.Numeral("0.1")
+        self.assertEqual(set(results(found).values()), {"open"})
+        text = "problem: p\nmethod:\n  unknowns: {P: symmetric 2}\n  require: {c: P > 0}\n"
+        self.assertEqual(results(problem(text, {"P": [["2", "1"], ["-1", "2"]]})), {"c": "open"})
+        self.assertEqual(results(problem(text, {"P": [["2", "1"], ["1", "2"]]})), {"c": "proved"})
+        self.assertEqual(results(problem(text, {"P": [["2"]]})), {"c": "open"})
+        self.assertEqual(results(problem(text, {})), {"c": "open"})
+        text = text.replace("symmetric 2", "2 x 2")
+        self.assertEqual(results(problem(text, {"P": [["2", "1"], ["-1", "2"]]})), {"c": "open"})
+        text = text.replace("2 x 2", "diagonal 2")
+        self.assertEqual(results(problem(text, {"P": [["2", "1"], ["1", "2"]]})), {"c": "open"})
+
+    def test_unknown_functions(self):
+        text = ("problem: p\nmethod:\n  unknowns: {P: {shape: scalar, of: s, %s degree: 2}}\n"
+                "  require: {c: P(3) == %s, d: derivative(P)(3) == %s}\n")
+        values = {"P_0": "1", "P_1": "2", "P_2": "3"}
+        powers = text % ("", "34", "20")
+        self.assertEqual(results(problem(powers, values)), {"c": "proved", "d": "proved"})
+        # On [0, 4], u = (3 - 2)/2 and T_2 = 2 u^2 - 1: 1 + 1 - 3/2, and 2/2 + 3*4*u/2.
+        chebyshev = text % ("in: [0, 4],", "0.5", "4")
+        self.assertEqual(results(problem(chebyshev, values)), {"c": "proved", "d": "proved"})
+
+    def test_gains(self):
+        claims, gains, at_gains = prove_yes(gain("observer"))
+        self.assertEqual(at_gains, ["L"])
+        self.assertLessEqual(gains[0].ulps, 1)
+        found = gain("observer")
+        found["gains"]["L"][0][0] = helper.Numeral("9.5")
+        claims, gains, at_gains = prove_yes(found)
+        self.assertEqual((at_gains, gains[0].ulps > 10 ** 9), ([], True))
+
+    def test_gains_that_are_functions_and_families(self):
+        text = ("problem: p\nmethod:\n  unknowns:\n    P: {shape: 2, of: s, degree: 1}\n"
+                "    Q: {shape: scalar, for: i in 1..2}\n"
+                "  require: {c: P(1) > 0, d: {forall: i in 1..2, that: Q(i) > 0}}\n"
+                "  gains: {\"F(s)\": 2*P(s), \"K(i in 1..2)\": 1/Q(i), H: K_1*P(0)}\n")
+        found = problem(text, {"P_0": ["1", "2"], "P_1": ["3", "4"], "Q_1": "4", "Q_2": "5"},
+                        {"K_1": "0.25", "K_2": "0.2000000001", "H": ["0.25", "0.5"]})
+        found["gain_functions"] = {"F": {"coefficients": [[[helper.Numeral(x)] for x in c] for c in
+                                                          (("2", "4"), ("6", "8.00001"))]}}
+        claims, gains, _ = prove_yes(found)
+        self.assertEqual({c.result for c in claims}, {"proved"})
+        ulps = {g.name: g.ulps for g in gains}
+        self.assertEqual((ulps["K_1"], ulps["H"]), (0, 0))
+        self.assertGreater(ulps["F"], 10 ** 9)
+        self.assertGreater(ulps["K_2"], 10 ** 6)
+
+    def test_variants(self):
+        found = gain("lyapunov")
+        base = found["statement"]["problem_text"]
+        found["statement"]["files"] = [{"file": "b.yaml", "text": base, "sha256": ""}]
+        found["statement"]["problem_text"] = "problem: v\nlike: b.yaml\ndata: {A: '[1, 0; 0, 1]'}\n"
+        self.assertEqual(results(found)["decrease"], "refuted")
+        found["statement"]["problem_text"] = ("problem: v\nlike: b.yaml\n"
+                                              "method: {require: {decrease: none}}\n")
+        self.assertEqual(results(found), {"positive": "proved"})
+        found["statement"]["problem_text"] = "problem: v\nlike: b.yaml\n"
+        found["statement"]["set"] = {"A": "[1, 0; 0, 1]"}
+        self.assertEqual(results(found)["decrease"], "refuted")
+
+class No(unittest.TestCase):
+    def test_files_are_proved(self):
+        for name in NO:
+            found = gain(name)
+            claim = prove_no(found, found["certificate"])
+            self.assertEqual(claim.result, "proved", (name, claim.how))
+
+    def test_feasible_problems_have_no_proof(self):
+        for name, change in (("lyapunov-no", ("[0.1, -2, -3]", "[-0.1, -2, -3]")),
+                             ("lyapunov-no", ("[0.1, -2, -3]", "[-1e-12, -2, -3]")),
+                             ("undetectable", ("C: [0, 0]", "C: [1, 0]")),
+                             ("undetectable", ("A: [[1, 0]", "A: [[-1, 0]")),
+                             ("uncontrollable", ("B: [[0], [1], [1]]", "B: [[1], [1], [1]]")),
+                             ("uncontrollable", ("A: [[1, 0, 0]", "A: [[-1, 0, 0]")),
+                             ("sampled-no", ("k: 1.5", "k: 1000")),
+                             ("sampled-no", ("k: 1.5", "k: 12")),
+                             ("disk-no", ("r: 1.3", "r: 1.6")),
+                             ("lyapunov-no", ("P > 0, decrease: He(P*A) < 0",
+                                              "P >= 0, decrease: He(P*A) <= 0"))):
+            found = with_text(name, change)
+            claim = prove_no(found, found["certificate"])
+            self.assertEqual(claim.result, "open", (name, change))
+
+    def test_constant_parts_count(self):
+        text = ("problem: p\nmethod:\n  unknowns: {x: scalar}\n"
+                "  require: {a: x >= %s, b: x <= %s}\n")
+        certificate = {"multipliers": {"a": helper.Numeral("1"), "b": helper.Numeral("1")}}
+        for low, high, expected in (("2", "1", "proved"), ("1", "2", "open"), ("1", "1", "open"),
+                                    ("1", "1.0000001", "open"), ("1.0000001", "1", "proved")):
+            found = problem(text % (low, high), {})
+            self.assertEqual(prove_no(found, certificate).result, expected, (low, high))
+        found = problem(text.replace(">=", ">") % ("1", "1"), {})
+        self.assertEqual(prove_no(found, certificate).result, "open")   # the rule needs v > 0
+
+    def test_factors(self):
+        """A certificate with factors of its multipliers, at points in full decimals."""
+        text = ("problem: p\nmethod:\n  unknowns: {x: scalar, y: scalar}\n"
+                "  require: {a: {forall: \"t in [0, 1]\", that: x >= 0*t}, b: -x >= 0, c: y > 0,"
+                " d: x > y}\n")
+        def result(**factors):
+            blocks = [{"requirement": k, "comparison": "1", "at": {"t": "0.5"} if k == "a" else {},
+                       "factor": [[str(v)]]} for k, v in factors.items()]
+            return prove_no(problem(text, {}), {"blocks": blocks}).result
+        self.assertEqual(result(a=1, b=1, c=0), "open")     # c has no multiplier
+        self.assertEqual(result(a=1, b=1), "open")          # nothing is strict
+        self.assertEqual(result(b=1, c=1, d=1), "proved")
+        # A factor that is 0 except where z relaxes e. Feasible: x = 0, y = z = 1.
+        text = ("problem: p\nmethod:\n  unknowns: {x: scalar, y: scalar, z: scalar}\n"
+                "  require: {a: \"[x, 0, 0; 0, 1, y; 0, y, 1] >= 0\", b: -x >= 0,"
+                " e: \"[y, 0; 0, z] > 0\"}\n")
+        blocks = [{"requirement": k, "factor": [[x] for x in factor]} for k, factor in (
+            ("a", ("1", "0", "0")), ("b", ("1",)), ("e", ("0", "1")))]
+        self.assertEqual(prove_no(problem(text, {}), {"blocks": blocks}).result, "open")
+
+    def test_points_outside_of_their_interval_are_refused(self):
+        text = ("problem: p\nmethod:\n  unknowns: {x: scalar}\n"
+                "  require: {a: {forall: \"t in [0, 1]\", that: x >= t}, b: x <= 1.5}\n")
+        for at, expected in (("1", "open"), ("2", "open")):
+            certificate = {"multipliers": {"a at t = " + at: helper.Numeral("1"),
+                                           "b": helper.Numeral("1")}}
+            self.assertEqual(prove_no(problem(text, {}), certificate).result, expected)
+
+class Program(unittest.TestCase):
+    def run_program(self, *arguments):
+        done = subprocess.run([sys.executable, CERTIFY, *arguments], capture_output=True, text=True)
+        self.assertEqual(done.stderr, "")
+        return done.returncode, done.stdout
+
+    def test_exit_codes_and_lines(self):
+        code, out = self.run_program(path("lyapunov"))
+        self.assertEqual(code, 0)
+        self.assertRegex(out, r"^proved .*2 claims \(2 in fractions\)")
+        code, out = self.run_program(path("regulator"))
+        self.assertEqual(code, 0)
+        self.assertIn("nothing to prove", out)
+        code, out = self.run_program(path("edge-no"), path("lyapunov"))
+        self.assertEqual(code, 3)
+
+    def test_refuted(self):
+        with open(path("lyapunov"), encoding="utf-8") as stream: text = stream.read()
+        found = json.loads(text)
+        found["unknowns"]["P"] = [[1, 2], [2, 1]]
+        with tempfile.TemporaryDirectory() as folder:
+            name = os.path.join(folder, "gains.json")
+            with open(name, "w", encoding="utf-8") as stream: json.dump(found, stream)
+            code, out = self.run_program("--claims", name)
+            self.assertEqual(code, 1)
+            self.assertIn("v = [", out)
+            code, out = self.run_program("--json", name)
+            claim = json.loads(out)["claims"][0]
+            v = [Fraction(x) for x in claim["vector"]]
+            p = [[Fraction(0), Fraction(2)], [Fraction(2), Fraction(0)]]     # P - I
+            self.assertLess(sum(v[i] * p[i][j] * v[j] for i in range(2) for j in range(2)), 0)
+
+    def test_damaged_files(self):
+        with open(path("lyapunov"), encoding="utf-8") as stream: text = stream.read()
+        good = json.loads(text)
+        damaged = ["", "{", "[]", "1", "{}", text[:len(text) // 2], text.replace("yes", "maybe", 1),
+                   text.replace("He(P*A)", "He(P*B)"), text.replace('"P"', '"P": 1, "P"', 1),
+                   "[" * 100000, '{"verdict": NaN}', "\x00\xff", text.replace("[0, 1]", "[0, 2]")]
+        for key, value in (("unknowns", 3), ("unknowns", {"P": "x"}), ("gains", None),
+                           ("statement", {}), ("unknowns", {"P": [[True]]}), ("searched", [])):
+            damaged.append(json.dumps(dict(good, **{key: value})))
+        with tempfile.TemporaryDirectory() as folder:
+            for k, content in enumerate(damaged):
+                name = os.path.join(folder, "%d.json" % k)
+                with open(name, "w", encoding="utf-8") as stream: stream.write(content)
+            names = [os.path.join(folder, "%d.json" % k) for k in range(len(damaged))]
+            code, out = self.run_program(*names, os.path.join(folder, "missing.json"))
+            self.assertEqual(code, 2)
+            lines = out.strip().split("\n")
+            self.assertEqual(len(lines), len(damaged) + 1)
+            for line in lines: self.assertTrue(line.startswith("not a gain file"), line)
+
+    def test_time_limit(self):
+        code, out = self.run_program("--time", "0.05", path("sampled"))
+        self.assertIn(code, (0, 3))
+
+    def test_it_runs_alone(self):
+        for name in os.listdir(CERTIFY):
+            if name.endswith(".py"):
+                with open(os.path.join(CERTIFY, name), encoding="utf-8") as stream:
+                    for line in stream:
+                        self.assertNotRegex(line, r"^\s*(from|import) (numpy|gmpy2|mpmath|scipy)")
+                        self.assertLessEqual(len(line.rstrip("\n")), 100)
+
+if __name__ == "__main__":
+    unittest.main()
