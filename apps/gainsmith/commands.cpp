@@ -16,8 +16,8 @@ Program all_commands() {
       "Each subcommand has --help with examples.",
       {synth_command(), bisect_command(), scan_command(), optimize_command(), explain_command(),
        verify_command(), merge_command(), simulate_command(), run_command(), report_command(),
-       check_command(), export_command(), solve_command(), methods_command(), init_command(),
-       schema_command(), completions_command(), manual_command()}};
+       check_command(), certify_command(), export_command(), solve_command(), methods_command(),
+       init_command(), schema_command(), completions_command(), manual_command()}};
 }
 
 }  // namespace gainsmith::app

@@ -16,6 +16,7 @@ Command simulate_command();
 Command run_command();
 Command report_command();
 Command check_command();
+Command certify_command();
 Command export_command();
 Command solve_command();
 Command methods_command();

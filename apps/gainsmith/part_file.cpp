@@ -16,7 +16,7 @@ namespace {
 constexpr const char* kWhat =
     "a part that --shard of 'gainsmith verify' or 'gainsmith scan' writes";
 
-const char* word_of(PartKind kind) { return kind == PartKind::campaign ? "campaign" : "scan"; }
+const char* name_of_part(PartKind kind) { return kind == PartKind::campaign ? "campaign" : "scan"; }
 
 std::string said(const io::Json& statement, const std::string& key) {
   const auto found = statement.find(key);
@@ -36,7 +36,7 @@ io::Json begin_statement(const char* kind) {
 }
 
 io::Json part_head(PartKind kind, const Shard& shard, const io::Json& statement) {
-  return {{"part", word_of(kind)}, {"shard", to_text(shard)}, {"statement", statement}};
+  return {{"part", name_of_part(kind)}, {"shard", to_text(shard)}, {"statement", statement}};
 }
 
 io::Json read_part(const std::string& file) {
@@ -51,7 +51,8 @@ io::Json read_part(const std::string& file) {
 }
 
 PartKind kind_of(const io::Json& part) {
-  return part.value("part", "") == word_of(PartKind::scan) ? PartKind::scan : PartKind::campaign;
+  return part.value("part", "") == name_of_part(PartKind::scan) ? PartKind::scan
+                                                                : PartKind::campaign;
 }
 
 Shard shard_of(const io::Json& part) { return parse_shard(part.value("shard", "")); }
@@ -60,8 +61,8 @@ void require_same_work(const io::Json& part, const std::string& file, const io::
                        const std::string& first_file) {
   if (kind_of(part) != kind_of(first))
     throw InputError(
-        {file}, fmt::format("this is a part of a {}, and {} one of a {}", word_of(kind_of(part)),
-                            first_file, word_of(kind_of(first))));
+        {file}, fmt::format("this is a part of a {}, and {} one of a {}",
+                            name_of_part(kind_of(part)), first_file, name_of_part(kind_of(first))));
   std::string different = difference_of(part.at("statement"), first.at("statement"));
   if (different.starts_with("gains_sha256"))
     different = fmt::format("other gains, {}", part.value("source", ""));
@@ -69,7 +70,7 @@ void require_same_work(const io::Json& part, const std::string& file, const io::
     different = "another text of the problem, or other values of --set";
   if (!different.empty())
     throw InputError({file}, fmt::format("this part is of another {} than {}: {}",
-                                         word_of(kind_of(part)), first_file, different));
+                                         name_of_part(kind_of(part)), first_file, different));
 }
 
 std::string difference_of(const io::Json& found, const io::Json& expected) {

@@ -1,19 +1,15 @@
 #include "gainsmith/picture_file.h"
 
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <sstream>
 #include <system_error>
 #include <vector>
 
 #include "base/error.h"
 #include "base/file.h"
+#include "gainsmith/other_program.h"
 
 namespace gainsmith::app {
 
@@ -46,32 +42,6 @@ std::string extension_of(const std::string& path) {
   return std::filesystem::path(path).extension().string();
 }
 
-bool is_installed(const std::string& command) {
-  const char* const path = std::getenv("PATH");
-  std::istringstream folders(path == nullptr ? "" : path);
-  for (std::string folder; std::getline(folders, folder, ':');)
-    if (::access((std::filesystem::path(folder) / command).c_str(), X_OK) == 0) return true;
-  return false;
-}
-
-/// Runs the converter and waits for it. The time of a PDF is that of SOURCE_DATE_EPOCH.
-bool convert(std::vector<std::string> arguments) {
-  std::vector<char*> argv, environment;
-  for (std::string& argument : arguments) argv.push_back(argument.data());
-  argv.push_back(nullptr);
-  std::string epoch = "SOURCE_DATE_EPOCH=0";
-  for (char** one = environ; *one != nullptr; ++one) environment.push_back(*one);
-  if (std::getenv("SOURCE_DATE_EPOCH") == nullptr) environment.push_back(epoch.data());
-  environment.push_back(nullptr);
-  pid_t child = 0;
-  if (::posix_spawnp(&child, kConverter, nullptr, nullptr, argv.data(), environment.data()) != 0)
-    return false;
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0)
-    if (errno != EINTR) return false;
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
-}
-
 }  // namespace
 
 void check_picture_name(const std::string& path) {
@@ -97,8 +67,10 @@ void write_picture(const std::string& path, const std::string& svg) {
   const TemporaryFolder folder;
   write_atomically(folder.file("picture.svg"), svg);
   const std::string made = folder.file("made");
-  if (!convert({kConverter, "--format", extension.substr(1), "--zoom",
-                extension == ".png" ? "2" : "1", "--output", made, folder.file("picture.svg")}))
+  // The time of a PDF is that of SOURCE_DATE_EPOCH.
+  if (run_program({kConverter, "--format", extension.substr(1), "--zoom",
+                   extension == ".png" ? "2" : "1", "--output", made, folder.file("picture.svg")},
+                  {"SOURCE_DATE_EPOCH=0"}) != 0)
     throw InputError({path}, "rsvg-convert could not make this picture");
   write_atomically(path, read_text(made));
 }

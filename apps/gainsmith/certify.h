@@ -1,0 +1,17 @@
+// The second program, scripts/certify: Python that proves what gain files say and shares nothing with
+// this program (docs/trust.md).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+
+namespace gainsmith::app {
+
+/// Its answer about gain files, with its own options: yes when all is proved, no when something is
+/// refuted, undecided when something is open. It prints to standard output. InputError when python3
+/// or the folder is not there.
+ExitCode certify(std::vector<std::string> arguments);
+
+}  // namespace gainsmith::app

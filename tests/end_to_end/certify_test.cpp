@@ -1,0 +1,45 @@
+// The second program, called by the first.
+#include <gtest/gtest.h>
+
+#include "end_to_end/program.h"
+
+namespace gainsmith::tests {
+namespace {
+
+std::string lyapunov(const std::string& A) {
+  return "problem: p\nmethod:\n  data: {A: 2 x 2}\n  unknowns: {P: symmetric 2}\n"
+         "  require: {decreases: He(P*A) < 0, positive: P > I}\ndata: {A: " +
+         A + "}\nno campaign: static\n";
+}
+
+TEST(Certify, SaysYesNoAndUndecidedByItsExitCode) {
+  const Folder folder;
+  const std::string gains = folder.path("gains.json");
+  ASSERT_EQ(
+      gainsmith({"synth", folder.file("p.yaml", lyapunov("[[-1, 2], [0, -3]]")), "-o", gains}).exit,
+      0);
+  const Outcome proved = gainsmith({"certify", gains, "--claims"});
+  EXPECT_EQ(proved.exit, 0) << proved.out << proved.err;
+  EXPECT_TRUE(has(proved.out, "proved")) << proved.out;
+  EXPECT_TRUE(has(proved.out, "decreases")) << proved.out;
+
+  const std::string first = "\"P\": [\n      [";
+  const std::string negative = folder.file("f.json", with(text_of(gains), first, first + "-"));
+  const Outcome refuted = gainsmith({"certify", negative, "--claims"});
+  EXPECT_EQ(refuted.exit, 1) << refuted.out << refuted.err;
+  EXPECT_TRUE(has(refuted.out, "refuted")) << refuted.out;
+  const Outcome edited =
+      gainsmith({"certify", folder.file("e.json", with(text_of(gains), "-3", "3"))});
+  EXPECT_EQ(edited.exit, 2) << edited.out << edited.err;
+
+  EXPECT_EQ(
+      gainsmith({"synth", folder.file("n.yaml", lyapunov("[[1, 2], [0, -3]]")), "-o", gains}).exit,
+      1);
+  EXPECT_EQ(gainsmith({"certify", gains}).exit, 0);
+
+  const Outcome wrong = gainsmith({"certify", folder.file("p.json", "[1, 2]")});
+  EXPECT_EQ(wrong.exit, 2) << wrong.out << wrong.err;
+}
+
+}  // namespace
+}  // namespace gainsmith::tests
