@@ -174,9 +174,11 @@ Json to_json(const verify::CampaignFacts& facts) {
   if (facts.different) document["different_runs"] = *facts.different;
   document["events"] = facts.events;
   document["doubts"] = facts.doubts;
-  document["growing"] = facts.growing;
   document["claims"] = list(facts.claims, [](const verify::ClaimFacts& claim) -> Json {
-    return {{"claim", claim.name}, {"kind", to_string(claim.kind)}, {"missing", claim.missing}};
+    return {{"claim", claim.name},
+            {"kind", to_string(claim.kind)},
+            {"missing", claim.missing},
+            {"growing", claim.growing}};
   });
   return document;
 }
@@ -191,10 +193,9 @@ verify::CampaignFacts facts_from(const JsonReader& reader) {
   if (reader.has("different_runs")) facts.different = reader.at("different_runs").count();
   facts.events = texts_from(reader.at("events"));
   facts.doubts = texts_from(reader.at("doubts"));
-  facts.growing = reader.at("growing").text();
   for (const JsonReader& claim : reader.at("claims").items())
-    facts.claims.push_back(
-        {claim.at("claim").text(), kind_from(claim.at("kind")), texts_from(claim.at("missing"))});
+    facts.claims.push_back({claim.at("claim").text(), kind_from(claim.at("kind")),
+                            texts_from(claim.at("missing")), claim.at("growing").text()});
   return facts;
 }
 

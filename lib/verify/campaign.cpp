@@ -170,11 +170,11 @@ CampaignFacts facts_of(const Setup& setup, const CampaignOptions& options) {
   facts.horizon = setup.horizon();
   facts.doubts = hybrid::doubts_about(texts.dynamics, texts.claims, setup.events->system.constants);
   facts.doubts.insert(facts.doubts.begin(), setup.unread.begin(), setup.unread.end());
-  facts.growing = growing_mode(setup.judged());
   for (const auto& event : setup.events->system.dynamics.events)
     facts.events.push_back(event.is_built_in() ? "" : event.name);
   for (const claims::Claim& claim : setup.claims())
-    facts.claims.push_back({claim.name, claim.kind, claim.missing});
+    facts.claims.push_back(
+        {claim.name, claim.kind, claim.missing, growing_mode(*setup.events, claim)});
   return facts;
 }
 

@@ -21,6 +21,7 @@ struct ClaimFacts {
   std::string name;
   model::ClaimKind kind = model::ClaimKind::nonincreasing;
   std::vector<std::string> missing;  ///< what has no value; none: the claim is stated
+  std::string growing{};             ///< growing_mode()
 
   bool stated() const { return missing.empty(); }
   bool operator==(const ClaimFacts&) const = default;
@@ -37,7 +38,6 @@ struct CampaignFacts {
   std::optional<std::uint64_t> different;
   std::vector<std::string> events;  ///< a name; of a method of the program empty
   std::vector<std::string> doubts;
-  std::string growing;  ///< growing_mode()
   std::vector<ClaimFacts> claims;
 
   bool operator==(const CampaignFacts&) const = default;

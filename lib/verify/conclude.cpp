@@ -170,7 +170,9 @@ Report conclude(const CampaignPart& part) {
       report.violations > 0 ? confirm_worst(part, report) : std::optional(false);
   if (!confirmed) return report;
   if (*confirmed) report.verdict = model::CampaignVerdict::violated;
-  if (*confirmed) report.growing = facts.growing;
+  for (std::size_t c = 0; *confirmed && c < report.checks.size(); ++c)
+    if (report.checks[c].violations > 0 && report.growing.empty())
+      report.growing = facts.claims[c].growing;
   if (report.violations > 0 && !*confirmed) {
     report.undecided += std::exchange(report.violations, 0);
     report.first_undecided = unconfirmed_run(report);

@@ -1,4 +1,4 @@
-// Why claims are violated: what they read grows by itself.
+// Why a claim is violated: what it reads grows by itself.
 #pragma once
 
 #include <string>
@@ -7,9 +7,9 @@
 
 namespace gainsmith::verify {
 
-/// The eigenvalue that grows most of what the stated claims read: of F of the flow s' = F s + f,
-/// of J of the only event s+ = J s + j, or of J e^(F T) of both, T the longest length of its clock.
-/// Empty where none grows, or the dynamics are of another kind.
-std::string growing_mode(const claims::RunSetup& setup);
+/// The eigenvalue that grows most, of those whose modes change the value of the claim: of F of the
+/// flow s' = F s + f, of J of the only event s+ = J s + j, or of J e^(F T) where its clock has one
+/// length T. Empty where none grows, or the dynamics are of another kind.
+std::string growing_mode(const claims::RunSetup& setup, const claims::Claim& claim);
 
 }  // namespace gainsmith::verify

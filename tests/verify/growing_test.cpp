@@ -11,7 +11,8 @@ namespace {
 std::string growing(const std::string& method) {
   const tests::YamlProblem problem("problem: p\nmethod:\n  method: m\n" + method +
                                    "campaign: {runs: 3, horizon: 3}\n");
-  return growing_mode(make_setup(problem.instance, {})->judged());
+  const auto setup = make_setup(problem.instance, {});
+  return growing_mode(*setup->events, setup->claims().front());
 }
 
 /// x' = x is to grow; the error of its observer obeys e' = (1 - L) e.
@@ -45,6 +46,23 @@ TEST(Growing, AJumpAndAFlow) {
                     "  claims: {settles: {shrinks: norm(x), to: 0.5}}\n"),
             "the closed loop grows: its eigenvalue 0 +- 2i, of one period, lies outside the unit "
             "circle");
+}
+
+/// The plant grows, and its observer converges, however it is written: the claim does not see it.
+TEST(Growing, APlantThatTheClaimDoesNotSeeIsNoCause) {
+  const auto of = [](const std::string& flow, const std::string& value) {
+    return growing(
+        "  plant: {state: {x: {shape: 2, start: [1, 1]}}, flow: {x: \"[0.1, 1; -1, 0.1]*x\"}, "
+        "output: {y: x(1)}}\n"
+        "  observer: {state: {xh: {shape: 2, start: 0}}, flow: {xh: \"" +
+        flow + "\"}}\n  claims: {error: {shrinks: \"" + value + "\", to: 1e-9}}\n");
+  };
+  for (const std::string flow :
+       {"[0.1, 1; -1, 0.1]*xh + [3; 2]*(y - xh(1))", "[-2.9, 1; -3, 0.1]*xh + [3; 2]*y"})
+    for (const std::string value : {"norm(x - xh)", "abs(x(2) - xh(2))", "(x - xh)'*(x - xh)"})
+      EXPECT_EQ(of(flow, value), "") << flow << " " << value;
+  EXPECT_NE(of("[0.1, 1; -1, 0.1]*xh + [3; 2]*(y - xh(1))", "norm(x)"), "");
+  EXPECT_NE(of("[0.1, 1; -1, 0.1]*xh - [3; 2]*(y - xh(1))", "norm(x - xh)"), "");
 }
 
 TEST(Growing, NothingIsSaidOfOtherDynamics) {
