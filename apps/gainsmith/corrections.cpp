@@ -40,6 +40,14 @@ std::vector<const expr::Program*> texts_of(const Dynamics& dynamics) {
   return texts;
 }
 
+/// Whether an instruction is part of a larger difference.
+bool is_summed(const expr::Program& text, int at) {
+  return std::ranges::any_of(text.code, [&](const expr::Instruction& one) {
+    return (one.op == expr::Op::subtract || one.op == expr::Op::add) &&
+           std::ranges::find(one.operands, at) != one.operands.end();
+  });
+}
+
 /// The program of one instruction; a text of a run calls nothing.
 expr::Program part_at(const expr::Program& text, std::size_t at) {
   expr::Assembly all;
@@ -74,8 +82,11 @@ class Difference {
     std::vector<Terms> rows(static_cast<std::size_t>(origin_.size()));
     for (const std::size_t slot : read_)
       for (int k = 0; k < system_.layout.slots[slot].shape.size(); ++k) add(slot, k, rows);
-    for (const Terms& row : rows) {
-      if (row.size() != 2 || row[0].factor != -row[1].factor) continue;
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      const Terms& row = rows[r];
+      if (origin_(static_cast<Eigen::Index>(r)) != 0 || row.size() != 2 ||
+          row[0].factor != -row[1].factor)
+        continue;
       const bool swapped = is_measured(row[1].slot);
       const Term& measured = row[swapped ? 1 : 0];
       const Term& state = row[swapped ? 0 : 1];
@@ -131,6 +142,7 @@ std::vector<Correction> corrections(const hybrid::System& system, const verify::
   for (const expr::Program* text : texts_of(system.dynamics))
     for (std::size_t k = 0; k < text->code.size(); ++k) {
       if (text->code[k].op != expr::Op::subtract || text->code[k].shape.cols != 1) continue;
+      if (is_summed(*text, static_cast<int>(k))) continue;
       const expr::Program part = part_at(*text, k);
       if (hybrid::first_not_affine(part, moves) == nullptr)
         Difference(part, system).tell(replay, found);

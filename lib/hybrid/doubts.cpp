@@ -112,7 +112,6 @@ class Doubts {
 
   std::vector<std::string> all(const std::vector<model::Design::Claim>& claims) {
     about_observers();
-    for (std::size_t k = 0; k < dynamics_.events.size(); ++k) about(k, claims);
     for (const model::Design::Claim& claim : claims) about(claim);
     for (const Dynamics::Noise& noise : dynamics_.noise) about(noise);
     return std::move(found_);
@@ -151,25 +150,9 @@ class Doubts {
     return one.kind == VariableKind::state || one.kind == VariableKind::mode;
   }
 
-  void about(std::size_t event, const std::vector<model::Design::Claim>& claims) {
-    const auto none = [&](const auto& list, const auto& of) {
-      return std::ranges::none_of(list, [&](const auto& one) { return of(one) == event; });
-    };
-    const auto of = [](const auto& one) { return one.event; };
-    if (!dynamics_.events[event].is_built_in() && none(dynamics_.reactions, of) &&
-        none(dynamics_.noise, of) && none(dynamics_.measured, of) &&
-        none(claims, [](const auto& one) { return one.over; }) &&
-        none(dynamics_.signals, [](const auto& one) { return one.at; }) &&
-        std::ranges::none_of(dynamics_.variables, [&](const auto& one) {
-          return one.of == event && VariableKind::count <= one.kind &&
-                 one.kind <= VariableKind::passes;
-        }))
-      found_.push_back("nothing happens at the event " + quoted(dynamics_.events[event].name));
-  }
-
   void about(const model::Design::Claim& claim) {
     if (const auto factor = value_of(claim.factor); factor && (*factor)(0, 0) > 1)
-      found_.push_back("the claim " + quoted(claim.name) + " lets its value grow: `to` is " +
+      found_.push_back("the claim " + quoted(claim.name) + " lets a value above 0 grow: `to` is " +
                        brief((*factor)(0, 0)));
   }
 

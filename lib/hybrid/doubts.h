@@ -4,7 +4,7 @@
 //   noise without `new at` that samples or outputs read: one value for the whole run, a bias
 //   noise that changes more slowly than the samples that read it
 //   two outputs, or two elements of one, with the same scalar noise
-//   an event at which nothing happens, a claim that a value shrinks to more than it is
+//   a claim that a value shrinks to more than it is
 //   uncertain data that the plant does not read or an observer knows, or without a range around
 //   them
 #pragma once
