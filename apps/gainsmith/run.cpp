@@ -13,6 +13,7 @@
 #include "base/file.h"
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "gainsmith/certify.h"
 #include "gainsmith/commands.h"
 #include "gainsmith/job.h"
 #include "gainsmith/junit.h"
@@ -42,6 +43,7 @@ struct RunOptions {
   unsigned threads = 0;
   bool json = false;
   bool report = false;
+  bool certify = false;
   JobOptions job;
 };
 
@@ -146,6 +148,16 @@ void refuse_standard_output(const RunOptions& options) {
     throw InputError({"--junit"}, "expected a file: standard output has the lines of the results");
 }
 
+/// Undecided unless the second program agrees with all gain files.
+ExitCode certified(const RunOptions& options, const std::vector<JobResult>& results) {
+  std::vector<std::string> files;
+  for (const JobResult& result : results)
+    if (!result.interrupted && !result.gains_hash.empty())
+      files.push_back((fs::path(options.output) / result.name / "gains.json").string());
+  const bool agrees = files.empty() || certify(std::move(files)) == ExitCode::yes;
+  return agrees ? ExitCode::yes : ExitCode::undecided;
+}
+
 ExitCode run(const RunOptions& options) {
   refuse_standard_output(options);
   const std::vector<ProblemFile> items = own_problems(options);
@@ -178,6 +190,7 @@ ExitCode run(const RunOptions& options) {
   if (!options.json && results.size() > 1) fmt::print("{}", lines.total());
   if (options.report) write_report(options, results);
   if (!options.junit.empty()) write_atomically(options.junit, junit_text(results));
+  if (options.certify) worst = std::max(worst, certified(options, results));
   const auto open = std::count_if(results.begin(), results.end(),
                                   [](const JobResult& result) { return result.interrupted; });
   if (open > 0)
@@ -220,7 +233,10 @@ Command run_command() {
        Option("--junit", options->junit, "write JUnit XML here"),
        Option("--report", options->report, "write report.html into the folder of the results")
            .excludes({"--shard"}),
-       Option("--json", options->json, "print the results as JSON")},
+       Option("--json", options->json, "print the results as JSON"),
+       Option("--certify", options->certify,
+              "prove the gain files by the second program too; exit code 3 unless it agrees")
+           .excludes({"--json"})},
       "Prints one line a problem; the exit code is the worst of all.\n"
       "Two files of one name have a/motor and b/motor. A file of a folder of problems has its path "
       "from there.\n"

@@ -14,6 +14,7 @@
 #include "design/semidefinite_program.h"
 #include "design/synthesize.h"
 #include "gainsmith/advice.h"
+#include "gainsmith/certify.h"
 #include "gainsmith/commands.h"
 #include "gainsmith/explain_text.h"
 #include "gainsmith/load.h"
@@ -37,6 +38,7 @@ struct SynthOptions {
   bool only_write = false;
   unsigned threads = 0;
   bool json = false;
+  bool certify = false;
 };
 
 /// Why there are no gains, in one line; `spent`: the work of finding that there are none.
@@ -66,10 +68,18 @@ void write_program(const std::string& path, const model::Instance& instance) {
   write_atomically(path, sdp::write_sdpa(program.problem, program.remarks));
 }
 
+/// The exit code of a synthesis, undecided where the second program does not agree.
+ExitCode certified(const SynthOptions& options, const model::Gains& gains, ExitCode exit) {
+  if (!options.certify || gains.verdict == model::Verdict::undecided) return exit;
+  return certify({options.output}) == ExitCode::yes ? exit : ExitCode::undecided;
+}
+
 ExitCode synth(const SynthOptions& options) {
   prepare_outputs(options.problem, {options.output, options.sdpa});
   if (options.only_write && options.sdpa.empty())
     throw InputError({"--no-solve"}, "nothing to do: --sdpa FILE says where the program goes");
+  if (options.certify && (options.output.empty() || options.output == "-"))
+    throw InputError({"--certify"}, "it reads the gain file: -o GAINS.json writes one");
   const model::Instance instance =
       load_problem(options.problem, options.set, effort(options.effort));
   const design::SearchRequest request = wanted_search(instance);
@@ -100,7 +110,7 @@ ExitCode synth(const SynthOptions& options) {
     // The result is there.
   }
   if (gains.solver.cause == to_string(sdp::Cause::interrupted)) return ExitCode::undecided;
-  return gains.search ? exit_of_search(gains) : exit_of_synthesis(gains);
+  return certified(options, gains, gains.search ? exit_of_search(gains) : exit_of_synthesis(gains));
 }
 
 }  // namespace
@@ -123,7 +133,10 @@ Command synth_command() {
        Option("--effort", options->effort,
               "what double does not decide: ordinary (an allowance of work) or full (any)")
            .one_of({"ordinary", "full"}),
-       Option("--json", options->json, "print the result as JSON")},
+       Option("--json", options->json, "print the result as JSON"),
+       Option("--certify", options->certify,
+              "prove the gain file by the second program too; exit code 3 unless it agrees")
+           .excludes({"--json"})},
       "Exit code: 0 gains found, 1 infeasible by a checked certificate, 2 wrong input, 3 "
       "undecided, stopped, or the optimum is not known to 1e-6.\n"
       "Examples:\n"

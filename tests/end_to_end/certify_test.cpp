@@ -37,6 +37,15 @@ TEST(Certify, SaysYesNoAndUndecidedByItsExitCode) {
       1);
   EXPECT_EQ(gainsmith({"certify", gains}).exit, 0);
 
+  const std::string problem = folder.file("q.yaml", lyapunov("[[-1, 0], [1, -3]]"));
+  const Outcome synth = gainsmith({"synth", problem, "-o", gains, "--certify"});
+  EXPECT_EQ(synth.exit, 0) << synth.err;
+  EXPECT_TRUE(has(synth.out, "proved ")) << synth.out;
+  EXPECT_EQ(gainsmith({"synth", problem, "--certify"}).exit, 2);
+  const Outcome run = gainsmith({"run", problem, "-o", folder.path("out"), "--certify"});
+  EXPECT_EQ(run.exit, 0) << run.out << run.err;
+  EXPECT_TRUE(has(run.out, "proved ")) << run.out;
+
   const Outcome wrong = gainsmith({"certify", folder.file("p.json", "[1, 2]")});
   EXPECT_EQ(wrong.exit, 2) << wrong.out << wrong.err;
 }
