@@ -154,12 +154,15 @@ bool LaneSet::find_due(std::size_t l) {
     } else {
       due = lane.clocks.is_due(e, now);
     }
-    // An event before it may be due as well.
-    if (due && lane.undetermined) return open(Why::order);
-    if (due) {
-      lane.due = e;
-      return true;
-    }
+    // An event before it may be due as well; of x > 1 and x >= 1 the second is, before the first.
+    const auto is_due_too = [&](const PackEvent& other) {
+      return &other > &event && other.when &&
+             truth(*other.when, pack_.watches, lane.sides) == Truth::yes;
+    };
+    const bool at_root = event.when && lane.phase == Phase::step;
+    if (due && (lane.undetermined || (at_root && std::ranges::any_of(pack_.events, is_due_too))))
+      return open(Why::order);
+    if (due) return lane.due = e, true;
   }
   for (std::size_t e = 0; e < pack_.events.size(); ++e)
     if (const auto& crossing = pack_.events[e].crossing) lane.signs[e] = side_of(*crossing, lane);

@@ -53,6 +53,12 @@ TEST(UnusualRuns, AreLeftOpen) {
              at: {go: {x: "[x(1); x(2) + 1]"}})",
                                  "2", R"(["[0; 0]", "[0.5; 0]"])")),
             40U);
+  // Two conditions with one root: the second holds there, the first behind it.
+  EXPECT_EQ(open_runs(problem_of("far: {when: x(1) > 1}, near: {when: x(1) >= 1 and x(2) < 2}",
+                                 R"(state: {x: {shape: 2}}, flow: {x: "[1; 0]"},
+             at: {far: {x: "[x(1)/2; x(2)]"}, near: {x: "[x(1); x(2) + 1]"}})",
+                                 "0.9", R"(["[0.5; 0]", "[0.6; 0]"])")),
+            40U);
   // Two events at one time, whose order matters.
   EXPECT_EQ(open_runs(problem_of("one: {rises: x(1) - 1}, two: {rises: x(2) - 2}",
                                  R"(state: {x: {shape: 2}}, flow: {x: "[1; 2]"},
