@@ -15,7 +15,6 @@ namespace gainsmith::verify {
 namespace {
 
 using Assignments = std::vector<const model::Dynamics::Assignment*>;
-using Kind = model::Dynamics::VariableKind;
 
 /// The maps of all components at the only event, which always happens; none: of another kind.
 std::optional<Assignments> jump_of(const model::Dynamics& dynamics) {
@@ -41,6 +40,7 @@ numbers::Matrix slopes(const hybrid::System& system, const Assignments& equation
       const auto slot = system.slot(input.name);
       if (!slot) return false;
       if (*slot >= system.dynamics.variables.size()) return true;
+      using Kind = model::Dynamics::VariableKind;
       const Kind kind = system.dynamics.variables[*slot].kind;
       return kind != Kind::state && kind != Kind::noise;
     });
@@ -62,9 +62,8 @@ bool is_seen(const claims::RunSetup& setup, const claims::Claim& claim, const nu
              std::complex<double> lambda) {
   const Eigen::Index n = M.rows();
   numbers::Matrix whole(2 * n, 2 * n);
-  const numbers::Matrix real = M - lambda.real() * numbers::Matrix::Identity(n, n);
-  const numbers::Matrix turn = lambda.imag() * numbers::Matrix::Identity(n, n);
-  whole << real, turn, -turn, real;
+  const numbers::Matrix I = numbers::Matrix::Identity(n, n), real = M - lambda.real() * I;
+  whole << real, lambda.imag() * I, -lambda.imag() * I, real;
   const numbers::Vector v = numbers::full_svd(whole).V.col(2 * n - 1);
   hybrid::PointFunction value(claim.value, setup.system.layout, setup.system.constants);
   const auto at = [&](const Eigen::VectorXd& x) { return value(x, 0)(0, 0); };
