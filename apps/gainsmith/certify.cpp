@@ -1,5 +1,6 @@
 #include "gainsmith/certify.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -46,16 +47,9 @@ ExitCode certify(std::vector<std::string> arguments) {
   std::fflush(stdout);
   const auto code = run_program(std::move(arguments));
   if (!code) throw InputError({"certify"}, "python3 could not be run, or was stopped");
-  switch (*code) {
-    case static_cast<int>(ExitCode::yes):
-      return ExitCode::yes;
-    case static_cast<int>(ExitCode::no):
-      return ExitCode::no;
-    case static_cast<int>(ExitCode::undecided):
-      return ExitCode::undecided;
-    default:
-      return ExitCode::bad_input;
-  }
+  const auto exit = static_cast<ExitCode>(*code);
+  const auto known = {ExitCode::yes, ExitCode::no, ExitCode::undecided, ExitCode::fault};
+  return std::ranges::find(known, exit) != known.end() ? exit : ExitCode::bad_input;
 }
 
 Command certify_command() {

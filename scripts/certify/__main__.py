@@ -1,16 +1,25 @@
 """certify GAINS.json...: an independent check of what gain files of gainsmith say.
 
 Exit code 0: everything is proved, or there is nothing to prove. 1: something is refuted.
-3: something is open. 2: a file is not a gain file.
+3: something is open, or it was interrupted. 2: a file is not a gain file, or printing failed.
+70: a fault of certify.
 """
 
 import argparse
 import json
+import os
 import signal
 import sys
 import time
+import traceback
 from collections import Counter
 from fractions import Fraction
+
+try:
+    import yaml                 # what the other files need and Python does not bring along
+except ImportError:
+    print("certify: PyYAML is not installed (package python3-yaml in Debian)", file=sys.stderr)
+    sys.exit(2)
 
 from no import prove_no
 from statement import Damaged, read_gain_file
@@ -179,8 +188,7 @@ def main():
         codes.append(EXIT[found["verdict"]])
         if options.json: print(as_json(found))
         else:
-            shown = "proved" if found["verdict"] == "nothing to prove" else found["verdict"]
-            shown = "nothing" if found["verdict"] == "nothing to prove" else shown
+            shown = found["verdict"].replace("nothing to prove", "nothing")
             print("%-8s %s  %s  %.2f s" % (shown, path, summary(found), found["seconds"]))
             for c in found["claims"] + found["search"] if options.claims else ():
                 print(text_of_claim(c))
@@ -189,4 +197,18 @@ def main():
         if code in codes: return code
     return 0
 
-if __name__ == "__main__": sys.exit(main())
+def exit_code():
+    """That of main(). Python's own code of an exception, 1, would say that a file is refuted."""
+    try:
+        return main()
+    except KeyboardInterrupt:
+        return 3
+    except OSError as error:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)    # nothing is printed at the exit either
+        print("certify: cannot print: %s" % error.strerror, file=sys.stderr)
+        return 2
+    except Exception:
+        traceback.print_exc()
+        return 70
+
+if __name__ == "__main__": sys.exit(exit_code())

@@ -37,8 +37,10 @@ def read_gain_file(path):
         with open(path, encoding="utf-8") as stream:
             gain = json.load(stream, parse_float=Numeral, parse_int=Numeral,
                              parse_constant=decimal, object_pairs_hook=unique_keys)
-    except (OSError, ValueError, RecursionError, Unsupported) as error:
-        raise Damaged("a JSON object was expected: %s" % error)
+    except OSError as error:
+        raise Damaged("cannot read this file: %s" % error.strerror)
+    except (ValueError, RecursionError, Unsupported) as error:
+        raise Damaged("expected a JSON object: %s" % error)
     expect(isinstance(gain, dict), "a JSON object")
     expect(gain.get("verdict") in ("yes", "no", "undecided"), "verdict: yes, no or undecided")
     for key in ("gains", "unknowns", "statement", "searched", "parameters", "bases", "functions",

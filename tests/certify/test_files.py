@@ -328,6 +328,24 @@ class Program(unittest.TestCase):
         code, out = self.run_program("--time", "0.05", path("sampled"))
         self.assertIn(code, (0, 3))
 
+    def test_what_fails_is_not_called_refuted(self):
+        def run(name, **more):
+            return subprocess.run([sys.executable, CERTIFY, name], stderr=subprocess.PIPE,
+                                  text=True, **more)
+        with tempfile.TemporaryDirectory() as folder:
+            with open(os.path.join(folder, "yaml.py"), "w", encoding="utf-8") as stream:
+                stream.write("raise ImportError")
+            without = run(path("lyapunov"), env=dict(os.environ, PYTHONPATH=folder))
+        self.assertEqual(without.returncode, 2)
+        self.assertIn("python3-yaml", without.stderr)
+        with open("/dev/full", "w", encoding="utf-8") as full:
+            unprinted = run(path("lyapunov"), stdout=full)
+        self.assertEqual(unprinted.returncode, 2)
+        self.assertIn("No space left", unprinted.stderr)
+        missing = run("missing.json", stdout=subprocess.PIPE)
+        self.assertEqual(missing.returncode, 2)
+        self.assertIn("cannot read this file: No such file", missing.stdout)
+
     def test_it_runs_alone(self):
         for name in os.listdir(CERTIFY):
             if name.endswith(".py"):
