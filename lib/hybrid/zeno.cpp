@@ -69,12 +69,16 @@ std::optional<double> ZenoDetector::steady_rest(std::size_t period, std::size_t 
   if (count_ < ratios + period) return std::nullopt;
   double smallest = 2;
   double largest = 0;
+  double rounded = 2;  // the smallest, as rounding may have made it smaller
   for (std::size_t k = ratios; k-- > 0;) {
     const double ratio = before(k).length / before(k + period).length;
     smallest = std::min(smallest, ratio);
     largest = std::max(largest, ratio);
+    rounded = std::min(rounded, ratio + kOneInstant * t_ / before(k + period).length);
   }
-  if (!(largest < 1) || largest - smallest > kSteady * (1 - largest)) return std::nullopt;
+  // Small ones agree in their size as well.
+  if (!(largest < 1) || largest - smallest > kSteady * (1 - largest) || largest > 2 * rounded)
+    return std::nullopt;
   // The last ratio errs by rounding most: the mean over all of them.
   const std::size_t periods = ratios / period;
   const double all = before(0).length / before(periods * period).length;

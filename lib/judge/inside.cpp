@@ -183,11 +183,19 @@ void FlowInside::watch_crossing(const hybrid::FlowPiece& piece, const std::vecto
   };
   std::vector<double> values;
   for (const Sample& one : all) values.push_back(crossing(one.x)(0, 0));
+  // Rounding hides where zero is left: it may be where `if` is false.
+  const auto look_at_if = [&](const Sample& at) {
+    if (!memory.at_zero || must_jump(event, at)) return;
+    memory.at_zero = false;
+    memory.near_zero = true;
+  };
+  look_at_if(all[0]);
   for (std::size_t k = 1; k + 1 < all.size(); ++k) {
     const int now = side_at(all[k]);
     if (now == 0) {
       // It may have crossed 0 in the other direction, or have come back to it.
       if (known * values[k] <= 0) memory.near_zero = true;
+      look_at_if(all[k]);
       continue;
     }
     if (fires(kind, known, now) || (memory.at_zero && leaves_zero(kind, now))) {

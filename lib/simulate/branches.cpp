@@ -139,7 +139,8 @@ std::optional<Branches::Change> Branches::change_of(std::size_t one, Index eleme
   Change change{value(times.front()) * to < 0 ? *there : times.front(), offset(one) + element, to,
                 one};
   for (const ode::Root& root : found.roots)
-    if (root.right <= *there) change.t = root.right;
+    if (root.right <= *there && on_step.crossings->hidden_slope(element, root.right) == 0)
+      change.t = root.right;
   return change;
 }
 

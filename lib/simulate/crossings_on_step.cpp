@@ -19,6 +19,8 @@ namespace {
 
 /// Of the interpolant of an event function.
 constexpr int turn_degree = 16;
+/// Of the slope of an interpolant at an end, in units of what its values may be off.
+constexpr int slope_noise = turn_degree * turn_degree;
 /// They lead from the length of a step to its rounding.
 constexpr int most_halvings = 60;
 /// Of the step: the earliest turning point that rounding leaves.
@@ -94,18 +96,23 @@ double CrossingsOnStep::value(Index element, double t) {
   return values_(element, k);
 }
 
-std::optional<double> CrossingsOnStep::hidden_turn(Index element) {
-  const double noise = noise_(element);
-  if (!(std::abs(value(element, inside_.from())) <= noise) || !breaks_.empty()) return std::nullopt;
+RowVectorXd CrossingsOnStep::on_points(Index element) {
   const VectorXd& points = ode::chebyshev::points(turn_degree);
   RowVectorXd values(points.size());
   for (Index k = 0; k < points.size(); ++k)
     values(k) = value(element, ode::chebyshev::outer(points(k), inside_.from(), inside_.to()));
+  return values;
+}
+
+std::optional<double> CrossingsOnStep::hidden_turn(Index element) {
+  const double noise = noise_(element);
+  if (!(std::abs(value(element, inside_.from())) <= noise) || !breaks_.empty()) return std::nullopt;
+  const RowVectorXd values = on_points(element);
   if (!(values.cwiseAbs().maxCoeff() > hybrid::kPlain * noise)) return std::nullopt;
   const Matrix c = ode::chebyshev::trimmed(ode::chebyshev::coefficients(values), noise);
   const Matrix slope = ode::chebyshev::derivative(c);
   const double first = ode::chebyshev::first(slope, -1);
-  if (std::abs(first) <= turn_degree * turn_degree * noise) return earliest;
+  if (std::abs(first) <= slope_noise * noise) return earliest;
   double low = -1;
   double high = -1 + 2 * kEarly;
   if ((ode::chebyshev::first(slope, high) > 0) == (first > 0)) return std::nullopt;
@@ -116,6 +123,16 @@ std::optional<double> CrossingsOnStep::hidden_turn(Index element) {
   if (std::abs(ode::chebyshev::first(c, high) - values(0)) > hybrid::kPlain * noise)
     return std::nullopt;
   return std::max((1 + high) / 2, earliest);
+}
+
+double CrossingsOnStep::hidden_slope(Index element, double t) {
+  const double from = inside_.from();
+  const double x = 1 + ode::chebyshev::inner(t, from, inside_.to());
+  if (x > kEarly || value(element, from) != 0 || !breaks_.empty()) return 0;
+  const double noise = hybrid::kPlain * noise_(element);
+  const Matrix slope = ode::chebyshev::derivative(ode::chebyshev::coefficients(on_points(element)));
+  const double first = ode::chebyshev::first(slope, -1);
+  return std::abs(first) > noise && std::abs(first) * x <= noise ? first : 0;
 }
 
 std::optional<double> CrossingsOnStep::leaves_zero(Index element, double rounding) {

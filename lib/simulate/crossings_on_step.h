@@ -29,6 +29,9 @@ class CrossingsOnStep {
   /// where it has hardly left the noise, so that a root may lie in it. Where its first slope is
   /// noise, the shortest part; none where all of it is noise, or where its text branches.
   std::optional<double> hidden_turn(Eigen::Index element);
+  /// Of an element that starts at exactly 0 and leaves it clearly: its first slope, as long as
+  /// rounding may hide that it has left; 0 of others, and later.
+  double hidden_slope(Eigen::Index element, double t);
   /// Of an element that starts as noise, its own or the `rounding` of the step before: when it ceases
   /// to be.
   std::optional<double> leaves_zero(Eigen::Index element, double rounding);
@@ -36,6 +39,9 @@ class CrossingsOnStep {
   const Eigen::VectorXd& noise() const { return noise_; }
 
  private:
+  /// Values at the points of an interpolant.
+  Eigen::RowVectorXd on_points(Eigen::Index element);
+
   hybrid::EventFunction& function_;
   const StepValues& inside_;
   const std::vector<double>& times_;

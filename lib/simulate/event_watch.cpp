@@ -128,7 +128,8 @@ hybrid::EventFunction& EventWatch::function_of(const hybrid::NearTurn& turn) {
 
 std::vector<double> EventWatch::crossings(
     const StepValues& inside, const VectorXd& values, double near,
-    const std::function<void(const hybrid::NearTurn&, bool)>& turn, std::optional<double>* hidden) {
+    const std::function<void(const hybrid::NearTurn&, bool)>& turn, double& left,
+    std::optional<double>* hidden) {
   std::vector<double> result;
   std::vector<double> times;
   const numbers::Box box = inside.box();
@@ -151,13 +152,22 @@ std::vector<double> EventWatch::crossings(
         if (const auto early = on_step.hidden_turn(element); early && early < hidden->value_or(1))
           *hidden = early;
       if (role.of == hybrid::NearTurn::Of::crossing)
-        if (const auto left = on_step.leaves_zero(element, before)) result.push_back(*left);
+        if (const auto leaves = on_step.leaves_zero(element, before)) result.push_back(*leaves);
       ode::Found found;
       for (const bool strict : {true, false}) {
         if (!(strict ? sides.above : sides.at_least)) continue;
         if (strict || !sides.above || found.meets_zero)
           found = on_step.roots(element, strict, near);
-        for (const ode::Root& root : found.roots) result.push_back(root.right);
+        for (const ode::Root& root : found.roots) {
+          const double slope = on_step.hidden_slope(element, root.right);
+          // Nothing has come to the side that it does not leave for; the other one it has reached
+          // where rounding no longer hides it, also what else has left 0.
+          if (slope * on_step.value(element, root.right) < 0) continue;
+          const auto leaves =
+              slope != 0 ? on_step.leaves_zero(element, before) : std::optional<double>();
+          if (leaves) left = std::max(left, *leaves);
+          result.push_back(leaves.value_or(root.right));
+        }
         for (const ode::TurningPoint& one : found.turning_points) {
           if (!decides(role, inside.at(one.t))) continue;
           const std::string text = role.condition == nullptr

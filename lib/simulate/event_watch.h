@@ -32,10 +32,11 @@ class EventWatch {
   /// The times just after all zero crossings on a step, in order, the last of each instant: those
   /// of events and of `while` that may decide something from `values` on, the values at the start of
   /// the step. `turn` is given the turning points within `near` of their terms, and those that come
-  /// nearest. `hidden`, at the start of a flow: the first CrossingsOnStep::hidden_turn, if any.
+  /// nearest. `left`: the last at which something just leaves 0, clearly. `hidden`, at the start of a
+  /// flow: the first CrossingsOnStep::hidden_turn, if any.
   std::vector<double> crossings(
       const StepValues& inside, const Eigen::VectorXd& values, double near,
-      const std::function<void(const hybrid::NearTurn&, bool reached)>& turn,
+      const std::function<void(const hybrid::NearTurn&, bool reached)>& turn, double& left,
       std::optional<double>* hidden = nullptr);
 
   /// Whether e of an event is 0 but for rounding: that of its terms, and of the values on the step

@@ -43,7 +43,11 @@ class IntegratedFlow : public Flow {
       integrator_.within(ode::chebyshev::outer(points(k), step.from, step.to), y_);
       values.col(k) = y_;
     }
-    return field_->step(step.from, step.to, ode::chebyshev::coefficients(values));
+    // Of a short step what changes is small beside the values, and so is then its rounding.
+    integrator_.within(step.from, y_);
+    numbers::Matrix series = ode::chebyshev::coefficients(values.colwise() - y_);
+    series.col(0) += y_;
+    return field_->step(step.from, step.to, series);
   }
 
  private:

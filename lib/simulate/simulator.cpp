@@ -265,11 +265,12 @@ class EventRun {
     flow_sets_.require_inside(inside,
                               std::min(inside.to(), inside.from() + hybrid::kHardly * horizon_));
     NearTurns near;
+    double left_zero = step.from;
     std::optional<double> hidden;
     const auto crossings = watch_.crossings(
         inside, values_, moved_ ? kNearOfTerms : 0,
         [&](const hybrid::NearTurn& turn, bool reached) { near.emplace_back(turn, reached); },
-        starts_ ? &hidden : nullptr);
+        left_zero, starts_ ? &hidden : nullptr);
     constexpr double beyond = 4;  // of the turning point, so that the root behind it is inside
     if (hidden && is_coarse(step, step.from + *hidden * (step.to - step.from)))
       return take_shorter(step.from + beyond * *hidden * (step.to - step.from));
@@ -280,7 +281,7 @@ class EventRun {
       const bool due = due_.first(values, t).has_value();
       const bool left = !due && flow_sets_.leaves(values);
       if (!due && !left) continue;
-      if (is_coarse(step, t)) {
+      if (t > left_zero && is_coarse(step, t)) {
         due_.set_marks(marks);
         flow_sets_.set_marks(was_inside);
         return take_shorter(step.from + kShorterStep * (t - step.from));

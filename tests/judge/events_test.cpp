@@ -238,6 +238,17 @@ TEST(JudgedCrossings, AreRejectedOnceByIf) {
   EXPECT_TRUE(faults.empty()) << to_text(faults);
 }
 
+/// Rounding hides a little longer that zero was left than that `if` has become true: at zero it was false.
+TEST(JudgedCrossings, AreRejectedWhereZeroIsLeft) {
+  DynamicsText text;
+  text.state("x", 1, "1", "0").rises("up", "(x + 1e4) - 1e4").only_if("x > 0");
+  const model::Dynamics dynamics = text.dynamics();
+  ReferenceRun run(column_of({0}), 1);
+  run.flow(1, [](double t) { return column_of({t}); });
+  const auto faults = check_trajectory(run.end(), dynamics, text.stated());
+  EXPECT_TRUE(faults.empty()) << to_text(faults);
+}
+
 /// A pair of crossings between two of the points at which conditions are looked at.
 TEST(JudgedCrossings, PairsInsideOneStepAreFound) {
   DynamicsText text;

@@ -123,6 +123,16 @@ TEST(EventEnding, ACounterThatEndsShrinkingIsNoZeno) {
   EXPECT_EQ(run.ending, hybrid::Ending::horizon) << run.message;
 }
 
+// Three flows of one last place each, after others that do not shrink.
+TEST(EventEnding, AFewJumpsOfOneInstantAreNoZeno) {
+  EventProblem problem;
+  problem.state("v", {}, "0").flow("v", "-1.3333").state("k", {}, "0").every("a", "0.25", "0.25");
+  problem.when("g", "v < -1 and k < 4").jump("g", {{"v", "-1"}, {"k", "k + 1"}});
+  problem.when("reset", "t >= 1.5 and k == 4").jump("reset", {{"k", "5"}});
+  const hybrid::Trajectory run = run_to(problem.system(), 2);
+  EXPECT_EQ(run.ending, hybrid::Ending::horizon) << run.message;
+}
+
 // Seven flights of a ball that keeps a tenth of its speed are all that numbers can tell apart.
 TEST(EventEnding, AFewFlightsThatShrinkFastAccumulate) {
   for (const double r : {0.001, 0.05, 0.1, 0.24, 0.99}) {

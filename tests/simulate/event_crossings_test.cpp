@@ -205,6 +205,20 @@ TEST(EventRun, AnEventOnTheSameSurfaceThatTurnsBackIsNoCrossing) {
 }
 
 // 0.1 + 0.2 is 0.3 and an ulp.
+TEST(EventRun, WhatLeavesZeroForOneSideDoesNotComeToTheOther) {
+  for (const char* start : {"[-1; 0.5]", "[0.5; 0]"}) {
+    EventProblem problem;
+    problem.state("x", {2, 1}, start)
+        .flow("x", "[x(2); -3.14*x(1) - 1.6*abs(x(2))*x(2)]")
+        .state("n", {}, "0");
+    problem.when("below", "x(1) < -1 and n < 3").jump("below", {{"n", "n + 1"}});
+    problem.crossing(EventKind::rises, "up", "x(2)").jump("up", {{"n", "n + 100"}});
+    problem.crossing(EventKind::falls, "down", "abs(x(2)) - 0.5");
+    const hybrid::Trajectory run = simulate(problem.system(), 0.05);
+    EXPECT_TRUE(jumps_of(run).empty()) << jumps_of(run).front().t;
+  }
+}
+
 TEST(EventRun, WhatAJumpLeadsToIsZeroButForRounding) {
   for (const bool rises : {true, false}) {
     EventProblem problem;
