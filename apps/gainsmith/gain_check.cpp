@@ -36,7 +36,12 @@ std::string sentence(const design::GainCheck& check) {
 }  // namespace
 
 design::GainCheck check_gains(const LoadedGains& loaded) {
-  return design::check_gains(loaded.stated, loaded.gains, {});
+  design::GainCheck check = design::check_gains(loaded.stated, loaded.gains, {});
+  if (loaded.gains.is_edited)
+    check.message += std::string(check.message.empty() ? "" : "; ") +
+                     "gains, unknowns or multipliers are not those that were written: they do not "
+                     "match proof.sha256";
+  return check;
 }
 
 std::string not_shown_text(const design::GainCheck& check) { return listed_names(check.not_shown); }

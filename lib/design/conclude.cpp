@@ -78,8 +78,21 @@ void mark_free_gains(const Attempt& tighter, const lmi::Lmi& lmi, model::Gains& 
   }
 }
 
+/// What follows `before`, up to the next comma, in other digits.
+std::string with_value(const std::string& text, const std::string& before,
+                       const std::string& value) {
+  const std::size_t at = text.find(before);
+  if (at == std::string::npos || (at > 0 && text[at - 1] != ' ')) return text;
+  const std::size_t end = std::min(text.find(',', at), text.size());
+  return text.substr(0, at + before.size()) + value + text.substr(end);
+}
+
+/// With the point in all its decimals.
 std::string name_of(const lmi::Block& block) {
-  return block.name + (block.point.empty() ? "" : " at " + block.point);
+  std::string at = block.point;
+  for (const auto& [variable, value] : block.where ? block.where->values : numbers::Values())
+    if (value.size() == 1) at = with_value(at, variable + " = ", model::printed(value(0, 0)));
+  return block.name + (at.empty() ? "" : " at " + at);
 }
 
 /// Those of the bounds on gains come last.
@@ -113,13 +126,27 @@ std::vector<model::Multiplier> multipliers_of(const Climb& climb, const Attempt&
 }
 
 /// Shown by weak duality, within the gain bounds.
-std::optional<double> lower_bound(const Climb& climb, const Attempt& point) {
-  if (point.on_face) return point.least;
+void add_lower_bound(const Climb& climb, const Attempt& point, model::Gains& gains) {
+  const auto add = [&](double least) {
+    gains.objective_lower_bound = std::min(*gains.objective, least);
+  };
+  if (point.on_face) {
+    if (point.least) add(*point.least);
+    return;
+  }
+  const lmi::Lmi& lmi = climb.posed().lmi;
   lmi::GainBounds bounds = point.question.bounds;
   // What limits unknowns alone is no inequality of the problem (blended()).
   if (point.approached) bounds.blocks.resize(climb.bounds().blocks.size());
-  return verdict::lower_bound(climb.posed().inequalities, climb.posed().lmi, bounds,
-                              point.formulation, point.solution);
+  const auto least = verdict::lower_bound(climb.posed().inequalities, lmi, bounds,
+                                          point.formulation, point.solution);
+  if (!least) return;
+  add(least->value);
+  for (std::size_t k = 0; k < least->Y.size(); ++k)
+    if (const numbers::Matrix& Y = least->Y[k]; Y.size() > 0)
+      gains.optimum_multipliers.emplace_back(
+          name_of(block_at(lmi, bounds, k)),
+          lmi::in_data_units(lmi, bounds, point.formulation, k, Y) / point.formulation.cost_unit);
 }
 
 /// What the solver found, whatever is shown of it.
@@ -167,8 +194,7 @@ void note_objective(const Climb& climb, const Attempt& point, model::Gains& gain
   }
   gains.objective = lmi.objective_at(point.x);
   if (point.question.goal == lmi::Goal::objective) {
-    const auto least = lower_bound(climb, point);
-    if (least) gains.objective_lower_bound = std::min(*gains.objective, *least);
+    add_lower_bound(climb, point, gains);
     if (!point.on_face) gains.multipliers = multipliers_of(climb, point);
     if (point.approached)
       gains.solver.add_message(
@@ -217,6 +243,7 @@ void accept_point(const Climb& climb, const Attempt& point, model::Gains& gains)
       gains.solver.status = "undecided";
       gains.objective.reset();
       gains.objective_lower_bound.reset();
+      gains.optimum_multipliers.clear();
       gains.multipliers.clear();
       gains.margins.clear();
       gains.solver.add_message(

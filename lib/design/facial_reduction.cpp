@@ -357,7 +357,7 @@ class FacialReduction {
     const auto least = verdict::lower_bound(
         blocks, verdict::multipliers_of(formulation, blocks.size(), solution), std::move(of));
     if (!least) return std::nullopt;
-    return *least / formulation.cost_unit;
+    return least->value / formulation.cost_unit;
   }
 
   /// From a point inside to the least objective on the face: as near as decimals hold.

@@ -30,6 +30,8 @@ constexpr std::array kKeysOfDocument = {
     Key{"margins", "[margin]", "how well each inequality holds", kRequired},
     Key{"bounds", "[bound]", "the bounds on the gains", kRequired},
     Key{"certificate", "certificate", "of a no"},
+    Key{"optimum", "{rows}", "multipliers that show objective_lower_bound"},
+    Key{"proof", "proof", "that the results are those of the statement"},
     Key{"solver", "solver", "what the solver says", kRequired},
     Key{"statement", "statement", "the problem that was solved", kRequired},
     Key{"timings", "{number}", "seconds", kRequired}};
@@ -97,6 +99,9 @@ constexpr std::array kKeysOfStatement = {Key{"method", "text", "its name", kRequ
                                          Key{"files", "[file]", "what was read besides"},
                                          Key{"sha256", "text", "of both texts", kRequired}};
 
+constexpr std::array kKeysOfProof = {Key{"version", "whole", "of the hash", kRequired},
+                                     Key{"sha256", "text", "of statement and results", kRequired}};
+
 constexpr std::array kKeysOfFile = {
     Key{"file", "text", "relative to the problem", kRequired}, Key{"sha256", "text", "", kRequired},
     Key{"text", "text", "of a problem"}, Key{"matrix", "row or rows", "of a file with one matrix"},
@@ -113,14 +118,16 @@ const Level kRefinementLevel = {"refinement", "Scalars and unknowns moved togeth
 const Level kSearchLevel = {"search", "How a search ended", kKeysOfSearch};
 const Level kSolverLevel = {"solver", "What the solver says", kKeysOfSolver};
 const Level kStatementLevel = {"statement", "The problem that was solved", kKeysOfStatement};
+const Level kProofLevel = {"proof", "What shows that nothing was edited", kKeysOfProof};
 const Level kFileLevel = {"file", "A file that was read", kKeysOfFile};
 
 }  // namespace
 
 std::span<const Level* const> gain_file_levels() {
-  static constexpr std::array kLevels = {
-      &kDocumentLevel,   &kGainFunctionLevel, &kMarginLevel, &kBoundLevel,     &kCertificateLevel,
-      &kRefinementLevel, &kSearchLevel,       &kSolverLevel, &kStatementLevel, &kFileLevel};
+  static constexpr std::array kLevels = {&kDocumentLevel, &kGainFunctionLevel, &kMarginLevel,
+                                         &kBoundLevel,    &kCertificateLevel,  &kRefinementLevel,
+                                         &kSearchLevel,   &kSolverLevel,       &kStatementLevel,
+                                         &kProofLevel,    &kFileLevel};
   return kLevels;
 }
 

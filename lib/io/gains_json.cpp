@@ -11,6 +11,8 @@ namespace gainsmith::io {
 
 namespace {
 
+constexpr int kProofVersion = 1;
+
 /// The rows of a matrix with the decimals of its key.
 Json rows_json(const model::Gains& gains, const std::string& key, const numbers::Matrix& matrix) {
   if (!gains.decimals.contains(key)) return matrix_json(matrix);
@@ -346,6 +348,9 @@ Json to_json(const model::Gains& gains) {
   document["bounds"] = list_json(gains.bounds, bound_json);
   if (gains.certificate)
     document["certificate"] = certificate_json(gains, "certificate", *gains.certificate);
+  if (!gains.optimum_multipliers.empty())
+    document["optimum"] = matrices_json(gains, "optimum", gains.optimum_multipliers);
+  document["proof"] = {{"version", kProofVersion}, {"sha256", model::results_hash(gains)}};
   document["solver"] = solver_json(gains.solver);
   document["statement"] = statement_json(gains.statement);
   Json timings = Json::object();
@@ -402,12 +407,19 @@ model::Gains parse_gains(const std::string& text, const std::string& file) {
                             item.has("balanced_units") && item.at("balanced_units").truth()});
   if (reader.has("certificate"))
     gains.certificate = certificate_of(reader.at("certificate"), gains);
+  if (reader.has("optimum")) gains.optimum_multipliers = matrices_of(reader.at("optimum"), gains);
   gains.solver = solver_of(reader.at("solver"));
   for (const auto& [key, value] :
        {std::pair{"status", &gains.solver.status}, {"cause", &gains.solver.cause}})
     if (reader.has(key) && reader.at(key).text() != *value)
       reader.at(key).fail("differs from solver." + std::string(key));
   gains.statement = statement_of(reader.at("statement"));
+  if (reader.has("proof")) {
+    const JsonReader proof = reader.at("proof");
+    if (proof.at("version").whole() != kProofVersion)
+      proof.at("version").fail("another version of gainsmith wrote this proof");
+    gains.is_edited = proof.at("sha256").text() != model::results_hash(gains);
+  }
   for (const auto& [name, seconds] : reader.at("timings").members())
     gains.timings.emplace_back(name, seconds.number());
   reader.finish();

@@ -349,25 +349,33 @@ double objective_lower_bound(const Lmi& lmi, const GainBounds& bounds,
   return bound / formulation.cost_unit + lmi.objective_constant;
 }
 
+numbers::Matrix in_data_units(const Lmi& lmi, const GainBounds& bounds,
+                              const Formulation& formulation, std::size_t k,
+                              const Eigen::Ref<const numbers::Matrix>& y) {
+  // The multiplier of a row that was left out is zero.
+  const bool own = k < lmi.blocks.size();
+  const Block& block = own ? lmi.blocks[k] : bounds.blocks[k - lmi.blocks.size()];
+  const std::vector<int> kept = own ? formulation.free_variables.kept[k] : all_rows(block);
+  numbers::Matrix whole = numbers::Matrix::Zero(block.size, block.size);
+  for (Eigen::Index i = 0; i < y.rows(); ++i)
+    for (Eigen::Index j = 0; j < y.cols(); ++j) {
+      const int r = kept[static_cast<std::size_t>(i)];
+      const int c = kept[static_cast<std::size_t>(j)];
+      whole(r, c) = y(i, j) * formulation.balance.row(k, r) * formulation.balance.row(k, c);
+    }
+  return whole;
+}
+
 std::vector<numbers::Matrix> multipliers(const Lmi& lmi, const GainBounds& bounds,
                                          const Formulation& formulation,
                                          const sdp::Solution& solution) {
-  const auto blocks = all_blocks(lmi, bounds);
   std::vector<numbers::Matrix> result;
-  for (std::size_t k = 0; k < blocks.size(); ++k) {
-    // The multiplier of a row that was left out is zero.
-    const bool own = k < lmi.blocks.size();
-    const std::vector<int> kept = own ? formulation.free_variables.kept[k] : all_rows(*blocks[k]);
-    const auto n = static_cast<Eigen::Index>(kept.size());
-    const Eigen::Map<const numbers::Matrix> y(solution.Y.values[k].data(), n, n);
-    numbers::Matrix whole = numbers::Matrix::Zero(blocks[k]->size, blocks[k]->size);
-    for (Eigen::Index i = 0; i < n; ++i)
-      for (Eigen::Index j = 0; j < n; ++j) {
-        const int r = kept[static_cast<std::size_t>(i)];
-        const int c = kept[static_cast<std::size_t>(j)];
-        whole(r, c) = y(i, j) * formulation.balance.row(k, r) * formulation.balance.row(k, c);
-      }
-    result.push_back(std::move(whole));
+  for (std::size_t k = 0;
+       k < solution.Y.values.size() && k < lmi.blocks.size() + bounds.blocks.size(); ++k) {
+    const int n = formulation.sizes[k];
+    result.push_back(
+        in_data_units(lmi, bounds, formulation, k,
+                      Eigen::Map<const numbers::Matrix>(solution.Y.values[k].data(), n, n)));
   }
   return result;
 }

@@ -131,8 +131,14 @@ bool is_narrow_bracket(double low, double high, const Formulation& formulation);
 double objective_lower_bound(const Lmi& lmi, const GainBounds& bounds,
                              const Formulation& formulation, const sdp::Solution& solution);
 
+/// The multiplier of a block of the Lmi, or of the bounds behind them, in the units of the data, of
+/// its rows that were solved: <B_ki, Y_k> is the same number in both units.
+numbers::Matrix in_data_units(const Lmi& lmi, const GainBounds& bounds,
+                              const Formulation& formulation, std::size_t k,
+                              const Eigen::Ref<const numbers::Matrix>& y);
+
 /// The multipliers Y_k of a dual solution in the units of the data, for the blocks of the Lmi and
-/// then of the bounds: <B_ki, Y_k> is the same number in both units.
+/// then of the bounds.
 std::vector<numbers::Matrix> multipliers(const Lmi& lmi, const GainBounds& bounds,
                                          const Formulation& formulation,
                                          const sdp::Solution& solution);

@@ -10,6 +10,8 @@
 
 namespace gainsmith::model {
 
+using numbers::Matrix;
+
 const numbers::Matrix* Gains::find(const std::string& name) const {
   for (const NamedMatrices* list : {&gains, &unknowns})
     for (const auto& [key, matrix] : *list)
@@ -78,6 +80,32 @@ Decimals decimals_at(const Gains& gains, const std::string& key, const numbers::
     }
   }
   return result;
+}
+
+std::string results_hash(const Gains& gains) {
+  std::string text = gains.statement.hash;
+  const auto add = [&](const std::string& key, const Matrix& matrix) {
+    (text += '\0') += key;
+    for (const std::string& element : decimals_at(gains, key, matrix).elements)
+      (text += '\0') += element;
+  };
+  const auto add_all = [&](const std::string& key, const NamedMatrices& list) {
+    for (const auto& [name, matrix] : list) add(key + "." + name, matrix);
+  };
+  add_all("gains", gains.gains);
+  for (const GainFunction& gain : gains.gain_functions)
+    for (std::size_t k = 0; k < gain.coefficients.size(); ++k)
+      add(coefficient_key(gain.name, k), gain.coefficients[k]);
+  add_all("unknowns", gains.unknowns);
+  add_all("parameters", gains.parameters);
+  add_all("bases", gains.bases);
+  for (const auto& [name, value] : gains.searched)
+    add("searched." + name, Matrix::Constant(1, 1, value));
+  add_all("optimum", gains.optimum_multipliers);
+  if (gains.certificate) add_all("certificate.multipliers", gains.certificate->multipliers);
+  if (gains.search && gains.search->certificate)
+    add_all("search.certificate.multipliers", gains.search->certificate->multipliers);
+  return sha256(text);
 }
 
 std::optional<Decimals> decimals_of(const Gains& gains, const std::string& name) {

@@ -170,9 +170,11 @@ struct Gains {
   /// the equations. None: it is about the decimals.
   std::optional<double> solution_within;
   std::optional<double> objective_lower_bound;  ///< of the problem without margins, by weak duality
-  std::vector<Multiplier> multipliers;          ///< of a minimum; a gain file does not keep them
-  NamedMatrices gains;                          ///< constant ones
-  std::vector<GainFunction> gain_functions;     ///< the others
+  /// Those that show the lower bound, as in CertificateRecord; none where it is of a face.
+  NamedMatrices optimum_multipliers;
+  std::vector<Multiplier> multipliers;       ///< of a minimum; a gain file does not keep them
+  NamedMatrices gains;                       ///< constant ones
+  std::vector<GainFunction> gain_functions;  ///< the others
   NamedMatrices unknowns;
   /// How unknown functions follow from `unknowns`.
   std::vector<StatedFunction> functions;
@@ -197,6 +199,8 @@ struct Gains {
   Statement statement;
   /// Of the matrices that were read with other decimals than printed(): all elements, by key.
   std::map<std::string, std::vector<std::string>> decimals;
+  /// Read with a results_hash of its own that is not that of what was read.
+  bool is_edited = false;
   std::string file;                                     ///< where it was read, for messages
   std::string version;                                  ///< of gainsmith
   std::vector<std::pair<std::string, double>> timings;  ///< seconds; apart from all results
@@ -210,6 +214,10 @@ std::string coefficient_key(const std::string& gain, std::size_t k);
 /// The decimals of the matrix that is under a key: those that were read, as long as the matrix
 /// holds their doubles, otherwise printed().
 Decimals decimals_at(const Gains& gains, const std::string& key, const numbers::Matrix& matrix);
+
+/// sha256 of the statement's hash and of the decimals of all that a proof needs besides
+/// (docs/gain-file.md).
+std::string results_hash(const Gains& gains);
 
 /// The decimals of a gain, a coefficient of a gain that is a polynomial ("K_1"), an unknown, a
 /// parameter or a searched scalar: the first of that name in this order. None for other names.

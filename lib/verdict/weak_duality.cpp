@@ -127,6 +127,7 @@ BlockList blocks_of(const lmi::Inequalities& of, const lmi::Lmi& lmi, const lmi:
 struct ShownBound {
   double value = 0;
   double loss = 0;  ///< that multipliers without a residual would not have
+  Factored by;
 };
 
 std::optional<ShownBound> bound_at(Factored of, const Costs& costs) {
@@ -143,7 +144,7 @@ std::optional<ShownBound> bound_at(Factored of, const Costs& costs) {
     const double loss = move->theta * (images.G.col(0).norm() + images.error[0]) * (1 + 1e-12);
     const double low = slacks.r[0] - slacks.error[0] - loss;
     if (std::isfinite(low) && (!best || low > best->value) && leaves_positive(of, move->theta))
-      best = {low - 4 * kUnitRoundoff * (std::abs(slacks.r[0]) + loss), loss};
+      best = ShownBound{low - 4 * kUnitRoundoff * (std::abs(slacks.r[0]) + loss), loss, of};
     if (best && move->theta <= kNoLoss) break;
     correct(*by, move->steps, of);
   }
@@ -172,7 +173,7 @@ Costs on_face(const Faces& faces, const Costs& costs) {
   return result;
 }
 
-std::optional<double> lower_bound(const BlockList& blocks, const Multipliers& Y, Costs costs) {
+std::optional<LowerBound> lower_bound(const BlockList& blocks, const Multipliers& Y, Costs costs) {
   constexpr double kLittle = 1e-11;  // of the bound: 31 digits would show hardly more
   int last = 0;
   for (const auto& block : blocks)
@@ -182,23 +183,29 @@ std::optional<double> lower_bound(const BlockList& blocks, const Multipliers& Y,
     const auto of = factors_of(blocks, Y, lift);
     return of ? bound_at(*of, costs) : std::nullopt;
   };
-  const auto plain = with(0);
-  auto best = plain ? std::optional(plain->value) : std::nullopt;
-  if (best && plain->loss <= kLittle * std::abs(*best)) return best;
-  // The less is added, the larger is theta, and the better a bound that is shown.
-  double before = -std::numeric_limits<double>::infinity();
-  for (const double lift : {1e-7, 1e-9, 1e-11, 1e-13, 1e-15}) {
-    const auto found = with(lift);
-    if (!found || found->value <= before) break;
-    best = std::max(best, std::optional(before = found->value));
+  std::optional<ShownBound> best = with(0);
+  if (!best || best->loss > kLittle * std::abs(best->value)) {
+    // The less is added, the larger is theta, and the better a bound that is shown.
+    double before = -std::numeric_limits<double>::infinity();
+    for (const double lift : {1e-7, 1e-9, 1e-11, 1e-13, 1e-15}) {
+      auto found = with(lift);
+      if (!found || found->value <= before) break;
+      before = found->value;
+      if (!best || found->value > best->value) best = std::move(found);
+    }
   }
-  return best;
+  if (!best) return std::nullopt;
+  LowerBound result{best->value, std::vector<Matrix>(blocks.size())};
+  for (std::size_t k = 0; k < best->by.Y.size(); ++k)
+    result.Y[static_cast<std::size_t>(best->by.blocks[k].block - blocks.data())] =
+        best->by.Y[k].unaryExpr([](const DoubleDouble& x) { return as<double>(x); });
+  return result;
 }
 
-std::optional<double> lower_bound(const lmi::Inequalities& of, const lmi::Lmi& lmi,
-                                  const lmi::GainBounds& bounds,
-                                  const lmi::Formulation& formulation,
-                                  const sdp::Solution& solution) {
+std::optional<LowerBound> lower_bound(const lmi::Inequalities& of, const lmi::Lmi& lmi,
+                                      const lmi::GainBounds& bounds,
+                                      const lmi::Formulation& formulation,
+                                      const sdp::Solution& solution) {
   constexpr double kMostWork = 6e9;  // multiplications: seconds
   double size = 0;
   for (const int n : formulation.sizes) size += 0.5 * n * (n + 1);
@@ -207,11 +214,11 @@ std::optional<double> lower_bound(const lmi::Inequalities& of, const lmi::Lmi& l
   const ExactBlocks<DoubleDouble> exact(of, formulation.balance);
   Costs costs = exact.objective();
   for (auto& cost : costs) cost = numbers::scaled(cost, formulation.cost_unit);
-  const auto bound = lower_bound(blocks_of(of, lmi, bounds, formulation),
-                                 multipliers_of(formulation, formulation.sizes.size(), solution),
-                                 std::move(costs));
-  if (!bound) return std::nullopt;
-  return *bound / formulation.cost_unit;
+  auto bound = lower_bound(blocks_of(of, lmi, bounds, formulation),
+                           multipliers_of(formulation, formulation.sizes.size(), solution),
+                           std::move(costs));
+  if (bound) bound->value /= formulation.cost_unit;
+  return bound;
 }
 
 }  // namespace gainsmith::verdict

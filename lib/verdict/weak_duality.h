@@ -29,16 +29,24 @@ Costs exact_objective(const lmi::Inequalities& of);
 /// The same in the coordinates y of a face, x = x_0 + N y.
 Costs on_face(const Faces& faces, const Costs& costs);
 
+/// A bound with multipliers that show it: their residuals are rounding, and those that are singular
+/// have been lifted. One a block, of its rows; no rows: 0.
+struct LowerBound {
+  double value = 0;
+  std::vector<numbers::Matrix> Y;
+};
+
 /// The greatest bound that is shown with multipliers near Y; none where none is. c_i that are
 /// beyond the costs are 0.
-std::optional<double> lower_bound(const std::vector<ExactBlock<DoubleDouble>>& blocks,
-                                  const Multipliers& Y, Costs costs);
+std::optional<LowerBound> lower_bound(const std::vector<ExactBlock<DoubleDouble>>& blocks,
+                                      const Multipliers& Y, Costs costs);
 
 /// Of the objective of the inequalities, within the gain bounds, by the dual solution of its
-/// program. What represents no point of its domain is taken as it was solved.
-std::optional<double> lower_bound(const lmi::Inequalities& of, const lmi::Lmi& lmi,
-                                  const lmi::GainBounds& bounds,
-                                  const lmi::Formulation& formulation,
-                                  const sdp::Solution& solution);
+/// program. What represents no point of its domain is taken as it was solved. The multipliers are
+/// of the program, in balanced units.
+std::optional<LowerBound> lower_bound(const lmi::Inequalities& of, const lmi::Lmi& lmi,
+                                      const lmi::GainBounds& bounds,
+                                      const lmi::Formulation& formulation,
+                                      const sdp::Solution& solution);
 
 }  // namespace gainsmith::verdict

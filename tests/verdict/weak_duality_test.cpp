@@ -45,8 +45,9 @@ struct Case {
     units.unknowns.assign(costs.size() - 1, 0);
     std::vector<int> rows(static_cast<std::size_t>(C.rows()));
     std::iota(rows.begin(), rows.end(), 0);
-    return lower_bound({exact_block(block, units, 0, rows)},
-                       {Y.unaryExpr([](double y) { return DoubleDouble(y); })}, costs);
+    const auto found = lower_bound({exact_block(block, units, 0, rows)},
+                                   {Y.unaryExpr([](double y) { return DoubleDouble(y); })}, costs);
+    return found ? std::optional(found->value) : std::nullopt;
   }
 
   /// <C, v v'> / v'v, without rounding.
