@@ -13,10 +13,10 @@ from fractions import Fraction
 
 import yaml
 
-from arithmetic import ONE, Affine, Taylor, Undecided, Unsupported, inverse, is_exact, upper
-from language import (Family, Function, Later, Scope, chebyshev, decimal, elementwise, evaluate,
-                      holds, matrix, parse, power_of_number)
-from matrices import Matrix, column, diagonal, flat, identity, join_blocks, number, zeros
+from arithmetic import ONE, Affine, Taylor, Undecided, Unsupported, is_exact, upper
+from language import (Family, Function, Later, Scope, basis_functions, decimal, defined,
+                      elementwise, evaluate, holds, matrix, parse)
+from matrices import Matrix, column, diagonal, flat, identity, norm_block, number, zeros
 
 LARGEST_FILE = 64_000_000
 NOT_EVALUATED = (Undecided, Unsupported, ArithmeticError, LookupError, TypeError, ValueError,
@@ -27,6 +27,11 @@ class Damaged(Exception):
 
 class Numeral(str):
     """A number of the JSON file, as it is written."""
+
+def expect(condition, what):
+    if not condition: raise Damaged("expected " + what)
+
+def refuse(text): raise Unsupported(text)
 
 # Reading.
 
@@ -47,14 +52,11 @@ def read_gain_file(path):
                 "search", "gain_functions"):
         default = None if key in ("gains", "unknowns", "statement") else {}
         expect(isinstance(gain.get(key, default), dict), key + ": an object")
-        if key in ("gains", "unknowns", "bases"):
-            for name, value in gain.get(key, {}).items():
-                matrix_of_json(value, "%s.%s" % (key, name))
+    for key in ("gains", "unknowns", "bases"):
+        for name, value in gain.get(key, {}).items():
+            matrix_of_json(value, "%s.%s" % (key, name))
     check_statement(gain["statement"])
     return gain
-
-def expect(condition, what):
-    if not condition: raise Damaged("expected " + what)
 
 def unique_keys(pairs):
     if len({key for key, _ in pairs}) < len(pairs): raise ValueError("a key occurs twice")
@@ -95,8 +97,8 @@ class TextLoader(yaml.BaseLoader):
     """YAML with all scalars as texts (0.1 is a decimal, not a double), without repeated keys."""
 
     def construct_mapping(self, node, deep=False):
-        keys = [key.value for key, _ in node.value]
-        if len(set(map(str, keys))) < len(keys): raise yaml.YAMLError("a key occurs twice")
+        keys = [str(key.value) for key, _ in node.value]
+        if len(set(keys)) < len(keys): raise yaml.YAMLError("a key occurs twice")
         return super().construct_mapping(node, deep)
 
 def read_yaml(text):
@@ -157,6 +159,13 @@ def section(mapping, key):
     expect(isinstance(value, dict), key + ": a mapping")
     return value
 
+def declarations(mapping, key):
+    """The entries of a section, where a text alone is a shape."""
+    return {name: entry if isinstance(entry, dict) else {"shape": entry}
+            for name, entry in section(mapping, key).items()}
+
+def listed(x): return x if isinstance(x, list) else [x]
+
 # The statement.
 
 Interval = namedtuple("Interval", "name index low high")    # index: element of a column, or None
@@ -173,15 +182,16 @@ class Statement:
     """
 
     def __init__(self, gain, unknown_value):
-        self.gain, self.unknown_value = gain, unknown_value
+        self.gain, self.unknown_value, self.scope = gain, unknown_value, Scope()
         self.problem, self.method = problem_and_method(gain["statement"])
-        self.scope = Scope()
         self.settings = gain["statement"].get("set", {})
         self.check_searched()
         self.given = {**section(self.problem, "data"), **section(self.problem, "parameters")}
         self.declare_definitions()
         self.declare_data()
-        self.declare_unknowns()
+        self.unknowns = declarations(self.method, "unknowns")
+        for name, declared in self.unknowns.items():
+            self.declare(name, lambda: self.unknown_or_family(name, declared))
 
     def check_searched(self):
         """Values under `searched` replace those of the texts: the texts must ask for a search."""
@@ -194,6 +204,16 @@ class Statement:
 
     # Definitions and data.
 
+    def later(self, name, compute): self.scope.names[name] = Later(compute)
+
+    def declare(self, name, compute):
+        """The name gets its value now; if there is none, its use is refused."""
+        try:
+            self.scope.names[name] = compute()
+        except NOT_EVALUATED as error:
+            text = "%s of the datum %s" % (error, name)
+            self.later(name, lambda: refuse(text))
+
     def declare_definitions(self):
         for source in (self.method, self.problem):
             for head, text in section(source, "let").items():
@@ -203,41 +223,30 @@ class Statement:
             if name not in declared and not HEAD.fullmatch(name):
                 self.later(name, lambda name=name: self.value(self.given_value(name)))
 
-    def later(self, name, compute): self.scope.names[name] = Later(compute)
-
     def define(self, head, text):
         call = HEAD.fullmatch(head)
-        if not call:
-            self.later(head.strip(), lambda: evaluate(parse(text), self.scope))
-            return
-        names = [x.split()[0] for x in call.group(2).split(",")]
-        self.scope.names[call.group(1)] = self.function(names, text)
-
-    def function(self, names, text):
-        def apply(*values):
-            if len(values) < len(names): raise Unsupported("the number of arguments")
-            return matrix(parse(text), Scope(self.scope, dict(zip(names, values))))
-        return Function(apply)
+        if call:
+            names = [x.split()[0] for x in call.group(2).split(",")]
+            self.scope.names[call.group(1)] = defined(names, text, self.scope)
+        else: self.later(head.strip(), lambda: evaluate(parse(text), self.scope))
 
     def given_value(self, name):
         """The value of a datum or parameter: searched, set on the command line, or given."""
         if name in self.gain.get("searched", {}): return str(self.gain["searched"][name])
         if name in self.settings:
             text = self.settings[name].strip()
-            listed = text[:1] in "[{" and ";" not in text
-            return yaml.load(text, Loader=TextLoader) if listed else text
+            is_list = text[:1] in "[{" and ";" not in text
+            return yaml.load(text, Loader=TextLoader) if is_list else text
         return self.given.get(name)
 
-    def value(self, x, shape=None, scope=None):
+    def value(self, x, shape=(None, None), scope=None):
         """The matrix that a YAML value is: a text, a flat list, a list of rows, a file."""
         scope = scope or self.scope
         if isinstance(x, dict): x = self.matrix_of_file(x)
         if isinstance(x, str): return matrix(parse(x), scope)
-        if x and isinstance(x[0], list):
-            return Matrix([[matrix(parse(y), scope).number() for y in row] for row in x])
-        values = [matrix(parse(y), scope).number() for y in x]
-        rows, cols = shape or (None, None)
-        return column(values) if cols == 1 and rows != 1 else Matrix([values], 1, len(values))
+        rows = x if x and isinstance(x[0], list) else [x]
+        result = Matrix([[matrix(parse(y), scope).number() for y in row] for row in rows])
+        return result.transposed() if rows[0] is x and shape[1] == 1 != shape[0] else result
 
     def matrix_of_file(self, reference):
         path = next((reference[k] for k in ("csv", "mat", "npy", "json") if k in reference), None)
@@ -246,50 +255,39 @@ class Statement:
                 if "name" in reference and reference["name"] in entry.get("matrices", {}):
                     return entry["matrices"][reference["name"]]
                 if "matrix" in entry: return entry["matrix"]
-        raise Unsupported("a matrix from a file")
+        return refuse("a matrix from a file")
 
     def declare_data(self):
-        for name, declared in section(self.method, "data").items():
-            declared = declared if isinstance(declared, dict) else {"shape": declared}
-            try:
-                self.declare_datum(name, declared)
-            except NOT_EVALUATED as error:
-                self.later(name, lambda name=name, e=error: self.missing(name, e))
+        for name, declared in declarations(self.method, "data").items():
+            self.declare(name, lambda: self.datum(name, declared))
         for name, declared in section(self.method, "parameters").items():
             default = declared.get("default") if isinstance(declared, dict) else declared
-            x = self.given_value(name)
-            x = x if x is not None else default
-            x = x if x is not None else self.gain.get("parameters", {}).get(name)
+            found = [self.given_value(name), default, self.gain.get("parameters", {}).get(name)]
+            x = next((x for x in found if x is not None), None)
             self.later(name, lambda x=x: self.value(x))
 
-    def missing(self, name, error): raise Unsupported("%s of the datum %s" % (error, name))
-
-    def declare_datum(self, name, declared):
+    def datum(self, name, declared):
         x = self.given_value(name)
-        if "of" in declared:
-            heads = {HEAD.fullmatch(k).group(1): k for k in self.given if HEAD.fullmatch(k)}
-            names = list(declared["of"])
-            if name in heads:
-                x = self.given[heads[name]]
-                names = [a.strip() for a in HEAD.fullmatch(heads[name]).group(2).split(",")]
-            x = declared["default"] if x is None else x
-            self.scope.names[name] = self.function(names, x)
-            self.size_of_function(name, declared, len(names))
-            return
+        if "of" in declared: return self.function_of_data(name, x, declared)
         x = x if x is not None else declared["default"]
-        if "for" in declared: self.scope.names[name] = self.family_of_data(x, declared)
-        elif name in self.gain.get("bases", {}):
-            self.scope.names[name] = self.basis(name, x, declared["shape"])
-        else: self.scope.names[name] = self.shaped(x, declared["shape"], self.scope)
+        if "for" in declared: return self.family_of_data(x, declared)
+        if name in self.gain.get("bases", {}): return self.basis(name, x, declared["shape"])
+        return self.shaped(x, declared["shape"], self.scope)
 
-    def size_of_function(self, name, declared, count):
-        """The value at zero shows a size that nothing else gives."""
+    def function_of_data(self, name, x, declared):
+        """A datum with arguments. Its value at zero shows a size that nothing else gives."""
+        heads = [HEAD.fullmatch(k) for k in self.given if HEAD.fullmatch(k)]
+        names = list(declared["of"])
+        for head in heads:
+            if head.group(1) == name:
+                x, names = self.given[head.group(0)], [a.strip() for a in head.group(2).split(",")]
+        result = defined(names, declared["default"] if x is None else x, self.scope)
         try:
             shapes = [self.shape(s) for s in declared["of"].values()]
-            value = self.scope.names[name].apply(*[zeros(*s) for s in shapes[:count]])
-            self.unify(declared["shape"], value)
+            self.unify(declared["shape"], result.apply(*[zeros(*s) for s in shapes[:len(names)]]))
         except NOT_EVALUATED:
             pass
+        return result
 
     def basis(self, name, x, shape):
         """The basis of the file, if it is the one of the text up to the rounding of doubles."""
@@ -302,24 +300,22 @@ class Statement:
         return result
 
     def family_of_data(self, x, declared):
-        texts = declared["for"] if isinstance(declared["for"], list) else [declared["for"]]
-        name, low, high = INDEX.fullmatch(texts[0]).groups()
-        if isinstance(x, list) and len(texts) == 1:
-            if self.number_or_none(high) is None:
-                self.set_size(high.strip(), len(x) + self.whole(low) - 1)
-            keys = self.index_keys(texts)
-            if len(keys) != len(x): raise Unsupported("the number of members")
-            values = {key: y for (key, _), y in zip(keys, x)}
-        else:
-            keys = self.index_keys(texts)
-            values = {key: x for key, _ in keys}
-        return Family({key: self.shaped(values[key], declared["shape"], scope)
-                       for key, scope in keys})
+        """One text for all members, or a list of them, which may give the last index."""
+        texts = listed(declared["for"])
+        several = isinstance(x, list) and len(texts) == 1
+        _, low, high = INDEX.fullmatch(texts[0]).groups()
+        if several and self.size(high) is None:
+            self.set_size(high.strip(), len(x) + self.whole(low) - 1)
+        members = self.index_keys(texts)
+        if several and len(members) != len(x): raise Unsupported("the number of members")
+        values = x if several else [x] * len(members)
+        return Family({key: self.shaped(y, declared["shape"], scope)
+                       for (key, scope), y in zip(members, values)})
 
     def index_keys(self, texts):
         """[(indices, scope)] of `for: [i in 1..N, k in 0..2]`."""
         found = [((), self.scope)]
-        for text in texts if isinstance(texts, list) else [texts]:
+        for text in listed(texts):
             name, low, high = INDEX.fullmatch(text).groups()
             found = [(key + (k,), Scope(scope, {name: number(Fraction(k))}))
                      for key, scope in found
@@ -330,7 +326,8 @@ class Statement:
 
     def whole(self, text, scope=None): return matrix(parse(text), scope or self.scope).whole()
 
-    def number_or_none(self, text):
+    def size(self, text):
+        """The whole number that a text is, or None."""
         try:
             return self.whole(text)
         except Unsupported:
@@ -342,24 +339,23 @@ class Statement:
 
     def parts(self, shape):
         words = shape.split()
-        if shape.strip() == "scalar": return ["1", "1"]
+        if words == ["scalar"]: return ["1", "1"]
         if words[0] in ("symmetric", "diagonal"): return [shape.strip()[len(words[0]):]] * 2
         found = re.split(r"\s+x\s+", shape.strip())
         return found if len(found) == 2 else [shape, "1"]
 
-    def shape(self, shape): return tuple(self.number_or_none(p) for p in self.parts(shape))
+    def shape(self, shape): return tuple(self.size(p) for p in self.parts(shape))
 
     def unify(self, shape, value):
         """Sizes of the shape that are not known yet become those of the value."""
         for text, size in zip(self.parts(shape), value.shape()):
-            known = self.number_or_none(text)
+            known = self.size(text)
             if known is None: self.set_size(text.strip(), size)
             elif known != size: raise Unsupported("the size of a datum: %d, not %d" % (size, known))
 
     def shaped(self, x, shape, scope):
         rows, cols = self.shape(shape)
-        one_column = self.parts(shape)[1] == "1"
-        value = self.value(x, (rows, 1 if one_column else cols), scope)
+        value = self.value(x, (rows, 1 if self.parts(shape)[1] == "1" else cols), scope)
         if value.flexible and rows: value = identity(rows, value.number())
         elif value.is_zero() and rows is not None and cols is not None: value = zeros(rows, cols)
         self.unify(shape, value)
@@ -367,19 +363,10 @@ class Statement:
 
     # Unknowns.
 
-    def declare_unknowns(self):
-        self.unknowns = section(self.method, "unknowns")
-        for name, declared in self.unknowns.items():
-            declared = declared if isinstance(declared, dict) else {"shape": declared}
-            try:
-                if "for" in declared:
-                    keys = [key for key, _ in self.index_keys(declared["for"])]
-                    value = Family({key: self.unknown("_".join(map(str, (name,) + key)), declared)
-                                    for key in keys})
-                else: value = self.unknown(name, declared)
-                self.scope.names[name] = value
-            except NOT_EVALUATED as error:
-                self.later(name, lambda name=name, e=error: self.missing(name, e))
+    def unknown_or_family(self, name, declared):
+        if "for" not in declared: return self.unknown(name, declared)
+        return Family({key: self.unknown("_".join(map(str, (name,) + key)), declared)
+                       for key, _ in self.index_keys(declared["for"])})
 
     def unknown(self, name, declared):
         kind = declared["shape"].split()[0]
@@ -401,11 +388,10 @@ class Statement:
         for head, text in self.gain.get("functions", {}).items():
             call = HEAD.fullmatch(head)
             if call and call.group(1) == name:
-                for word in set(re.findall(r"[A-Za-z_]\w*", text)):
-                    if re.fullmatch(re.escape(name) + r"_\d+", word):
-                        self.scope.names[word] = self.unknown_value(word, rows, cols, kind)
-                return self.function([call.group(2).strip()], text)
-        raise Unsupported("the formula of " + name)
+                for word in set(re.findall(r"\b%s_\d+\b" % re.escape(name), text)):
+                    self.scope.names[word] = self.unknown_value(word, rows, cols, kind)
+                return defined([call.group(2).strip()], text, self.scope)
+        return refuse("the formula of " + name)
 
     # Requirements.
 
@@ -414,7 +400,7 @@ class Statement:
         for name, entry in section(self.method, "require").items():
             try:
                 entry = entry if isinstance(entry, dict) else {"that": entry}
-                tree = self.named_blocks(entry) if "blocks" in entry else parse(entry["that"])
+                tree = named_blocks(entry) if "blocks" in entry else parse(entry["that"])
                 found = list(chain_parts(tree))
                 domains = self.domains(entry.get("forall", []))
             except NOT_EVALUATED as error:
@@ -424,84 +410,74 @@ class Statement:
                 label = "%s.%d" % (name, k + 1) if len(found) > 1 else name
                 yield label, Comparison(name, left, sign, right, domains)
 
-    def named_blocks(self, entry):
-        blocks = entry["blocks"]
-        zero = ("number", Fraction(0))
-
-        def place(a, b):
-            if b in (blocks[a] or {}): return parse(blocks[a][b])
-            return ("'", parse(blocks[b][a])) if a in (blocks[b] or {}) else zero
-
-        sign, right = re.fullmatch(r"\s*(<=|>=|<|>)(.*)", entry["is"]).groups()
-        rows = [[place(a, b) for b in blocks] for a in blocks]
-        return ("compare", [("block", rows), sign, parse(right)])
-
     def domains(self, texts):
-        """The finite choices of `forall`, each with the intervals that remain."""
-        found = [Domain(self.scope, (), (), ())]
-        for text in texts if isinstance(texts, list) else [texts]:
+        """The finite choices of `forall`, each with the intervals that remain.
+
+        A vertex stands for a whole polytope, so no later entry may depend on it.
+        """
+        found, seen = [Domain(self.scope, (), (), ())], set()
+        for text in listed(texts):
             entry = re.fullmatch(r"\s*(\w+)\s+in\s+(.*)", text, re.S)
-            if not entry:
-                found = [d for d in found if holds(parse(text), d.scope)]
-                continue
-            name, where = entry.group(1), entry.group(2).strip()
-            found = [new for d in found for new in self.choices(d, name, where)]
+            scopes = [Scope(d.scope, {name: Later(lambda: refuse("an entry of forall that depends "
+                                                                 "on a variable of an interval"))
+                                      for name in [i.name for i in d.intervals] +
+                                      [name for name, _ in d.hulls]}) for d in found]
+            if entry:
+                if entry.group(1) in seen: raise Unsupported("a variable that occurs twice")
+                seen.add(entry.group(1))
+                found = [new for d, scope in zip(found, scopes)
+                         for new in choices(d, scope, entry.group(1), entry.group(2).strip())]
+            else: found = [d for d, scope in zip(found, scopes) if holds(parse(text), scope)]
         return found
 
-    def choices(self, domain, name, where):
-        if where.startswith("["):
-            ends = parse(where)
-            if ends[0] != "block" or len(ends[1]) != 1 or len(ends[1][0]) != 2:
-                raise Unsupported("the interval " + where)
-            low, high = [matrix(x, domain.scope) for x in ends[1][0]]
-            shape = high if low.is_number() else low
-            if shape.cols != 1 or not (high.is_number() or high.shape() == shape.shape()):
-                raise Unsupported("the interval " + where)
-            places = [None] if shape.is_number() else range(shape.rows)
-            new = tuple(Interval(name, i, low.spread(i or 0, 0), high.spread(i or 0, 0))
-                        for i in places)
-            empty = {name: shape} if shape.rows == 0 else {}
-            return [domain._replace(scope=Scope(domain.scope, empty),
-                                    intervals=domain.intervals + new)]
-        hulls = domain.hulls
-        if "{" in where:
-            values = [matrix(x, domain.scope) for x in
-                      parse("[" + where[where.index("{") + 1:where.rindex("}")] + "]")[1][0]]
-            if where.startswith("conv"): hulls += ((name, values),)
-        elif ".." in where:
-            low, _, high = where.partition("..")
-            values = [number(Fraction(k)) for k in range(self.whole(low, domain.scope),
-                                                         self.whole(high, domain.scope) + 1)]
-        else: values = [number(x) for x in flat(matrix(parse(where), domain.scope))]
-        return [Domain(Scope(domain.scope, {name: v}), domain.intervals,
-                       domain.choices + ((name, k + 1, v),), hulls) for k, v in enumerate(values)]
+def named_blocks(entry):
+    """The comparison of a matrix that is given by named block rows and columns."""
+    blocks = entry["blocks"]
+
+    def place(a, b):
+        if b in (blocks[a] or {}): return parse(blocks[a][b])
+        return ("'", parse(blocks[b][a])) if a in (blocks[b] or {}) else ("number", Fraction(0))
+
+    sign, right = re.fullmatch(r"\s*(<=|>=|<|>)(.*)", entry["is"]).groups()
+    return ("compare", [("block", [[place(a, b) for b in blocks] for a in blocks]), sign,
+                        parse(right)])
+
+def choices(domain, scope, name, where):
+    """The domains that an entry `name in where` of forall makes of one, evaluated in the scope."""
+    if where.startswith("["):
+        ends = parse(where)
+        if ends[0] != "block" or len(ends[1]) != 1 or len(ends[1][0]) != 2:
+            raise Unsupported("the interval " + where)
+        low, high = [matrix(x, scope) for x in ends[1][0]]
+        shape = high if low.is_number() else low
+        if shape.cols != 1 or not (high.is_number() or high.shape() == shape.shape()):
+            raise Unsupported("the interval " + where)
+        new = [Interval(name, i, low.spread(i or 0, 0), high.spread(i or 0, 0))
+               for i in ([None] if shape.is_number() else range(shape.rows))]
+        empty = {name: shape} if shape.rows == 0 else {}
+        return [domain._replace(scope=Scope(domain.scope, empty),
+                                intervals=domain.intervals + tuple(new))]
+    if "{" in where:
+        inner = parse("[" + where[where.index("{") + 1:where.rindex("}")] + "]")
+        values = [matrix(x, scope) for x in inner[1][0]]
+    elif ".." in where:
+        low, high = [matrix(parse(x), scope).whole() for x in where.split("..", 1)]
+        values = [number(Fraction(k)) for k in range(low, high + 1)]
+    else: values = [number(x) for x in flat(matrix(parse(where), scope))]
+    hulls = domain.hulls + (((name, values),) if where.startswith("conv") else ())
+    return [Domain(Scope(domain.scope, {name: v}), domain.intervals,
+                   domain.choices + ((name, k + 1, v),), hulls) for k, v in enumerate(values)]
 
 def polynomial(parts, span):
-    """The unknown function sum parts[k] b_k(t): b_k = t^k, or Chebyshev polynomials on the span.
-
-    b_k' = k b_(k-1) for powers. On the span with u = (2 t - low - high)/(high - low), T_k' is
-    k U_(k-1) u', where U_k = 2 u U_(k-1) - U_(k-2), U_0 = 1, U_(-1) = 0.
-    """
-    def base(k, t, derivative):
-        if not span:
-            if derivative: return k * power_of_number(t, Fraction(k - 1))
-            return power_of_number(t, Fraction(k))
-        scale = inverse(span[1] - span[0])
-        u = (2 * t - span[0] - span[1]) * scale
-        if not derivative: return chebyshev(k, u)
-        before, now = Fraction(0), Fraction(1)
-        for _ in range(k - 1): before, now = now, 2 * (u * now) - before
-        return 2 * scale * (k * now)
-
-    def function(derivative):
+    """The unknown function sum parts[k] b_k(t), with powers or Chebyshev polynomials b_k."""
+    def function(which):
         def apply(argument):
-            total = parts[0].map(lambda x: x * 0) if derivative else parts[0]
-            for k in range(1, len(parts)):
-                b = base(k, argument.number(), derivative)
-                total = total + parts[k].map(lambda x: b * x)
+            total = parts[0].map(lambda x: x * 0) if which == 1 else parts[0]
+            for part, b in list(zip(parts, basis_functions(argument.number(), span)))[1:]:
+                total = total + part.map(lambda x: b[which] * x)
             return total
         return apply
-    return Function(function(False), function(True))
+    return Function(function(0), function(1))
 
 def chain_parts(tree):
     """(left, sign, right) of each comparison of a requirement."""
@@ -517,35 +493,38 @@ def values_of_file(gain):
     """unknown_value of the decimals of the file. Symmetric unknowns must be symmetric."""
     def value(name, rows, cols, kind):
         if name not in gain["unknowns"]: raise Unsupported("a file without the unknown " + name)
-        result = matrix_of_json(gain["unknowns"][name], name)
-        if result.shape() != (rows, cols) and rows == 1 and result.cols == 1:
-            result = result.transposed()        # a flat list
-        if result.shape() != (rows, cols) and 0 in (rows, cols): result = zeros(rows, cols)
-        if result.shape() != (rows, cols): raise Unsupported("the size of " + name)
-        if kind == "symmetric" and result.elements != result.transposed().elements:
-            raise Unsupported("%s, which is not symmetric" % name)
-        if kind == "diagonal" and any(result[i, j] != 0 for i in range(rows) for j in range(cols)
-                                      if i != j):
-            raise Unsupported("%s, which is not diagonal" % name)
-        return result
+        return checked(matrix_of_json(gain["unknowns"][name], name), name, rows, cols, kind)
     return value
 
-class Symbols:
-    """unknown_value with a new scalar x_i for each free element; `names` lists them."""
+def checked(a, name, rows, cols, kind):
+    """The matrix, if it has this size and is of this kind."""
+    if a.shape() != (rows, cols) and a.cols == 1: a = a.transposed()        # a flat list
+    if a.shape() != (rows, cols) and 0 in (rows, cols): a = zeros(rows, cols)
+    if a.shape() != (rows, cols): raise Unsupported("the size of " + name)
+    if kind == "symmetric" and a.elements != a.transposed().elements:
+        raise Unsupported("%s, which is not symmetric" % name)
+    if kind == "diagonal" and a.elements != diagonal([a[i, i] for i in range(rows)]).elements:
+        raise Unsupported("%s, which is not diagonal" % name)
+    return a
 
-    def __init__(self): self.names = []
+class Symbols:
+    """unknown_value with a new scalar x_i for each free element; `count` is their number."""
+
+    def __init__(self): self.count = 0
 
     def __call__(self, name, rows, cols, kind):
-        result = [[Fraction(0)] * cols for _ in range(rows)]
+        result = zeros(rows, cols)
         for j in range(cols):
             for i in range(rows):
                 if kind == "diagonal" and i != j or kind == "symmetric" and i < j: continue
-                self.names.append((name, i, j))
-                result[i][j] = Affine({len(self.names): Fraction(1)})
-                if kind == "symmetric": result[j][i] = result[i][j]
-        return Matrix(result, rows, cols)
+                self.count += 1
+                result.elements[i][j] = Affine({self.count: Fraction(1)})
+                if kind == "symmetric": result.elements[j][i] = result.elements[i][j]
+        return result
 
 # Inequalities as symmetric matrices.
+
+BOUNDED = {1: ("norm", "abs", "max", "lambda_max"), -1: ("min", "lambda_min")}
 
 def inequality(comparison, scope):
     """The symmetric matrix that a comparison asks to be positive (semi)definite.
@@ -556,37 +535,24 @@ def inequality(comparison, scope):
     """
     small, large = comparison.left, comparison.right
     if comparison.sign in (">", ">="): small, large = large, small
-    for function, arguments, other, factor in (called(small) + (large, 1),
-                                               called(large) + (small, -1)):
-        if function in BOUNDED[factor] and scope.find(function) is None:
-            bound = matrix(other, scope)
-            values = [matrix(x, scope) for x in arguments]
-            if len(values) > 1 and function not in ("max", "min"):
-                raise Unsupported("%s of several arguments" % function)
-            if function == "norm": return norm_block(values[0], bound)
-            if function.startswith("lambda"):
-                return symmetric((identity(values[0].rows, bound.number()) - values[0]).map(
-                    lambda x: x * factor))
-            if function == "abs": values += [-values[0]]
-            differences = [elementwise(lambda x, y: (x - y) * factor)(bound, v) for v in values]
-            return diagonal([x for d in differences for x in flat(d)])
+    for side, other, factor in ((small, large, 1), (large, small, -1)):
+        name = side[1][1] if side[0] == "call" and side[1][0] == "name" else ""
+        if name not in BOUNDED[factor] or scope.find(name) is not None: continue
+        bound, values = matrix(other, scope), [matrix(x, scope) for x in side[2]]
+        if len(values) > 1 and name not in ("max", "min"):
+            raise Unsupported("%s of several arguments" % name)
+        if name == "norm": return norm_block(values[0], bound)
+        if name.startswith("lambda"):
+            return symmetric((identity(values[0].rows, bound.number()) - values[0]).map(
+                lambda x: x * factor))
+        if name == "abs": values += [-values[0]]
+        elif len(values) == 1: values = [number(x) for x in flat(values[0])]
+        differences = [elementwise(lambda x, y: (x - y) * factor)(bound, v) for v in values]
+        return diagonal([x for d in differences for x in flat(d)])
     difference = matrix(large, scope) - matrix(small, scope)
-    if difference.rows != difference.cols:
-        if 1 not in difference.shape():
-            raise Unsupported("an inequality of %d x %d matrices" % difference.shape())
-        return diagonal(flat(difference))
-    return symmetric(difference)
-
-BOUNDED = {1: ("norm", "abs", "max", "lambda_max"), -1: ("min", "lambda_min")}
-
-def called(tree):
-    """(function, arguments) of f(...), else ("", ())."""
-    return (tree[1][1], tree[2]) if tree[0] == "call" and tree[1][0] == "name" else ("", ())
-
-def norm_block(m, bound):
-    """norm(M) <= g if and only if [g I, M; M', g I] >= 0."""
-    g = bound.number()
-    return join_blocks([[identity(m.rows, g), m], [m.transposed(), identity(m.cols, g)]])
+    if 1 in difference.shape(): return diagonal(flat(difference))
+    if difference.rows == difference.cols: return symmetric(difference)
+    raise Unsupported("an inequality of %d x %d matrices" % difference.shape())
 
 def symmetric(a):
     """a if it is symmetric. Asymmetry of the size of rounding is averaged: v'av stays the same."""
@@ -601,13 +567,12 @@ def symmetric(a):
 
 def check_rounding(x, y):
     """Raises Unsupported unless |x - y| is at most 1e-9 of their size, up to their errors."""
-    difference = x - y
-    parts = [(difference, x, y)]
-    if isinstance(difference, Affine):
-        terms = [z.c if isinstance(z, Affine) else {0: z} for z in (difference, x, y)]
+    parts = [(x - y, x, y)]
+    if isinstance(parts[0][0], Affine):
+        terms = [z.terms if isinstance(z, Affine) else {0: z} for z in parts[0]]
         parts = [[t.get(i, Fraction(0)) for t in terms] for i in terms[0]]
-    for d, *both in parts:
+    for difference, *both in parts:
         error = sum(z.rest if isinstance(z, Taylor) else 0 for z in both)
         size = max(upper(z) for z in both) / 10 ** 9 + Fraction(1, 10 ** 80)
-        if upper(d) > size + Fraction(2 * error, ONE):
+        if upper(difference) > size + Fraction(2 * error, ONE):
             raise Unsupported("a matrix that is not symmetric")
