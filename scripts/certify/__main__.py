@@ -51,7 +51,6 @@ def check(path, seconds):
     began = time.process_time()
     found = {"file": path, "verdict": "open", "message": "", "claims": [], "gains": [],
              "proved_at_printed_gains": [], "search": []}
-
     def fails(verdict, message): found.update(verdict=verdict, message=message)
     try:
         gain = within(seconds, lambda: read_gain_file(path))

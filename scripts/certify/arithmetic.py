@@ -28,39 +28,29 @@ class Unsupported(Exception):
 
 def is_exact(x): return x.__class__ is Fraction or x.__class__ is int
 def is_zero(x): return is_exact(x) and x == 0
+def level(x): return 0 if is_exact(x) else x.level      # the place of its kind in the list above
 
 class Number:
-    """The operators of all kinds but fractions. `level` orders the kinds."""
+    """The operators of all kinds but fractions."""
     __slots__ = ()
-    level = 0
-
-    def __add__(self, other):
-        a, b = same_kind(self, other)
-        return a.plus(b)
-
-    def __mul__(self, other):
-        if is_exact(other):
-            return Fraction(0) if other == 0 else self if other == 1 else self.scaled(other)
-        a, b = same_kind(self, other)
-        return a.times(b)
-
-    __radd__, __rmul__ = __add__, __mul__
+    def __add__(self, other): return self.at_level(other, lambda a, b: a.plus(b))
     def __sub__(self, other): return self + (-other)
     def __rsub__(self, other): return (-self) + other
     def __truediv__(self, other): return self * inverse(other)
     def __rtruediv__(self, other): return other * inverse(self)
-
-def same_kind(a, b):
-    """Both numbers in the later kind of the two."""
-    level_a = 0 if is_exact(a) else a.level
-    level_b = 0 if is_exact(b) else b.level
-    if level_a < level_b: return b.lift(a), b
-    return (a, b) if level_a == level_b else (a, a.lift(b))
+    def __mul__(self, other):
+        if is_exact(other):
+            return Fraction(0) if other == 0 else self if other == 1 else self.scaled(other)
+        return self.at_level(other, lambda a, b: a.times(b))
+    def at_level(self, other, operation):
+        """The operation on both numbers in the later of their kinds."""
+        if level(other) > self.level: return operation(other.lift(self), other)
+        return operation(self, self.lift(other) if level(other) < self.level else other)
+    __radd__, __rmul__ = __add__, __mul__
 
 class Ball(Number):
     """The interval [m - r, m + r]/2^320."""
-    __slots__ = ("m", "r")
-    level = 1
+    __slots__, level = ("m", "r"), 1
     def __init__(self, m, r=0): self.m, self.r = m, r
     def lift(self, x): return ball(x)
     def size(self): return abs(self.m) + self.r         # at least |x| 2^320
@@ -68,7 +58,6 @@ class Ball(Number):
     def times(self, other): return sum_of_balls([(self, other)])
     def widened(self, error): return Ball(self.m, self.r + error)
     def __neg__(self): return Ball(-self.m, self.r)
-
     def scaled(self, q):
         n, d = q.numerator, q.denominator
         return Ball(self.m * n // d, self.r * abs(n) // d + 2)
@@ -94,37 +83,27 @@ def middle(x):
     """The fraction in the middle of a fraction or a ball."""
     return Fraction(x) if is_exact(x) else Fraction(ball(x).m, ONE)
 
-# Polynomials.
-
 class Series(Number):
-    """sum of terms[e] x^e, up to an error of rest/2^320."""
-    __slots__ = ("terms", "rest", "space")
-
+    """A polynomial, the sum of terms[e] x^e, up to an error of rest/2^320."""
     def __init__(self, terms, rest=0, space=None):
         self.terms, self.rest, self.space = terms, rest, space
-
     def like(self, terms, rest=0): return self.__class__(terms, rest, self.space)
+    def origin(self): return 0          # the exponent of the constant term
     def lift(self, x): return self.like({self.origin(): x})
-    def origin(self): return 0
     def constant(self): return self.terms.get(self.origin(), Fraction(0))
-    def __neg__(self): return self.like({e: -c for e, c in self.terms.items()}, self.rest)
-
+    def is_constant(self): return not self.rest and all(e == self.origin() for e in self.terms)
     def variable(self):
         """What remains without the constant term."""
         origin = self.origin()
         return self.like({e: c for e, c in self.terms.items() if e != origin}, self.rest)
-
-    def is_constant(self): return not self.rest and all(e == self.origin() for e in self.terms)
-
+    def __neg__(self): return self.like({e: -c for e, c in self.terms.items()}, self.rest)
     def plus(self, other):
         terms = dict(self.terms)
         for e, c in other.terms.items(): terms[e] = terms[e] + c if e in terms else c
         return self.like(terms, self.rest + other.rest)
-
     def scaled(self, q):
         rest = self.rest * abs(q.numerator) // q.denominator + 1 if self.rest else 0
         return self.like({e: c * q for e, c in self.terms.items()}, rest)
-
     def times(self, other):
         """The product of polynomials of degree 1, without terms of degree 2."""
         a, b = self.constant(), other.constant()
@@ -139,36 +118,29 @@ class Taylor(Series):
     The exponents e are tuples. `space` is (k, order); products drop the terms above the order and
     add their size to the rest.
     """
-    __slots__ = ()
     level = 2
     def origin(self): return (0,) * self.space[0]
     def widened(self, error): return self.like(self.terms, self.rest + error)
-
     def size(self):
         """An upper bound of |f| 2^320 on the box."""
         return sum(ball(c).size() for c in self.terms.values()) + self.rest
-
     def times(self, other):
-        left = [(e, sum(e), c) for e, c in self.terms.items()]
-        right = [(e, sum(e), c) for e, c in other.terms.items()]
-        exact = all(is_exact(c) for _, _, c in left + right)
-        if not exact:
-            left = [(e, d, ball(c)) for e, d, c in left]
-            right = [(e, d, ball(c)) for e, d, c in right]
+        exact = all(map(is_exact, [*self.terms.values(), *other.terms.values()]))
+        left, right = [[(e, sum(e), c if exact else ball(c)) for e, c in x.terms.items()]
+                       for x in (self, other)]
         terms, rest, order = {}, 0, self.space[1]
         for e, d, a in left:
             for f, g, b in right:
                 if d + g > order: rest += (ball(a).size() * ball(b).size() >> BITS) + 1
                 else: terms.setdefault(tuple(map(add, e, f)), []).append((a, b))
-        total = (lambda pairs: sum(a * b for a, b in pairs)) if exact else sum_of_balls
         if self.rest or other.rest:
             polynomial = self.size() - self.rest
             rest += ((polynomial * other.rest + self.rest * other.size()) >> BITS) + 1
+        total = (lambda pairs: sum(a * b for a, b in pairs)) if exact else sum_of_balls
         return self.like({e: total(pairs) for e, pairs in terms.items()}, rest)
 
 class Dual(Series):
     """terms[0] is a value, terms[k] its derivative by the k-th element of one variable."""
-    __slots__ = ()
     level = 3
 
 class Affine(Series):
@@ -176,13 +148,10 @@ class Affine(Series):
 
     So a matrix that was evaluated with Affine elements is known to be affine in the unknowns.
     """
-    __slots__ = ()
     level = 4
-
     def times(self, other):
-        if not (self.is_constant() or other.is_constant()):
-            raise Unsupported("the text is not affine in the unknowns")
-        return super().times(other)
+        if self.is_constant() or other.is_constant(): return super().times(other)
+        raise Unsupported("the text is not affine in the unknowns")
 
 def affine_terms(x):
     """{i: c_i} of x = c_0 + sum c_i x_i, without exact zeros."""
@@ -278,29 +247,23 @@ BALL_FUNCTIONS = {"exp": ball_exp, "log": ball_log, "sqrt": ball_sqrt, "inv": ba
 
 # Elementary functions of all kinds.
 
+EXACT = {("exp", 0): 1, ("cos", 0): 1, ("sin", 0): 0, ("log", 1): 0}
+
 def function(name, x):
-    """exp, log, sqrt, inv, sin or cos of a number of any kind."""
+    """exp, log, sqrt, inv, sin or cos of a number of any kind; fractions where they are known."""
     if isinstance(x, Series): return function_of_series(name, x)
-    value = exact_value(name, Fraction(x)) if is_exact(x) else None
-    return value if value is not None else BALL_FUNCTIONS[name](ball(x))
+    if is_exact(x):
+        if (name, x) in EXACT: return Fraction(EXACT[name, x])
+        if name == "inv" and x != 0: return 1 / Fraction(x)
+        n, d = isqrt(abs(x.numerator)), isqrt(x.denominator)
+        if name == "sqrt" and (n * n, d * d) == (x.numerator, x.denominator): return Fraction(n, d)
+    return BALL_FUNCTIONS[name](ball(x))
 
 def inverse(x): return function("inv", x)
 
-def exact_value(name, x):
-    """The value of a function at a fraction if it is rational and known, else None."""
-    known = {("exp", 0): 1, ("cos", 0): 1, ("sin", 0): 0, ("log", 1): 0}
-    if (name, x) in known: return Fraction(known[name, x])
-    if name == "inv":
-        if x == 0: raise Undecided("a division by zero")
-        return 1 / x
-    if name == "sqrt" and x >= 0:
-        n, d = isqrt(x.numerator), isqrt(x.denominator)
-        if n * n == x.numerator and d * d == x.denominator: return Fraction(n, d)
-    return None
-
-DERIVATIVES = {"exp": [("exp", 1)],
-               "sin": [("sin", 1), ("cos", 1), ("sin", -1), ("cos", -1)],
-               "cos": [("cos", 1), ("sin", -1), ("cos", -1), ("sin", 1)]}
+SLOPES = {"exp": lambda p, f: f, "log": lambda p, f: inverse(p), "inv": lambda p, f: -(f * f),
+          "sqrt": lambda p, f: inverse(2 * f), "sin": lambda p, f: function("cos", p),
+          "cos": lambda p, f: -function("sin", p)}
 EXPONENTS = {"inv": Fraction(-1), "sqrt": Fraction(1, 2), "log": Fraction(0)}
 
 def function_of_series(name, x):
@@ -310,28 +273,29 @@ def function_of_series(name, x):
     times this. With u = d/p, inv and sqrt are f(p) (1 + u)^a: the j-th coefficient is (a - j + 1)/j
     times the one before. With a = 0 this gives log, from its term u on. All coefficients of
     (1 + u)^a are at most 1. So for |u| <= q < 1 the series leave at most f(p) q^(K+1)/(1 - q), that
-    of log without f(p). The order of Dual is 1, and its values are exact up to there.
+    of log without f(p).
     """
-    p, d, bounded = x.constant(), x.variable(), isinstance(x, Taylor)
-    if x.is_constant(): return x.lift(function(name, p))
-    if isinstance(x, Affine): raise Unsupported(name + " of an unknown")
-    order = x.space[1] if bounded else 1
-    value, largest = function(name, p), 1
-    if name in DERIVATIVES:
-        delta = upper(d) if bounded else Fraction(0)
-        left = delta ** (order + 1) / factorial(order + 1)
-        if name == "exp" and bounded: largest = value * function("exp", ball(delta))
-        values = {n: function(n, p) for n, _ in DERIVATIVES[name]}
-        cycle = [values[n] * s for n, s in DERIVATIVES[name]]
-        series = [cycle[j % len(cycle)] * Fraction(1, factorial(j)) for j in range(order + 1)]
-    else:
-        d = d * inverse(p)
-        delta = upper(d) if bounded else Fraction(0)
+    p, d = x.constant(), x.variable()
+    if isinstance(x, Affine) and not x.is_constant(): raise Unsupported(name + " of an unknown")
+    value = function(name, p)
+    if x.is_constant(): return x.lift(value)
+    if isinstance(x, Dual): return d * x.lift(SLOPES[name](p, value)) + value
+    order, largest = x.space[1], 1
+    if name in EXPONENTS:
+        d, a = d * inverse(p), EXPONENTS[name]
+        delta = upper(d)
         if delta >= 1: raise Undecided("a quotient or root whose argument varies too much")
         left = delta ** (order + 1) / (1 - delta)
         if name != "log": largest = value
-        series = [value, Fraction(1) if name == "log" else value * EXPONENTS[name]]
-        for j in range(2, order + 1): series.append(series[-1] * ((EXPONENTS[name] - j + 1) / j))
+        series = [value, Fraction(1) if name == "log" else value * a]
+        for j in range(2, order + 1): series.append(series[-1] * ((a - j + 1) / j))
+    else:
+        delta = upper(d)
+        left = delta ** (order + 1) / factorial(order + 1)
+        if name == "exp": largest = value * function("exp", ball(delta))
+        slope = SLOPES[name](p, value)
+        cycle = [value] if name == "exp" else [value, slope, -value, -slope]
+        series = [cycle[j % len(cycle)] * Fraction(1, factorial(j)) for j in range(order + 1)]
     result = x.lift(series[order])
     for c in reversed(series[:order]): result = result * d + c
-    return result.widened(ball(left * upper(largest)).size() + 1) if bounded else result
+    return result.widened(ball(left * upper(largest)).size() + 1)

@@ -23,73 +23,59 @@ from matrices import (Matrix, beside, column, diagonal, exactly, flat, identity,
 TOKEN = re.compile(r"""\s*(?:
     (?P<number>\d+(?=\.[*/^])|(?:\d+(?:\.(?!\.)\d*)?|\.\d+)(?:[eE][+-]?\d+)?)
   | (?P<name>[A-Za-z_]\w*)
-  | (?P<sign>\.\.|\.\^|\.\*|\./|<=|>=|==|!=|[-+*/^'()\[\],;:<>{}]))""", re.X)
-DECIMAL = re.compile(r"-?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,4})?")
+  | (?P<sign>\.\.|\.\^|\.\*|\./|<=|>=|==|!=|[-+*/^'()\[\],;:<>{}])
+  | (?P<other>\S))""", re.X)
+DECIMAL = re.compile(r"-?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,3})?")
 RELATIONS = {"<": operator.lt, ">": operator.gt, "<=": operator.le, ">=": operator.ge,
              "==": operator.eq, "!=": operator.ne}
-LONGEST = 100_000
+LONGEST = 100_000       # characters of a formula
 
 def tokens_of(text):
     if len(text) > LONGEST: raise Unsupported("a formula of more than %d characters" % LONGEST)
-    tokens, at, text = [], 0, text.strip()
-    while at < len(text):
-        found = TOKEN.match(text, at)
-        if not found: raise Unsupported("the text %r" % text[at:at + 20])
-        tokens.append((found.lastgroup, found.group(found.lastgroup)))
-        at = found.end()
-    return tokens
+    found = list(TOKEN.finditer(text))
+    unknown = [m.group() for m in found if m.lastgroup == "other"]
+    if unknown: raise Unsupported("the text %r" % unknown[0])
+    return [(m.lastgroup, m.group(m.lastgroup)) for m in found]
 
 class Parser:
     """Recursive descent; each method reads one level of the table of operators."""
-
     def __init__(self, text): self.text, self.tokens, self.at = text, tokens_of(text), 0
-
     def token(self, ahead=0):
         at = self.at + ahead
         return self.tokens[at] if at < len(self.tokens) else ("end", "")
-
     def next_is(self, *signs, ahead=0):
         kind, text = self.token(ahead)
         return kind != "number" and text in signs
-
     def take(self):
         self.at += 1
         return self.tokens[self.at - 1][1]
-
     def taken(self, *signs):
         """The next sign if it is one of these; it is consumed."""
         return self.take() if self.next_is(*signs) else None
-
     def expect(self, text):
         if not self.taken(text): raise Unsupported("%r is missing in %r" % (text, self.text[:60]))
-
     def whole(self):
         tree = self.condition()
         if self.at < len(self.tokens):
             raise Unsupported("%r in %r" % (self.token()[1], self.text[:60]))
         return tree
-
     def chain(self, signs, read):
         tree = read()
         while self.next_is(*signs): tree = (self.take(), tree, read())
         return tree
-
     def condition(self): return self.chain(("or",), self.conjunction)
     def conjunction(self): return self.chain(("and",), self.negation)
     def negation(self): return ("not", self.negation()) if self.taken("not") else self.comparison()
     def sum(self): return self.chain(("+", "-"), self.term)
     def signed(self, read): return ("minus", read()) if self.taken("-") else read()
-
     def comparison(self):
         parts = [self.sum()]
         while self.next_is(*RELATIONS): parts += [self.take(), self.sum()]
         return ("compare", parts) if len(parts) > 1 else parts[0]
-
     def term(self):
         if self.taken("-"): return ("minus", self.term())
         if self.taken("+"): return self.term()
         return self.chain(("*", "/", ".*", "./"), lambda: self.signed(self.factor))
-
     def factor(self):
         """A value with what follows it, from left to right: A^2' is (A^2)'."""
         tree = self.value()
@@ -102,7 +88,6 @@ class Parser:
                 self.expect(")")
                 tree = ("call", tree, arguments)
             else: return tree
-
     def argument(self):
         if self.taken(":"): return ("all",)
         if self.next_is("in", ahead=1):
@@ -113,10 +98,8 @@ class Parser:
             return ("range", name, low, self.sum())
         tree = self.condition()
         return ("span", tree, self.sum()) if self.taken(":") else tree
-
     def value(self):
-        kind, text = self.token()
-        if kind == "end": raise Unsupported("the end of %r" % self.text[:60])
+        kind = self.token()[0]
         if kind == "number": return (kind, decimal(self.take()))
         if kind == "name": return (kind, self.take())
         if self.taken("("):
@@ -130,7 +113,6 @@ class Parser:
             rows[-1].append(self.entry())
         self.expect("]")
         return ("block", rows)
-
     def entry(self):
         """An entry of a matrix; None for a * that stands alone."""
         if self.next_is("*") and self.next_is(",", ";", "]", ahead=1): return self.take() and None
@@ -138,11 +120,8 @@ class Parser:
 
 def decimal(text):
     """The fraction that a decimal is."""
-    if len(text) > 2000 or not DECIMAL.fullmatch(text):
-        raise Unsupported("the number %s" % text[:40])
-    mantissa, _, exponent = text.lower().partition("e")
-    if abs(int(exponent or 0)) > 1000: raise Unsupported("the exponent of %s" % text[:40])
-    return Fraction(mantissa) * Fraction(10) ** int(exponent or 0)
+    if len(text) < 2000 and DECIMAL.fullmatch(text): return Fraction(text)
+    raise Unsupported("the number %s" % text[:40])
 
 @cache
 def parse(text): return Parser(text).whole()
@@ -151,30 +130,22 @@ def parse(text): return Parser(text).whole()
 
 class Scope:
     """Names with their values; an inner scope hides names of the outer one."""
-
     def __init__(self, outer=None, names=()): self.outer, self.names = outer, dict(names)
-
     def find(self, name):
-        scope = self
-        while scope is not None:
-            if name in scope.names:
-                value = scope.names[name]
-                return value.get() if isinstance(value, Later) else value
-            scope = scope.outer
-        return None
-
+        """The value of a name, or None."""
+        if name not in self.names: return self.outer and self.outer.find(name)
+        value = self.names[name]
+        return value.get() if isinstance(value, Later) else value
     def is_local(self, name):
         """Whether a variable or argument has this name, not a datum or a definition."""
         return self.outer is not None and (name in self.names or self.outer.is_local(name))
 
 class Later:
     """A value that is computed when it is first used, once."""
-
     def __init__(self, compute): self.get = cache(compute)
 
 class Function:
     """A definition with arguments, or an unknown that is a function."""
-
     def __init__(self, apply, derivative=None): self.apply, self.derivative = apply, derivative
 
 def defined(names, text, scope):
@@ -191,52 +162,49 @@ class Family(dict):
 
 def evaluate(tree, scope):
     """The matrix (or Function, Family) that a tree means."""
-    kind = tree[0]
-    if kind == "number": return number(tree[1])
-    if kind == "name": return value_of_name(tree[1], scope)
-    if kind == "call": return call(tree[1], tree[2], scope)
+    kind, *parts = tree
+    if kind == "number": return number(parts[0])
+    if kind == "call": return call(*parts, scope)
     if kind == "block":
-        return join_blocks([[x and evaluate(x, scope) for x in row] for row in tree[1]])
-    if kind in OPERATORS: return OPERATORS[kind](*[matrix(part, scope) for part in tree[1:]])
-    raise Unsupported("a condition where a value is expected")
+        return join_blocks([[x and matrix(x, scope) for x in row] for row in parts[0]])
+    if kind in OPERATORS: return OPERATORS[kind](*[matrix(x, scope) for x in parts])
+    if kind != "name": raise Unsupported("a condition where a value is expected")
+    value = scope.find(parts[0])
+    if value is None and parts[0] not in CONSTANTS: raise Unsupported("the name " + parts[0])
+    return CONSTANTS[parts[0]] if value is None else value
 
 def matrix(tree, scope):
     value = evaluate(tree, scope)
     if not isinstance(value, Matrix): raise Unsupported("a function where a value is expected")
     return value
 
-def value_of_name(name, scope):
-    value = scope.find(name)
-    if value is not None: return value
-    if name == "I": return Matrix([[Fraction(1)]], flexible=True)
-    if name == "pi": return number(PI)
-    raise Unsupported("the name " + name)
+CONSTANTS = {"I": Matrix([[Fraction(1)]], flexible=True), "pi": number(PI)}
 
 def elementwise(operation):
     """The operation on equal shapes, or on a number and a matrix."""
     def apply(a, b):
-        shape = b if a.is_number() else a
+        rows, cols = (b if a.is_number() else a).shape()
         if not (a.is_number() or b.is_number()) and a.shape() != b.shape():
             raise Unsupported("different shapes")
-        return Matrix([[operation(a.spread(i, j), b.spread(i, j)) for j in range(shape.cols)]
-                       for i in range(shape.rows)], shape.rows, shape.cols)
+        return Matrix([[operation(a.spread(i, j), b.spread(i, j)) for j in range(cols)]
+                       for i in range(rows)], rows, cols)
     return apply
 
 def power_of_number(x, k):
-    if is_exact(k) and k.denominator == 1:
-        if abs(k) > 10_000: raise Unsupported("an exponent above 10000")
-        base, result = x if k >= 0 else inverse(x), Fraction(1)
-        for _ in range(abs(int(k))): result = result * base
-        return result
+    whole = is_exact(k) and k.denominator == 1
+    if whole: return repeated(x if k >= 0 else inverse(x), k, Fraction(1))
     if k == Fraction(1, 2): return function("sqrt", x)
     return function("exp", k * function("log", x))
+
+def repeated(base, k, one):
+    if abs(k) > 10_000: raise Unsupported("an exponent above 10000")
+    return reduce(operator.mul, [base] * abs(int(k)), one)
 
 def power(base, exponent):
     if base.is_number():
         return Matrix([[power_of_number(base.number(), exponent.number())]], flexible=base.flexible)
-    n = exponent.whole()
-    if base.rows != base.cols or abs(n) > 10_000: raise Unsupported("this power of a matrix")
-    return reduce(operator.mul, [base if n >= 0 else invert(base)] * abs(n), identity(base.rows))
+    k = exponent.whole()
+    return repeated(base if k >= 0 else invert(base), k, identity(base.rows))
 
 OPERATORS = {
     "+": operator.add, "-": operator.sub, "*": operator.mul, "minus": operator.neg, "^": power,
@@ -285,13 +253,13 @@ def relation(name): return elementwise(lambda x, y: RELATIONS[name](sign(x - y),
 
 def holds(tree, scope):
     """Whether a condition holds for all elements."""
-    if tree[0] == "and": return holds(tree[1], scope) and holds(tree[2], scope)
-    if tree[0] == "or": return holds(tree[1], scope) or holds(tree[2], scope)
-    if tree[0] == "not": return not holds(tree[1], scope)
-    if tree[0] != "compare": raise Unsupported("a value where a condition is expected")
-    values = [matrix(x, scope) for x in tree[1][::2]]
+    kind, *parts = tree
+    if kind in ("and", "or"): return {"and": all, "or": any}[kind](holds(x, scope) for x in parts)
+    if kind == "not": return not holds(parts[0], scope)
+    if kind != "compare": raise Unsupported("a value where a condition is expected")
+    values = [matrix(x, scope) for x in parts[0][::2]]
     return all(all(flat(relation(name)(a, b)))
-               for a, name, b in zip(values, tree[1][1::2], values[1:]))
+               for a, name, b in zip(values, parts[0][1::2], values[1:]))
 
 def choose(condition, yes, no, scope):
     """where(condition, yes, no), element by element."""
@@ -332,12 +300,13 @@ def affine_parts(a, model):
             not all(map(exactly, parts)) or \
             any((m * n).elements != (n * m).elements for m in parts for n in parts):
         return None
-    def in_time(m, e): return m.map(lambda x: x if x == 0 else model.like({e: x}))
-    return [exponential_series(in_time(m, e), model.space[1]) if any(e) else matrix_exponential(m)
+    def in_time(e): return lambda x, j: model.like({tuple(j * k for k in e): ball(x)})
+    return [exponential_series(m, in_time(e), model.space[1]) if any(e) else matrix_exponential(m)
             for m, e in zip(parts, exponents)]
 
-def exponential_series(a, last=None):
-    """The series of expm(a), up to the term a^j/j! with j = last or where it is tiny.
+def exponential_series(a, embed=lambda x, j: x, last=None):
+    """The series of expm(a), up to the term a^j/j! with j = last or where it is tiny; the elements
+    x of this term are replaced by embed(x, j), such as x t^j for expm(a t).
 
     With n, the largest sum of a row of |a|, the rest is at most n^(j+1)/(j+1)! exp(n). It does not
     touch an element (i, k) if no power of a does: if there is no path from i to k.
@@ -348,18 +317,15 @@ def exponential_series(a, last=None):
         j += 1
         bound = bound * norm / j
         term = (term * a).map(lambda x: x * Fraction(1, j))
-        total = total + term
+        total = total + term.map(lambda x: x if is_zero(x) else embed(x, j))
     error = (ball(bound * norm / (j + 1)) * function("exp", ball(norm))).size() + 1
     paths = [[not is_zero(x) for x in row] for row in a.elements]
     for k in range(a.rows):
         for i in range(a.rows):
             if paths[i][k]: paths[i] = [x or y for x, y in zip(paths[i], paths[k])]
 
-    def with_error(x):
-        if not isinstance(x, Taylor): return ball(x).widened(error)
-        return x.like({e: ball(c) for e, c in x.terms.items()}, x.rest + error)
-    return Matrix([[with_error(x) if reached else x for x, reached in zip(*rows)]
-                   for rows in zip(total.elements, paths)])
+    return Matrix([[(ball(x) if is_exact(x) else x).widened(error) if reached else x
+                    for x, reached in zip(*rows)] for rows in zip(total.elements, paths)])
 
 # Functions.
 

@@ -1,75 +1,65 @@
 """Matrices whose elements are numbers of any kind; elimination; what is positive definite."""
 
 from fractions import Fraction
+from functools import cache
 from itertools import product
-from math import comb
+from math import comb, prod
 
-from arithmetic import (Ball, Undecided, Unsupported, ball, inverse, is_exact, is_zero, middle,
-                        sign, sum_of_balls, typical, upper)
+from arithmetic import (Ball, Undecided, Unsupported, ball, inverse, is_exact, is_zero, level,
+                        middle, sign, sum_of_balls, typical, upper)
 
 LONGEST_FRACTION = 3000     # bits; longer inverses become balls
 
 class Matrix:
     """rows x cols elements. `flexible`: a multiple of I, whose size the context gives."""
-
     def __init__(self, elements, rows=None, cols=None, flexible=False):
         self.elements, self.flexible = elements, flexible
         self.rows = len(elements) if rows is None else rows
-        self.cols = (len(elements[0]) if elements else 0) if cols is None else cols
-        if self.rows != len(elements) or any(len(row) != self.cols for row in elements):
+        self.cols = len((elements or [[]])[0]) if cols is None else cols
+        if any(len(row) != self.cols for row in elements):
             raise Unsupported("rows of different lengths")
-
     def __getitem__(self, place): return self.elements[place[0]][place[1]]
     def shape(self): return (self.rows, self.cols)
     def is_number(self): return self.shape() == (1, 1)
-
     def number(self):
         if self.is_number(): return self.elements[0][0]
         raise Unsupported("a number is expected, not %d x %d" % self.shape())
-
     def whole(self):
         x = self.number()
         if not is_exact(x) or x.denominator != 1 or abs(x) > 10 ** 6:
             raise Unsupported("a whole number is expected")
         return int(x)
-
     def is_zero(self):
         """Whether this is the number 0, which takes any size."""
         return self.is_number() and is_zero(self.elements[0][0])
-
     def spread(self, i, j):
         """Element (i, j), where a number stands for all elements."""
         return self.elements[0][0] if self.is_number() else self.elements[i][j]
-
     def map(self, f):
-        return Matrix([[f(x) for x in row] for row in self.elements], self.rows, self.cols,
-                      self.flexible)
-
+        return Matrix([[f(x) for x in row] for row in self.elements], *self.shape(), self.flexible)
     def transposed(self):
         return Matrix([[row[j] for row in self.elements] for j in range(self.cols)],
                       self.cols, self.rows, self.flexible)
-
     def part(self, rows, cols):
         return Matrix([[self.elements[i][j] for j in cols] for i in rows], len(rows), len(cols))
-
     def __neg__(self): return self.map(lambda x: -x)
     def __sub__(self, other): return self + (-other)
-
     def __add__(self, other):
         a, b = (other, self) if self.flexible and not other.flexible else (self, other)
-        if a.is_zero() and not b.flexible or b.is_zero():
-            return b if a.is_zero() and not b.is_zero() else a
-        if b.flexible and not a.flexible:
-            if a.rows != a.cols: raise Unsupported("I beside a matrix that is not square")
-            b = identity(a.rows, b.number())
-        if a.shape() != b.shape():
-            a, b = (b, a) if a.is_number() else (a, b)
-            if not (b.is_number() and 1 in a.shape()):
-                raise Unsupported("a sum of %d x %d and %d x %d" % (a.shape() + b.shape()))
+        if b.is_zero(): return a
+        if a.is_zero() and not b.flexible: return b
+        if b.flexible and not a.flexible: b = b.sized(*a.shape())
+        if a.is_number(): a, b = b, a
+        if a.shape() != b.shape() and not (b.is_number() and 1 in a.shape()):
+            raise Unsupported("a sum of %d x %d and %d x %d" % (a.shape() + b.shape()))
         return Matrix([[x + b.spread(i, j) for j, x in enumerate(row)]
-                       for i, row in enumerate(a.elements)], a.rows, a.cols,
-                      a.flexible and b.flexible)
-
+                       for i, row in enumerate(a.elements)], *a.shape(), a.flexible and b.flexible)
+    def sized(self, rows, cols):
+        """This matrix at a place of a given size: I and 0 take it, others must have it."""
+        if self.is_zero(): return zeros(rows, cols)
+        if self.flexible and rows == cols: return identity(rows, self.number())
+        if not self.flexible and self.shape() == (rows, cols): return self
+        raise Unsupported("%d x %d at a place of %d x %d" % (self.shape() + (rows, cols)))
     def __mul__(self, other):
         for a, b in ((self, other), (other, self)):
             if a.is_number() and (a.flexible or not b.flexible or b.is_number()):
@@ -106,7 +96,6 @@ def flat(a): return [x for row in a.elements for x in row]
 def exactly(a): return all(is_exact(x) for x in flat(a))        # all elements are fractions
 
 def stacked(items):
-    """One below the other."""
     if len({x.cols for x in items}) > 1: raise Unsupported("different widths of stacked matrices")
     return Matrix([row for x in items for row in x.elements], sum(x.rows for x in items),
                   items[0].cols)
@@ -121,7 +110,7 @@ def join_blocks(blocks):
     if any(len(row) != len(blocks[0]) for row in blocks):
         return stacked([join_blocks([row]) for row in blocks])     # each row has its own columns
     heights, widths = block_sizes(blocks)
-    full = [[None if x is None else sized(x, heights[i], widths[j]) for j, x in enumerate(row)]
+    full = [[x and x.sized(heights[i], widths[j]) for j, x in enumerate(row)]
             for i, row in enumerate(blocks)]
     for i, j in product(range(len(blocks)), range(len(blocks[0]))):
         if blocks[i][j] is None:
@@ -130,35 +119,22 @@ def join_blocks(blocks):
             full[i][j] = full[j][i].transposed()
     return stacked([beside(row) for row in full])
 
-def takes_size(x): return x.flexible or x.is_zero()
-
-def sized(x, rows, cols):
-    if x.is_zero(): return zeros(rows, cols)
-    if x.flexible and rows == cols: return identity(rows, x.number())
-    if x.flexible or x.shape() != (rows, cols):
-        raise Unsupported("a block of %d x %d at a place of %d x %d" % (x.shape() + (rows, cols)))
-    return x
-
 def block_sizes(blocks):
     """Heights of block rows and widths of block columns; sizes that nothing gives are 1."""
-    mirrored = any(x is None for row in blocks for x in row)
-    known, equal = {}, []
+    count, known, equal = len(blocks), {}, []       # block column j has the name count + j
     for i, row in enumerate(blocks):
         for j, x in enumerate(row):
-            if x is None: continue
-            if not takes_size(x):
-                known.setdefault(("row", i), x.rows)
-                known.setdefault(("col", j), x.cols)
-            elif not x.is_zero(): equal.append((("row", i), ("col", j)))
-    if mirrored: equal += [(("row", k), ("col", k)) for k in range(len(blocks))]
-    for _ in range(len(blocks) + len(blocks[0])):
+            if x is None: equal += [(k, count + k) for k in range(count)]
+            elif x.flexible and not x.is_zero(): equal.append((i, count + j))
+            elif not x.is_zero():
+                known.setdefault(i, x.rows)
+                known.setdefault(count + j, x.cols)
+    for _ in range(count + len(blocks[0])):
         for a, b in equal:
-            if a in known or b in known:
-                size = known.get(a, known.get(b))
-                known.setdefault(a, size)
-                known.setdefault(b, size)
-    return ([known.get(("row", i), 1) for i in range(len(blocks))],
-            [known.get(("col", j), 1) for j in range(len(blocks[0]))])
+            size = known.get(a, known.get(b))
+            if size is not None: known.update({a: size, b: known.get(b, size)})
+    sizes = [known.get(k, 1) for k in range(count + len(blocks[0]))]
+    return sizes[:count], sizes[count:]
 
 # Elimination.
 
@@ -185,9 +161,8 @@ def invert(a):
     pivots, rows = reduced(beside([a, identity(a.rows)]), a.cols)
     if len(pivots) < a.rows: raise Undecided("the inverse of a singular matrix")
     result = Matrix([row[a.cols:] for row in rows], a.rows, a.rows)
-    long = exactly(result) and any(x.denominator.bit_length() > LONGEST_FRACTION
-                                   for x in flat(result))
-    return result.map(ball) if long else result
+    bits = max((x.denominator.bit_length() for x in flat(result) if is_exact(x)), default=0)
+    return result.map(ball) if bits > LONGEST_FRACTION else result
 
 def null_space(a):
     """A matrix whose columns are a basis of {x: a x = 0}; fractions. Each has one 1 and, beside
@@ -275,18 +250,16 @@ def rounded(x, bits=400):
     shift = bits + max(0, x.denominator.bit_length() - x.numerator.bit_length())
     return Fraction((x.numerator << shift) // x.denominator, 1 << shift)
 
+@cache
 def bernstein_weights(degree):
     """w[i][j] with b_i = sum_j w[i][j] c_j: Bernstein coefficients of sum_j c_j t^j on [-1, 1].
 
     With t = 2s - 1, t^j = sum_k p_jk s^k and b_i = sum_k C(i, k)/C(K, k) (coefficient of s^k).
     """
-    powers = [[comb(j, k) * 2 ** k * (-1) ** (j - k) for k in range(j + 1)]
-              for j in range(degree + 1)]
-    return [[sum(Fraction(comb(i, k), comb(degree, k)) * powers[j][k]
-                 for k in range(min(i, j) + 1)) for j in range(degree + 1)]
-            for i in range(degree + 1)]
-
-WEIGHTS = {}
+    def power(j, k): return comb(j, k) * 2 ** k * (-1) ** (j - k)
+    places = range(degree + 1)
+    return [[sum(Fraction(comb(i, k), comb(degree, k)) * power(j, k)
+                 for k in range(min(i, j) + 1)) for j in places] for i in places]
 
 def is_positive_on_box(a):
     """Whether a matrix of Taylor models is proved positive definite for all t in [-1, 1]^k.
@@ -295,33 +268,27 @@ def is_positive_on_box(a):
     is enough that each coefficient is positive definite with the rest as additional radius.
     """
     exponents = {e for x in flat(a) for e in x.terms}
-    degrees = [max(e) for e in zip(*exponents)]
-    weights = [WEIGHTS.setdefault(d, bernstein_weights(d)) for d in degrees]
-    for place in product(*[range(d + 1) for d in degrees]):
-        factor = {}
-        for e in exponents:
-            factor[e] = Fraction(1)
-            for w, i, j in zip(weights, place, e): factor[e] *= w[i][j]
-        if classify(a.map(lambda x: bernstein_coefficient(x, factor))) != POSITIVE: return False
-    return True
+    weights = [bernstein_weights(max(e)) for e in zip(*exponents)]
+    for rows in product(*weights):
+        factor = {e: prod(w[j] for w, j in zip(rows, e)) for e in exponents}
 
-def bernstein_coefficient(x, factor):
-    total = sum((c * factor[e] for e, c in x.terms.items()), Fraction(0))
-    return total if x.rest == 0 else ball(total).widened(x.rest)
+        def coefficient(x):
+            total = sum((c * factor[e] for e, c in x.terms.items()), Fraction(0))
+            return total if x.rest == 0 else ball(total).widened(x.rest)
+        if classify(a.map(coefficient)) != POSITIVE: return False
+    return True
 
 def spectral_norm(a):
     """A ball around the largest singular value of a matrix of fractions and balls.
 
     It is below h if and only if [h I, a; a', h I] > 0. The interval [low, high] is halved.
     """
-    if any(not is_exact(x) and not isinstance(x, Ball) for x in flat(a)):
-        raise Undecided("a norm of a matrix that depends on a variable")
-    def block(h): return norm_block(a, number(h))
+    if any(level(x) > 1 for x in flat(a)): raise Undecided("a norm that depends on a variable")
     low, high = Fraction(0), sum(upper(x) for x in flat(a))
     while high - low > high / 10 ** 30:
-        half = rounded((low + high) / 2)
-        if classify(block(half)) == POSITIVE: high = half
-        elif witness(block(half), strict=True): low = half
+        half = (low + high) / 2
+        if classify(norm_block(a, number(half))) == POSITIVE: high = half
+        elif witness(norm_block(a, number(half)), strict=True): low = half
         else: break
     return ball((low + high) / 2).widened(ball((high - low) / 2).size() + 1)
 

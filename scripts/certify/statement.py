@@ -10,15 +10,20 @@ import os
 import re
 from collections import namedtuple
 from fractions import Fraction
+from functools import reduce
+from itertools import product
+from operator import add
 
 import yaml
 
-from arithmetic import ONE, Affine, Taylor, Undecided, Unsupported, is_exact, upper
+from arithmetic import Affine, Series, Undecided, Unsupported, is_exact, middle, upper
 from language import (Family, Function, Later, Scope, basis_functions, decimal, defined,
                       elementwise, evaluate, holds, matrix, parse)
 from matrices import Matrix, column, diagonal, flat, identity, norm_block, number, zeros
 
 LARGEST_FILE = 64_000_000
+OBJECTS = ("gains", "unknowns", "statement")
+OPTIONAL = ("searched", "parameters", "bases", "functions", "search", "gain_functions")
 NOT_EVALUATED = (Undecided, Unsupported, ArithmeticError, LookupError, TypeError, ValueError,
                  AttributeError, RecursionError)
 
@@ -48,13 +53,10 @@ def read_gain_file(path):
         raise Damaged("expected a JSON object: %s" % error)
     expect(isinstance(gain, dict), "a JSON object")
     expect(gain.get("verdict") in ("yes", "no", "undecided"), "verdict: yes, no or undecided")
-    for key in ("gains", "unknowns", "statement", "searched", "parameters", "bases", "functions",
-                "search", "gain_functions"):
-        default = None if key in ("gains", "unknowns", "statement") else {}
-        expect(isinstance(gain.get(key, default), dict), key + ": an object")
+    for key in OBJECTS: expect(isinstance(gain.get(key), dict), key + ": an object")
+    for key in OPTIONAL: expect(isinstance(gain.setdefault(key, {}), dict), key + ": an object")
     for key in ("gains", "unknowns", "bases"):
-        for name, value in gain.get(key, {}).items():
-            matrix_of_json(value, "%s.%s" % (key, name))
+        for name, value in gain[key].items(): matrix_of_json(value, "%s.%s" % (key, name))
     check_statement(gain["statement"])
     return gain
 
@@ -95,7 +97,6 @@ def matrix_of_json(value, where):
 
 class TextLoader(yaml.BaseLoader):
     """YAML with all scalars as texts (0.1 is a decimal, not a double), without repeated keys."""
-
     def construct_mapping(self, node, deep=False):
         keys = [str(key.value) for key, _ in node.value]
         if len(set(keys)) < len(keys): raise yaml.YAMLError("a key occurs twice")
@@ -133,21 +134,19 @@ def without_none(mapping):
 def problem_and_method(statement):
     """Both texts with all variants applied."""
     files = statement.get("files", [])
-
     def text_of(name):
         found = [f for f in files if f.get("file") == name] or \
             [f for f in files if os.path.basename(f.get("file", "")) == os.path.basename(name)]
         expect(len(found) == 1 and isinstance(found[0].get("text"), str), "the text of " + name)
         return found[0]["text"]
-
     def built_in(name):
         named = any(f.get("file") == "method " + name for f in files)
         return read_yaml(text_of("method " + name) if named else statement["method_text"])
 
-    problem, depth = read_yaml(statement["problem_text"]), 0
-    while "like" in problem:
-        problem, depth = variant(read_yaml(text_of(problem.pop("like"))), problem), depth + 1
-        expect(depth < 100, "a problem that is not like itself")
+    problem = read_yaml(statement["problem_text"])
+    for _ in range(100):
+        if "like" in problem: problem = variant(read_yaml(text_of(problem.pop("like"))), problem)
+    expect("like" not in problem, "a problem that is not like itself")
     method = problem.get("method")
     expect(isinstance(method, (str, dict)), "the method of the problem")
     if isinstance(method, str): method = built_in(method)
@@ -180,7 +179,6 @@ class Statement:
     unknown_value(name, rows, cols, kind) is the matrix of an unknown, a member of a family or a
     coefficient of an unknown function; kind is symmetric, diagonal or full.
     """
-
     def __init__(self, gain, unknown_value):
         self.gain, self.unknown_value, self.scope = gain, unknown_value, Scope()
         self.problem, self.method = problem_and_method(gain["statement"])
@@ -192,7 +190,6 @@ class Statement:
         self.unknowns = declarations(self.method, "unknowns")
         for name, declared in self.unknowns.items():
             self.declare(name, lambda: self.unknown_or_family(name, declared))
-
     def check_searched(self):
         """Values under `searched` replace those of the texts: the texts must ask for a search."""
         asked = {"gain_bound"} | {name for name, p in section(self.method, "parameters").items()
@@ -203,9 +200,7 @@ class Statement:
             expect(name in asked, "searched: names that are searched, not " + name)
 
     # Definitions and data.
-
     def later(self, name, compute): self.scope.names[name] = Later(compute)
-
     def declare(self, name, compute):
         """The name gets its value now; if there is none, its use is refused."""
         try:
@@ -213,7 +208,6 @@ class Statement:
         except NOT_EVALUATED as error:
             text = "%s of the datum %s" % (error, name)
             self.later(name, lambda: refuse(text))
-
     def declare_definitions(self):
         for source in (self.method, self.problem):
             for head, text in section(source, "let").items():
@@ -222,14 +216,12 @@ class Statement:
         for name in self.given:
             if name not in declared and not HEAD.fullmatch(name):
                 self.later(name, lambda name=name: self.value(self.given_value(name)))
-
     def define(self, head, text):
         call = HEAD.fullmatch(head)
         if call:
             names = [x.split()[0] for x in call.group(2).split(",")]
             self.scope.names[call.group(1)] = defined(names, text, self.scope)
         else: self.later(head.strip(), lambda: evaluate(parse(text), self.scope))
-
     def given_value(self, name):
         """The value of a datum or parameter: searched, set on the command line, or given."""
         if name in self.gain.get("searched", {}): return str(self.gain["searched"][name])
@@ -238,7 +230,6 @@ class Statement:
             is_list = text[:1] in "[{" and ";" not in text
             return yaml.load(text, Loader=TextLoader) if is_list else text
         return self.given.get(name)
-
     def value(self, x, shape=(None, None), scope=None):
         """The matrix that a YAML value is: a text, a flat list, a list of rows, a file."""
         scope = scope or self.scope
@@ -247,7 +238,6 @@ class Statement:
         rows = x if x and isinstance(x[0], list) else [x]
         result = Matrix([[matrix(parse(y), scope).number() for y in row] for row in rows])
         return result.transposed() if rows[0] is x and shape[1] == 1 != shape[0] else result
-
     def matrix_of_file(self, reference):
         path = next((reference[k] for k in ("csv", "mat", "npy", "json") if k in reference), None)
         for entry in self.gain["statement"].get("files", []):
@@ -256,7 +246,6 @@ class Statement:
                     return entry["matrices"][reference["name"]]
                 if "matrix" in entry: return entry["matrix"]
         return refuse("a matrix from a file")
-
     def declare_data(self):
         for name, declared in declarations(self.method, "data").items():
             self.declare(name, lambda: self.datum(name, declared))
@@ -265,7 +254,6 @@ class Statement:
             found = [self.given_value(name), default, self.gain.get("parameters", {}).get(name)]
             x = next((x for x in found if x is not None), None)
             self.later(name, lambda x=x: self.value(x))
-
     def datum(self, name, declared):
         x = self.given_value(name)
         if "of" in declared: return self.function_of_data(name, x, declared)
@@ -273,7 +261,6 @@ class Statement:
         if "for" in declared: return self.family_of_data(x, declared)
         if name in self.gain.get("bases", {}): return self.basis(name, x, declared["shape"])
         return self.shaped(x, declared["shape"], self.scope)
-
     def function_of_data(self, name, x, declared):
         """A datum with arguments. Its value at zero shows a size that nothing else gives."""
         heads = [HEAD.fullmatch(k) for k in self.given if HEAD.fullmatch(k)]
@@ -288,7 +275,6 @@ class Statement:
         except NOT_EVALUATED:
             pass
         return result
-
     def basis(self, name, x, shape):
         """The basis of the file, if it is the one of the text up to the rounding of doubles."""
         result = matrix_of_json(self.gain["bases"][name], name)
@@ -298,7 +284,6 @@ class Statement:
         if any(upper(y) > scale / 10 ** 13 for y in flat(difference)):
             raise Unsupported("a basis that is not the one of the text")
         return result
-
     def family_of_data(self, x, declared):
         """One text for all members, or a list of them, which may give the last index."""
         texts = listed(declared["for"])
@@ -311,7 +296,6 @@ class Statement:
         values = x if several else [x] * len(members)
         return Family({key: self.shaped(y, declared["shape"], scope)
                        for (key, scope), y in zip(members, values)})
-
     def index_keys(self, texts):
         """[(indices, scope)] of `for: [i in 1..N, k in 0..2]`."""
         found = [((), self.scope)]
@@ -323,36 +307,29 @@ class Statement:
         return found
 
     # Shapes.
-
     def whole(self, text, scope=None): return matrix(parse(text), scope or self.scope).whole()
-
     def size(self, text):
         """The whole number that a text is, or None."""
         try:
             return self.whole(text)
         except Unsupported:
             return None
-
     def set_size(self, name, size):
         if not re.fullmatch(r"\w+", name): raise Unsupported("the size " + name)
         self.scope.names[name] = number(Fraction(size))
-
     def parts(self, shape):
         words = shape.split()
         if words == ["scalar"]: return ["1", "1"]
         if words[0] in ("symmetric", "diagonal"): return [shape.strip()[len(words[0]):]] * 2
         found = re.split(r"\s+x\s+", shape.strip())
         return found if len(found) == 2 else [shape, "1"]
-
     def shape(self, shape): return tuple(self.size(p) for p in self.parts(shape))
-
     def unify(self, shape, value):
         """Sizes of the shape that are not known yet become those of the value."""
         for text, size in zip(self.parts(shape), value.shape()):
             known = self.size(text)
             if known is None: self.set_size(text.strip(), size)
             elif known != size: raise Unsupported("the size of a datum: %d, not %d" % (size, known))
-
     def shaped(self, x, shape, scope):
         rows, cols = self.shape(shape)
         value = self.value(x, (rows, 1 if self.parts(shape)[1] == "1" else cols), scope)
@@ -362,12 +339,10 @@ class Statement:
         return value
 
     # Unknowns.
-
     def unknown_or_family(self, name, declared):
         if "for" not in declared: return self.unknown(name, declared)
         return Family({key: self.unknown("_".join(map(str, (name,) + key)), declared)
                        for key, _ in self.index_keys(declared["for"])})
-
     def unknown(self, name, declared):
         kind = declared["shape"].split()[0]
         kind = kind if kind in ("symmetric", "diagonal") else "full"
@@ -382,7 +357,6 @@ class Statement:
         span = declared.get("in")
         if isinstance(span, str): span = span.strip()[1:-1].split(",")
         return polynomial(parts, span and [matrix(parse(x), self.scope).number() for x in span])
-
     def vertex_function(self, name, rows, cols, kind):
         """An unknown with a matrix for each vertex: the file has its formula."""
         for head, text in self.gain.get("functions", {}).items():
@@ -394,14 +368,13 @@ class Statement:
         return refuse("the formula of " + name)
 
     # Requirements.
-
     def comparisons(self):
         """All comparisons of all requirements. One that cannot be read is an exception instead."""
         for name, entry in section(self.method, "require").items():
             try:
                 entry = entry if isinstance(entry, dict) else {"that": entry}
                 tree = named_blocks(entry) if "blocks" in entry else parse(entry["that"])
-                found = list(chain_parts(tree))
+                found = chain_parts(tree)
                 domains = self.domains(entry.get("forall", []))
             except NOT_EVALUATED as error:
                 yield name, error
@@ -409,31 +382,31 @@ class Statement:
             for k, (left, sign, right) in enumerate(found):
                 label = "%s.%d" % (name, k + 1) if len(found) > 1 else name
                 yield label, Comparison(name, left, sign, right, domains)
-
     def domains(self, texts):
         """The finite choices of `forall`, each with the intervals that remain.
 
-        A vertex stands for a whole polytope, so no later entry may depend on it.
+        An interval has no value, and a vertex stands for a whole polytope: no later entry may
+        depend on them.
         """
-        found, seen = [Domain(self.scope, (), (), ())], set()
+        found, hidden = [Domain(self.scope, (), (), ())], {}
+        later = Later(lambda: refuse("an entry of forall that depends on the one before"))
         for text in listed(texts):
             entry = re.fullmatch(r"\s*(\w+)\s+in\s+(.*)", text, re.S)
-            scopes = [Scope(d.scope, {name: Later(lambda: refuse("an entry of forall that depends "
-                                                                 "on a variable of an interval"))
-                                      for name in [i.name for i in d.intervals] +
-                                      [name for name, _ in d.hulls]}) for d in found]
-            if entry:
-                if entry.group(1) in seen: raise Unsupported("a variable that occurs twice")
-                seen.add(entry.group(1))
-                found = [new for d, scope in zip(found, scopes)
-                         for new in choices(d, scope, entry.group(1), entry.group(2).strip())]
-            else: found = [d for d, scope in zip(found, scopes) if holds(parse(text), scope)]
+            scopes = [Scope(d.scope, hidden) for d in found]
+            if not entry:
+                found = [d for d, scope in zip(found, scopes) if holds(parse(text), scope)]
+                continue
+            name, where = entry.group(1), entry.group(2).strip()
+            if name in hidden or any(name in (n for n, _, _ in d.choices) for d in found):
+                raise Unsupported("a variable that occurs twice")
+            found = [new for d, scope in zip(found, scopes)
+                     for new in choices(d, scope, name, where)]
+            if where.startswith(("[", "conv")): hidden[name] = later
         return found
 
 def named_blocks(entry):
     """The comparison of a matrix that is given by named block rows and columns."""
     blocks = entry["blocks"]
-
     def place(a, b):
         if b in (blocks[a] or {}): return parse(blocks[a][b])
         return ("'", parse(blocks[b][a])) if a in (blocks[b] or {}) else ("number", Fraction(0))
@@ -458,8 +431,8 @@ def choices(domain, scope, name, where):
         return [domain._replace(scope=Scope(domain.scope, empty),
                                 intervals=domain.intervals + tuple(new))]
     if "{" in where:
-        inner = parse("[" + where[where.index("{") + 1:where.rindex("}")] + "]")
-        values = [matrix(x, scope) for x in inner[1][0]]
+        values = where[where.index("{") + 1:where.rindex("}")]
+        values = [matrix(x, scope) for x in parse("[%s]" % values)[1][0]]
     elif ".." in where:
         low, high = [matrix(parse(x), scope).whole() for x in where.split("..", 1)]
         values = [number(Fraction(k)) for k in range(low, high + 1)]
@@ -472,22 +445,17 @@ def polynomial(parts, span):
     """The unknown function sum parts[k] b_k(t), with powers or Chebyshev polynomials b_k."""
     def function(which):
         def apply(argument):
-            total = parts[0].map(lambda x: x * 0) if which == 1 else parts[0]
-            for part, b in list(zip(parts, basis_functions(argument.number(), span)))[1:]:
-                total = total + part.map(lambda x: b[which] * x)
-            return total
+            functions = basis_functions(argument.number(), span)
+            return reduce(add, [part * number(b[which]) for part, b in zip(parts, functions)])
         return apply
     return Function(function(0), function(1))
 
 def chain_parts(tree):
     """(left, sign, right) of each comparison of a requirement."""
-    if tree[0] == "and":
-        yield from chain_parts(tree[1])
-        yield from chain_parts(tree[2])
-        return
+    if tree[0] == "and": return chain_parts(tree[1]) + chain_parts(tree[2])
     if tree[0] != "compare" or "!=" in tree[1][1::2]:
         raise Unsupported("a requirement that is not an inequality")
-    for k in range(0, len(tree[1]) - 2, 2): yield tree[1][k:k + 3]
+    return [tree[1][k:k + 3] for k in range(0, len(tree[1]) - 2, 2)]
 
 def values_of_file(gain):
     """unknown_value of the decimals of the file. Symmetric unknowns must be symmetric."""
@@ -497,9 +465,9 @@ def values_of_file(gain):
     return value
 
 def checked(a, name, rows, cols, kind):
-    """The matrix, if it has this size and is of this kind."""
-    if a.shape() != (rows, cols) and a.cols == 1: a = a.transposed()        # a flat list
-    if a.shape() != (rows, cols) and 0 in (rows, cols): a = zeros(rows, cols)
+    """The matrix, if it has this size and is of this kind; a flat list may be a row."""
+    if a.shape() != (rows, cols) and a.cols == 1: a = a.transposed()
+    if 0 in (rows, cols): a = zeros(rows, cols)
     if a.shape() != (rows, cols): raise Unsupported("the size of " + name)
     if kind == "symmetric" and a.elements != a.transposed().elements:
         raise Unsupported("%s, which is not symmetric" % name)
@@ -509,17 +477,14 @@ def checked(a, name, rows, cols, kind):
 
 class Symbols:
     """unknown_value with a new scalar x_i for each free element; `count` is their number."""
-
     def __init__(self): self.count = 0
-
     def __call__(self, name, rows, cols, kind):
         result = zeros(rows, cols)
-        for j in range(cols):
-            for i in range(rows):
-                if kind == "diagonal" and i != j or kind == "symmetric" and i < j: continue
-                self.count += 1
-                result.elements[i][j] = Affine({self.count: Fraction(1)})
-                if kind == "symmetric": result.elements[j][i] = result.elements[i][j]
+        for i, j in product(range(rows), range(cols)):
+            if kind == "diagonal" and i != j or kind == "symmetric" and i < j: continue
+            self.count += 1
+            result.elements[i][j] = Affine({self.count: Fraction(1)})
+            if kind == "symmetric": result.elements[j][i] = result.elements[i][j]
         return result
 
 # Inequalities as symmetric matrices.
@@ -555,24 +520,18 @@ def inequality(comparison, scope):
     raise Unsupported("an inequality of %d x %d matrices" % difference.shape())
 
 def symmetric(a):
-    """a if it is symmetric. Asymmetry of the size of rounding is averaged: v'av stays the same."""
-    result = [list(row) for row in a.elements]
-    for i in range(a.rows):
-        for j in range(i):
-            x, y = a[i, j], a[j, i]
-            if x is y or is_exact(x) and is_exact(y) and x == y: continue
-            check_rounding(x, y)
-            result[i][j] = result[j][i] = (x + y) * Fraction(1, 2)
-    return Matrix(result, a.rows, a.cols)
+    """a if it is symmetric. Asymmetry of the size of rounding, at most 1e-9 of the coefficients, is
+    averaged: v'av stays the same."""
+    result = a + a.transposed()
+    for i, j in product(range(a.rows), repeat=2):
+        x, y = a[i, j], a[j, i]
+        if x is y or is_exact(x) and x == y: result.elements[i][j] = x
+        elif i < j:
+            difference, size = [max(abs(middle(c)) for z in numbers for c in coefficients(z))
+                                for numbers in ([x - y], [x, y])]
+            if difference > size / 10 ** 9 + Fraction(1, 10 ** 80):
+                raise Unsupported("a matrix that is not symmetric")
+            result.elements[i][j] = result.elements[j][i] = result[i, j] * Fraction(1, 2)
+    return result
 
-def check_rounding(x, y):
-    """Raises Unsupported unless |x - y| is at most 1e-9 of their size, up to their errors."""
-    parts = [(x - y, x, y)]
-    if isinstance(parts[0][0], Affine):
-        terms = [z.terms if isinstance(z, Affine) else {0: z} for z in parts[0]]
-        parts = [[t.get(i, Fraction(0)) for t in terms] for i in terms[0]]
-    for difference, *both in parts:
-        error = sum(z.rest if isinstance(z, Taylor) else 0 for z in both)
-        size = max(upper(z) for z in both) / 10 ** 9 + Fraction(1, 10 ** 80)
-        if upper(difference) > size + Fraction(2 * error, ONE):
-            raise Unsupported("a matrix that is not symmetric")
+def coefficients(x): return x.terms.values() if isinstance(x, Series) else [x]
