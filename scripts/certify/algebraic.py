@@ -30,10 +30,8 @@ WEIGHTS = [["1"], ["1", "l + m"], ["1", "l m"], ["1", "l + m", "l m"]]
 
 def eigenvector(a, start):
     """(p, W): the monic p of least degree with p(A) b = 0, and w = W e = (p(l) - p(A))/(l - A) b.
-
     (l - A) w(l) = p(l) b, so w(l) is an eigenvector at each root l of p. It is not 0, since the
-    columns of W, the coefficients sum_(j > k) p_j A^(j-k-1) b of l^k, are independent.
-    """
+    columns of W, the coefficients sum_(j > k) p_j A^(j-k-1) b of l^k, are independent."""
     powers = [start]
     while not (kernel := null_space(beside(powers))).cols: powers.append(a * powers[-1])
     n = len(powers) - 1
@@ -50,12 +48,9 @@ def companion(p):
 # Roots.
 
 def roots(p):
-    """Disks (re, im) of balls, each with exactly one root of p. Multiple roots have none.
-
-    Rouche: the disk of radius h <= 1 has one root if |p| + M h^2/2 < |p'| h at its centre, where
-    M >= |p''| on the disk. If the centre is real, the root is real, since the disk is its mirror
-    image.
-    """
+    """Disks (re, im) of balls, each with exactly one root of p. Multiple roots have none. Rouche:
+    the disk of radius h <= 1 has one root if |p| + M h^2/2 < |p'| h at its centre, where M >= |p''|
+    on the disk. If the centre is real, the root is real, since the disk is its mirror image."""
     d1 = [k * c for k, c in enumerate(p)][1:]
     d2 = [k * c for k, c in enumerate(d1)][1:]
     h = Fraction(1, 2 ** 200)

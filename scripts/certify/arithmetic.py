@@ -113,11 +113,9 @@ class Series(Number):
         return self.like(terms)
 
 class Taylor(Series):
-    """A polynomial in t in [-1, 1]^k with fractions or balls as coefficients, and its rest.
-
-    The exponents e are tuples. `space` is (k, order); products drop the terms above the order and
-    add their size to the rest.
-    """
+    """A polynomial in t in [-1, 1]^k with fractions or balls as coefficients, and its rest. The
+    exponents e are tuples. `space` is (k, order); products drop the terms above the order and add
+    their size to the rest."""
     level = 2
     def origin(self): return (0,) * self.space[0]
     def widened(self, error): return self.like(self.terms, self.rest + error)
@@ -144,10 +142,8 @@ class Dual(Series):
     level = 3
 
 class Affine(Series):
-    """terms[0] + sum of terms[i] x_i. A product of two unknowns raises Unsupported.
-
-    So a matrix that was evaluated with Affine elements is known to be affine in the unknowns.
-    """
+    """terms[0] + sum of terms[i] x_i. A product of two unknowns raises Unsupported. So a matrix
+    that was evaluated with Affine elements is known to be affine in the unknowns."""
     level = 4
     def times(self, other):
         if self.is_constant() or other.is_constant(): return super().times(other)
@@ -175,10 +171,8 @@ def typical(x):
 # Elementary functions of balls.
 
 def series_sum(first, ratio):
-    """first (1 + ratio(0) + ratio(0) ratio(1) + ...) in balls. All ratios must be at most 1/2.
-
-    Then all terms after one are together at most as large as this one.
-    """
+    """first (1 + ratio(0) + ratio(0) ratio(1) + ...) in balls. All ratios must be at most 1/2. Then
+    all terms after one are together at most as large as this one."""
     total = term = first
     k = 0
     while abs(term.m) > 2 or k < 2:
@@ -268,13 +262,11 @@ EXPONENTS = {"inv": Fraction(-1), "sqrt": Fraction(1, 2), "log": Fraction(0)}
 
 def function_of_series(name, x):
     """f(p + d) by its series in d up to the order K, where p is the constant term and |d| <= delta.
-
     The series of sin and cos leave at most delta^(K+1)/(K+1)!, that of exp leaves exp(p + delta)
     times this. With u = d/p, inv and sqrt are f(p) (1 + u)^a: the j-th coefficient is (a - j + 1)/j
-    times the one before. With a = 0 this gives log, from its term u on. All coefficients of
-    (1 + u)^a are at most 1. So for |u| <= q < 1 the series leave at most f(p) q^(K+1)/(1 - q), that
-    of log without f(p).
-    """
+    times the one before. With a = 0 this gives log, from its term u on. All coefficients of (1 +
+    u)^a are at most 1. So for |u| <= q < 1 the series leave at most f(p) q^(K+1)/(1 - q), that of
+    log without f(p)."""
     p, d = x.constant(), x.variable()
     if isinstance(x, Affine) and not x.is_constant(): raise Unsupported(name + " of an unknown")
     value = function(name, p)

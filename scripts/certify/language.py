@@ -1,24 +1,24 @@
-"""The matrix language of methods and problems: text -> tree -> matrix.
+"""The matrix language of docs/language.md: text -> tree -> matrix.
 
 The elements of a matrix are numbers of any kind of arithmetic.py. So the same text gives exact
 values, enclosures for all values of a variable, derivatives, or functions of the unknowns.
-The language is that of docs/language.md. A name or function that is not here raises Unsupported.
+A name or function that is not here raises Unsupported.
 """
 
 import operator
 import re
+from collections import namedtuple
 from fractions import Fraction
 from functools import cache, reduce
 from itertools import islice
 
 from arithmetic import (BITS, PI, Affine, Dual, Taylor, Undecided, Unsupported, ball, function,
                         inverse, is_exact, is_zero, middle, sign, upper)
-from matrices import (Matrix, beside, column, diagonal, exactly, flat, identity, invert,
+from matrices import (Matrix, beside, column, diagonal, exactly, filled, flat, identity, invert,
                       join_blocks, null_space, number, pivots_of, reduced, spectral_norm, stacked,
                       zeros)
 
-# Tokens and trees. A tree is a tuple: its kind, then its parts. In 2./v the point belongs to the
-# operator, not to the number.
+# Trees: a tuple of a kind and its parts. In 2./v the point belongs to the operator.
 
 TOKEN = re.compile(r"""\s*(?:
     (?P<number>\d+(?=\.[*/^])|(?:\d+(?:\.(?!\.)\d*)?|\.\d+)(?:[eE][+-]?\d+)?)
@@ -28,82 +28,76 @@ TOKEN = re.compile(r"""\s*(?:
 DECIMAL = re.compile(r"-?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,3})?")
 RELATIONS = {"<": operator.lt, ">": operator.gt, "<=": operator.le, ">=": operator.ge,
              "==": operator.eq, "!=": operator.ne}
+LEVELS = {"or": 1, "and": 2, **dict.fromkeys(RELATIONS, 4), "+": 5, "-": 5,
+          **dict.fromkeys(("*", "/", ".*", "./"), 6)}      # not: 3, a sign: 6, beside * and /: 7
 LONGEST = 100_000       # characters of a formula
 
-def tokens_of(text):
-    if len(text) > LONGEST: raise Unsupported("a formula of more than %d characters" % LONGEST)
-    found = list(TOKEN.finditer(text))
-    unknown = [m.group() for m in found if m.lastgroup == "other"]
-    if unknown: raise Unsupported("the text %r" % unknown[0])
-    return [(m.lastgroup, m.group(m.lastgroup)) for m in found]
-
 class Parser:
-    """Recursive descent; each method reads one level of the table of operators."""
-    def __init__(self, text): self.text, self.tokens, self.at = text, tokens_of(text), 0
+    """Recursive descent by the levels of operators."""
+    def __init__(self, text):
+        if len(text) > LONGEST: raise Unsupported("a formula of more than %d characters" % LONGEST)
+        self.text, self.at = text, 0
+        self.tokens = [(m.lastgroup, m.group(m.lastgroup)) for m in TOKEN.finditer(text)]
     def token(self, ahead=0):
         at = self.at + ahead
         return self.tokens[at] if at < len(self.tokens) else ("end", "")
     def next_is(self, *signs, ahead=0):
         kind, text = self.token(ahead)
-        return kind != "number" and text in signs
+        return kind in ("sign", "name") and text in signs
     def take(self):
         self.at += 1
-        return self.tokens[self.at - 1][1]
+        return self.token(-1)[1]
     def taken(self, *signs):
         """The next sign if it is one of these; it is consumed."""
         return self.take() if self.next_is(*signs) else None
     def expect(self, text):
         if not self.taken(text): raise Unsupported("%r is missing in %r" % (text, self.text[:60]))
     def whole(self):
-        tree = self.condition()
-        if self.at < len(self.tokens):
-            raise Unsupported("%r in %r" % (self.token()[1], self.text[:60]))
+        tree = self.expression()
+        if self.at == len(self.tokens): return tree
+        raise Unsupported("%r in %r" % (self.token()[1], self.text[:60]))
+    def expression(self, level=1):
+        """Operators of this level and above, from left to right."""
+        if self.taken("not"): tree = ("not", self.expression(3))
+        elif self.taken("-"): tree = ("minus", self.expression(max(level, 6)))
+        elif self.taken("+"): tree = self.expression(max(level, 6))
+        else: tree = self.factor()
+        while self.next_is(*LEVELS) and LEVELS[self.token()[1]] >= level:
+            sign_ = self.take()
+            right = self.expression(LEVELS[sign_] + 1)
+            if sign_ not in RELATIONS: tree = (sign_, tree, right)
+            elif tree[0] == "compare": tree = ("compare", tree[1] + [sign_, right])
+            else: tree = ("compare", [tree, sign_, right])
         return tree
-    def chain(self, signs, read):
-        tree = read()
-        while self.next_is(*signs): tree = (self.take(), tree, read())
-        return tree
-    def condition(self): return self.chain(("or",), self.conjunction)
-    def conjunction(self): return self.chain(("and",), self.negation)
-    def negation(self): return ("not", self.negation()) if self.taken("not") else self.comparison()
-    def sum(self): return self.chain(("+", "-"), self.term)
-    def signed(self, read): return ("minus", read()) if self.taken("-") else read()
-    def comparison(self):
-        parts = [self.sum()]
-        while self.next_is(*RELATIONS): parts += [self.take(), self.sum()]
-        return ("compare", parts) if len(parts) > 1 else parts[0]
-    def term(self):
-        if self.taken("-"): return ("minus", self.term())
-        if self.taken("+"): return self.term()
-        return self.chain(("*", "/", ".*", "./"), lambda: self.signed(self.factor))
     def factor(self):
         """A value with what follows it, from left to right: A^2' is (A^2)'."""
         tree = self.value()
         while True:
             if self.taken("'"): tree = ("'", tree)
-            elif self.next_is("^", ".^"): tree = (self.take(), tree, self.signed(self.value))
-            elif self.taken("("):
-                arguments = [] if self.next_is(")") else [self.argument()]
-                while self.taken(","): arguments.append(self.argument())
-                self.expect(")")
-                tree = ("call", tree, arguments)
+            elif self.next_is("^", ".^"):
+                power, negative = self.take(), self.taken("-")
+                tree = (power, tree, ("minus", self.value()) if negative else self.value())
+            elif self.taken("("): tree = ("call", tree, self.listed(self.argument, ")"))
             else: return tree
+    def listed(self, read, end):
+        found = [] if self.next_is(end) else [read()]
+        while self.taken(","): found.append(read())
+        self.expect(end)
+        return found
     def argument(self):
         if self.taken(":"): return ("all",)
         if self.next_is("in", ahead=1):
-            name = self.take()
-            self.expect("in")
-            low = self.sum()
+            name, _, low = self.take(), self.take(), self.expression(5)
             self.expect("..")
-            return ("range", name, low, self.sum())
-        tree = self.condition()
-        return ("span", tree, self.sum()) if self.taken(":") else tree
+            return ("range", name, low, self.expression(5))
+        tree = self.expression()
+        return ("span", tree, self.expression(5)) if self.taken(":") else tree
     def value(self):
         kind = self.token()[0]
         if kind == "number": return (kind, decimal(self.take()))
         if kind == "name": return (kind, self.take())
         if self.taken("("):
-            tree = self.condition()
+            tree = self.expression()
             self.expect(")")
             return tree
         self.expect("[")
@@ -116,7 +110,7 @@ class Parser:
     def entry(self):
         """An entry of a matrix; None for a * that stands alone."""
         if self.next_is("*") and self.next_is(",", ";", "]", ahead=1): return self.take() and None
-        return self.condition()
+        return self.expression()
 
 def decimal(text):
     """The fraction that a decimal is."""
@@ -144,9 +138,8 @@ class Later:
     """A value that is computed when it is first used, once."""
     def __init__(self, compute): self.get = cache(compute)
 
-class Function:
-    """A definition with arguments, or an unknown that is a function."""
-    def __init__(self, apply, derivative=None): self.apply, self.derivative = apply, derivative
+# A definition with arguments, or an unknown that is a function.
+Function = namedtuple("Function", "apply derivative", defaults=[None])
 
 def defined(names, text, scope):
     """The function of these arguments that the text is."""
@@ -159,6 +152,8 @@ class Family(dict):
     """Members by their indices, a tuple of whole numbers."""
 
 # Evaluation.
+
+CONSTANTS = {"I": Matrix([[Fraction(1)]], flexible=True), "pi": number(PI)}
 
 def evaluate(tree, scope):
     """The matrix (or Function, Family) that a tree means."""
@@ -178,76 +173,67 @@ def matrix(tree, scope):
     if not isinstance(value, Matrix): raise Unsupported("a function where a value is expected")
     return value
 
-CONSTANTS = {"I": Matrix([[Fraction(1)]], flexible=True), "pi": number(PI)}
-
 def elementwise(operation):
     """The operation on equal shapes, or on a number and a matrix."""
     def apply(a, b):
-        rows, cols = (b if a.is_number() else a).shape()
         if not (a.is_number() or b.is_number()) and a.shape() != b.shape():
             raise Unsupported("different shapes")
-        return Matrix([[operation(a.spread(i, j), b.spread(i, j)) for j in range(cols)]
-                       for i in range(rows)], rows, cols)
+        rows, cols = (b if a.is_number() else a).shape()
+        return filled(rows, cols, lambda i, j: operation(a.spread(i, j), b.spread(i, j)))
     return apply
+
+def repeated(base, k, one):
+    """base^k."""
+    if abs(k) > 10_000: raise Unsupported("an exponent above 10000")
+    return reduce(operator.mul, [base] * abs(int(k)), one)
 
 def power_of_number(x, k):
     whole = is_exact(k) and k.denominator == 1
     if whole: return repeated(x if k >= 0 else inverse(x), k, Fraction(1))
-    if k == Fraction(1, 2): return function("sqrt", x)
-    return function("exp", k * function("log", x))
-
-def repeated(base, k, one):
-    if abs(k) > 10_000: raise Unsupported("an exponent above 10000")
-    return reduce(operator.mul, [base] * abs(int(k)), one)
+    return function("sqrt", x) if k == Fraction(1, 2) else function("exp", k * function("log", x))
 
 def power(base, exponent):
-    if base.is_number():
-        return Matrix([[power_of_number(base.number(), exponent.number())]], flexible=base.flexible)
+    if base.is_number(): return base.map(lambda x: power_of_number(x, exponent.number()))
     k = exponent.whole()
     return repeated(base if k >= 0 else invert(base), k, identity(base.rows))
 
 OPERATORS = {
     "+": operator.add, "-": operator.sub, "*": operator.mul, "minus": operator.neg, "^": power,
-    "/": lambda a, b: a.map(lambda x, y=b.number(): x * inverse(y)),
-    "'": lambda a: a.transposed(),
-    ".*": elementwise(operator.mul),
-    "./": elementwise(lambda x, y: x * inverse(y)),
-    ".^": elementwise(power_of_number),
-}
+    "'": Matrix.transposed, "/": lambda a, b: a.map(lambda x, y=b.number(): x * inverse(y)),
+    ".*": elementwise(operator.mul), "./": elementwise(lambda x, y: x * inverse(y)),
+    ".^": elementwise(power_of_number)}
 
 def call(head, arguments, scope):
     """f(...), a member of a family, an element or part of a matrix, or a built-in function."""
     if head[0] == "name" and scope.find(head[1]) is None: return builtin(head[1], arguments, scope)
     if head[0] == "call" and head[1] == ("name", "derivative"):
         unknown = evaluate(head[2][0], scope)
-        if not isinstance(unknown, Function) or unknown.derivative is None:
-            raise Unsupported("the derivative of what is not an unknown function")
-        return unknown.derivative(matrix(arguments[0], scope))
+        if isinstance(unknown, Function) and unknown.derivative:
+            return unknown.derivative(matrix(arguments[0], scope))
+        raise Unsupported("the derivative of what is not an unknown function")
     value = evaluate(head, scope)
     if isinstance(value, Function): return value.apply(*[matrix(x, scope) for x in arguments])
     if isinstance(value, Matrix): return part_of(value, arguments, scope)
-    last = Scope(scope, {"end": number(Fraction(max(k[0] for k in value)))})
+    last = with_end(scope, max(k[0] for k in value))
     key = tuple(matrix(x, last).whole() for x in arguments)
     if key not in value: raise Unsupported("the member %s of a family" % (key,))
     return value[key]
+
+def with_end(scope, last): return Scope(scope, {"end": number(Fraction(last))})
 
 def part_of(value, arguments, scope):
     """M(i, j), v(i); an index is a number, lo:hi or : alone."""
     def places(tree, length):
         if tree == ("all",): return range(length)
-        inner = Scope(scope, {"end": number(Fraction(length))})
-        ends = [matrix(x, inner).whole() for x in (tree[1:] if tree[0] == "span" else [tree])]
-        found = range(ends[0] - 1, ends[-1])
-        if any(not 0 <= k < length for k in found):
-            raise Unsupported("an index beyond the size of a matrix")
-        return found
+        ends = [matrix(x, with_end(scope, length)).whole()
+                for x in (tree[1:] if tree[0] == "span" else [tree])]
+        if ends[0] >= 1 and ends[-1] <= length: return range(ends[0] - 1, ends[-1])
+        raise Unsupported("an index beyond the size of a matrix")
 
     if len(arguments) == 1 and 1 in value.shape():
         arguments = arguments + [("all",)] if value.cols == 1 else [("all",)] + arguments
     if len(arguments) != 2: raise Unsupported("the number of indices")
     return value.part(places(arguments[0], value.rows), places(arguments[1], value.cols))
-
-# Conditions.
 
 def relation(name): return elementwise(lambda x, y: RELATIONS[name](sign(x - y), 0))
 
@@ -267,8 +253,8 @@ def choose(condition, yes, no, scope):
         left, name, right = condition[1]
         truths = relation(name)(matrix(left, scope), matrix(right, scope))
         if not truths.is_number():
-            return Matrix([[(yes if truths[i, j] else no).spread(i, j) for j in range(truths.cols)]
-                           for i in range(truths.rows)], truths.rows, truths.cols)
+            return filled(*truths.shape(),
+                          lambda i, j: (yes if truths[i, j] else no).spread(i, j))
     return yes if holds(condition, scope) else no
 
 # The matrix exponential.
@@ -277,10 +263,10 @@ def matrix_exponential(a):
     """expm(a) by parts that commute, or by scaling, Taylor series and squaring."""
     if any(isinstance(x, (Affine, Dual)) for x in flat(a)):
         raise Unsupported("expm of unknowns, or its derivative")
-    models = [x for x in flat(a) if isinstance(x, Taylor)]
-    parts = affine_parts(a, models[0]) if models else None
+    model = next((x for x in flat(a) if isinstance(x, Taylor)), None)
+    parts = affine_parts(a, model) if model else None
     if parts: return reduce(operator.mul, parts)
-    halvings, norm = 0 if models else 8, row_sum(a)
+    halvings, norm = 0 if model else 8, row_sum(a)
     while norm > Fraction(2 ** halvings, 4): halvings += 1
     if halvings > 60: raise Undecided("expm of a large matrix")
     total = exponential_series(a.map(lambda x: x if is_zero(x) else
@@ -298,43 +284,39 @@ def affine_parts(a, model):
     parts = [elements.map(lambda x, e=e: x.terms.get(e, Fraction(0))) for e in exponents]
     if any(x.rest for x in flat(elements)) or any(sum(e) > 1 for e in exponents) or \
             not all(map(exactly, parts)) or \
-            any((m * n).elements != (n * m).elements for m in parts for n in parts):
-        return None
+            any((m * n).elements != (n * m).elements for m in parts for n in parts): return None
     def in_time(e): return lambda x, j: model.like({tuple(j * k for k in e): ball(x)})
     return [exponential_series(m, in_time(e), model.space[1]) if any(e) else matrix_exponential(m)
             for m, e in zip(parts, exponents)]
 
 def exponential_series(a, embed=lambda x, j: x, last=None):
     """The series of expm(a), up to the term a^j/j! with j = last or where it is tiny; the elements
-    x of this term are replaced by embed(x, j), such as x t^j for expm(a t).
-
-    With n, the largest sum of a row of |a|, the rest is at most n^(j+1)/(j+1)! exp(n). It does not
-    touch an element (i, k) if no power of a does: if there is no path from i to k.
-    """
-    norm, total, term, j = row_sum(a), identity(a.rows), identity(a.rows), 0
-    bound = Fraction(1)
+    x of this term are replaced by embed(x, j), such as x t^j for expm(a t). With n, the largest sum
+    of a row of |a|, the rest is at most n^(j+1)/(j+1)! exp(n). It does not touch an element (i, k)
+    if no power of a does: if there is no path from i to k."""
+    total, term, j = identity(a.rows), identity(a.rows), 0
+    norm, bound = row_sum(a), Fraction(1)
     while j != last and bound > Fraction(1, 2 ** (BITS - 20)):
         j += 1
         bound = bound * norm / j
         term = (term * a).map(lambda x: x * Fraction(1, j))
         total = total + term.map(lambda x: x if is_zero(x) else embed(x, j))
     error = (ball(bound * norm / (j + 1)) * function("exp", ball(norm))).size() + 1
-    paths = [[not is_zero(x) for x in row] for row in a.elements]
-    for k in range(a.rows):
+    paths = a.map(lambda x: not is_zero(x)).elements
+    for k, row in enumerate(paths):
         for i in range(a.rows):
             if paths[i][k]: paths[i] = [x or y for x, y in zip(paths[i], paths[k])]
-
-    return Matrix([[(ball(x) if is_exact(x) else x).widened(error) if reached else x
-                    for x, reached in zip(*rows)] for rows in zip(total.elements, paths)])
+    return filled(a.rows, a.rows, lambda i, k: total[i, k] if not paths[i][k] else
+                  (ball(total[i, k]) if is_exact(total[i, k]) else total[i, k]).widened(error))
 
 # Functions.
 
 def determinant(a):
     """By the first row."""
-    if a.rows == 0: return Fraction(1)
-    rest = range(1, a.rows)
-    return sum(((-1) ** j * x * determinant(a.part(rest, [k for k in range(a.cols) if k != j]))
-                for j, x in enumerate(a.elements[0]) if not is_zero(x)), Fraction(0))
+    def minor(j): return a.part(range(1, a.rows), [k for k in range(a.cols) if k != j])
+    return Fraction(1) if a.rows == 0 else sum(
+        ((-1) ** j * x * determinant(minor(j)) for j, x in enumerate(a.elements[0])
+         if not is_zero(x)), Fraction(0))
 
 def observability(a, c):
     blocks = [c]
@@ -344,52 +326,49 @@ def observability(a, c):
 def solved(system, q):
     """X of S vec X + vec Q = 0, where vec writes the columns one below the other."""
     x = invert(system) * column([-y for y in flat(q.transposed())])
-    return Matrix([[x[j * q.rows + i, 0] for j in range(q.rows)] for i in range(q.rows)])
+    return filled(q.rows, q.rows, lambda i, j: x[j * q.rows + i, 0])
 
 def gramian(f, hc, j, hd, lengths, backward=False):
-    """Sum over flows and the jumps between them of the outputs' squares, x'W x, by the state at
-    the start (or at the end). expm([-F', H'H; 0, F] t) = [.., expm(-F't) W; 0, expm(F t)]."""
+    """Sum over flows and the jumps between them of the outputs' squares, x'W x, by the state at the
+    start (or at the end). expm([-F', H'H; 0, F] t) = [.., expm(-F't) W; 0, expm(F t)]."""
     n, total, moved, before = f.rows, zeros(f.rows, f.rows), identity(f.rows), None
     generator = join_blocks([[-f.transposed(), hc.transposed() * hc], [zeros(n, n), f]])
+    first, second = range(n), range(n, 2 * n)
     for k, t in enumerate(flat(lengths)):
-        if k:
-            seen = hd * moved
-            total, moved = total + seen.transposed() * seen, j * moved
+        if k: total, moved = total + squared(hd * moved), j * moved
         if t is not before:
-            both = matrix_exponential(generator.map(lambda x: x * t))
-            flow = both.part(range(n, 2 * n), range(n, 2 * n))
-            seen_in_flow = flow.transposed() * both.part(range(n), range(n, 2 * n))
-        total, moved, before = total + moved.transposed() * seen_in_flow * moved, flow * moved, t
+            both, before = matrix_exponential(generator.map(lambda x: x * t)), t
+            flow = both.part(second, second)
+            seen_in_flow = flow.transposed() * both.part(first, second)
+        total, moved = total + moved.transposed() * seen_in_flow * moved, flow * moved
     back = invert(moved) if backward else identity(n)
     return back.transposed() * total * back
 
+def squared(a): return a.transposed() * a
+
 def orthonormal(basis):
     """The basis of docs/language.md: pivoted Cholesky factor of the projector on the range."""
-    size = basis.rows
+    size, columns, e = basis.rows, [], function("exp", ball(1))
     if basis.cols in (0, size): return zeros(size, 0) if basis.cols == 0 else identity(size)
-    w = basis * invert(basis.transposed() * basis) * basis.transposed()
-    columns = []
+    w = basis * invert(squared(basis)) * basis.transposed()
     for _ in range(basis.cols):
         r = [w[i, i] for i in range(size)]
         largest = max(middle(x) + upper(x - middle(x)) for x in r)
-        e = function("exp", ball(1))
         p = next(i for i in range(size) if sign(e * r[i] - largest) >= 0)
         b = [w[i, p] * inverse(function("sqrt", r[p])) for i in range(size)]
-        columns.append(b)
-        w = Matrix([[w[i, j] - b[i] * b[j] if p not in (i, j) else Fraction(0)
-                     for j in range(size)] for i in range(size)])
-    return Matrix(columns, basis.cols, size).transposed()
+        columns.append(column(b))
+        w = filled(size, size, lambda i, j: w[i, j] - b[i] * b[j] if p not in (i, j) else
+                   Fraction(0))
+    return beside(columns)
 
-def checked_rank(a, tolerance=None):
+def checked_rank(a, tolerance=number(Fraction(1, 10 ** 12))):
     """The rank of a matrix of fractions, if all singular values but those that are 0 are above the
     tolerance times the largest one. By inertia: the positive pivots of a'a - s I count the
     eigenvalues of a'a above s; here s = (tolerance)^2 trace(a'a), and trace >= largest."""
     if not exactly(a): raise Unsupported("the rank of numbers that are not rational")
-    rank, g = len(reduced(a, a.cols)[0]), a.transposed() * a
-    s = (tolerance.number() if tolerance else Fraction(1, 10 ** 12)) ** 2
-    shifted = g - identity(a.cols, s * sum(g[i, i] for i in range(a.cols)))
+    rank, s = len(reduced(a, a.cols)[0]), tolerance.number() ** 2 * sum(x * x for x in flat(a))
     above = 0
-    for pivot in pivots_of(shifted.elements) if rank else ():
+    for pivot in pivots_of((squared(a) - identity(a.cols, s)).elements) if rank else ():
         if pivot == 0: raise Undecided("a rank")
         above += pivot > 0
     if above != rank: raise Undecided("a rank that depends on the tolerance")
@@ -410,10 +389,10 @@ def floor(x):
 def units(a, c):
     """Powers of two S: least squares of log2 of the elements of inv(S)*A*S (beside the diagonal)
     and C*S. States that no output is connected with are measured from their first one."""
-    n = a.rows
+    n, places = a.rows, range(a.rows)
     if not (exactly(a) and exactly(c)): raise Unsupported("units of irrational numbers")
-    logs = [(i, j, a[i, j]) for i in range(n) for j in range(n) if i != j and a[i, j] != 0]
-    logs += [(n, j, c[i, j]) for i in range(c.rows) for j in range(n) if c[i, j] != 0]
+    logs = [(i, j, a[i, j]) for i in places for j in places if i != j and a[i, j] != 0]
+    logs += [(n, j, row[j]) for row in c.elements for j in places if row[j] != 0]
     normal, right = zeros(n, n).elements, [Fraction(0)] * n
     group = list(range(n + 1))          # connected states; n stands for the outputs
     for i, j, x in logs:
@@ -423,7 +402,7 @@ def units(a, c):
             right[k] = right[k] - s * value
             for m, t in ends: normal[k][m] += s * t
         group = [group[j] if g == group[i] else g for g in group]
-    for k in range(n):
+    for k in places:
         if group[k] != group[n] and group.index(group[k]) == k: normal[k][k] += 1
     exponents = invert(Matrix(normal)) * column(right)
     return diagonal([Fraction(2) ** nearest(x) for x in flat(exponents)])
@@ -435,22 +414,17 @@ def nearest(x):
     return k
 
 def basis_functions(t, span=None):
-    """(b_k(t), b_k'(t)) for k = 0, 1, ...: powers, or the Chebyshev polynomials on the span.
-
-    b_k = t b_(k-1), or b_k = 2 u b_(k-1) - b_(k-2) with u = (2 t - low - high)/(high - low).
-    """
-    now = (Fraction(1), Fraction(0))
+    """(b_k(t), b_k'(t)) for k = 0, 1, ...: powers, or the Chebyshev polynomials on the span. b_k =
+    t b_(k-1), or b_k = 2 u b_(k-1) - b_(k-2) with u = (2 t - low - high)/(high - low)."""
+    b, d = Fraction(1), Fraction(0)
     if span:
         slope = 2 * inverse(span[1] - span[0])
         u = (t - span[0]) * slope - 1
         before = (u, slope)
     while True:
-        yield now
-        b, d = now
-        if span:
-            now = (2 * (u * b) - before[0], 2 * (slope * b + u * d) - before[1])
-            before = (b, d)
-        else: now = (t * b, b + t * d)
+        yield b, d
+        if span: before, b, d = (b, d), 2 * (u * b) - before[0], 2 * (slope * b + u * d) - before[1]
+        else: b, d = t * b, b + t * d
 
 def chebyshev(k, t, low, high):
     functions = basis_functions(t.number(), (low.number(), high.number()))
@@ -480,57 +454,46 @@ def discretized(a, b, t):
     joined = stacked([beside([a, b]), zeros(m, n + m)])
     return matrix_exponential(t * joined).part(range(n), range(n + m))
 
-def ones(n, m=None): return zeros(n.whole(), (m or n).whole()).map(lambda x: x + 1)
 def each(operation): return lambda a: a.map(operation)
+def shaped(x): return lambda n, m=None: filled(n.whole(), (m or n).whole(), lambda i, j: x)
+
+def diagonal_or_its_matrix(a):
+    return diagonal(flat(a)) if 1 in a.shape() else column([a[i, i] for i in range(a.rows)])
 
 def block_diagonal(items):
     return stacked([beside([x if i == j else zeros(x.rows, y.cols) for j, y in enumerate(items)])
                     for i, x in enumerate(items)])
 
-LISTS = {
-    "sum": lambda items: reduce(operator.add, items) if items else number(Fraction(0)),
-    "vertcat": stacked, "horzcat": beside, "blkdiag": block_diagonal,
-}
+LISTS = {"sum": lambda items: reduce(operator.add, items or [number(Fraction(0))]),
+         "vertcat": stacked, "horzcat": beside, "blkdiag": block_diagonal}
 BUILTINS = {
-    "inv": invert, "pinv": pseudo_inverse, "expm": matrix_exponential,
+    "inv": invert, "pinv": pseudo_inverse, "expm": matrix_exponential, "floor": each(floor),
     **{name: each(lambda x, name=name: function(name, x))
        for name in ("exp", "sin", "cos", "sqrt", "log")},
-    "floor": each(floor), "mod": elementwise(lambda x, y: x - y * floor(x * inverse(y))),
-    "min": extreme("<="), "max": extreme(">="),
+    "mod": elementwise(lambda x, y: x - y * floor(x * inverse(y))),
+    "min": extreme("<="), "max": extreme(">="), "diag": diagonal_or_its_matrix,
     "trace": lambda a: number(sum((a[i, i] for i in range(a.rows)), Fraction(0))),
-    "det": lambda a: number(determinant(a)),
-    "norm": lambda a: number(norm(a)),
-    "eye": lambda n: identity(n.whole()),
-    "zeros": lambda n, m=None: zeros(n.whole(), (m or n).whole()), "ones": ones,
-    "diag": lambda a: diagonal(flat(a)) if 1 in a.shape() else
-    column([a[i, i] for i in range(a.rows)]),
+    "det": lambda a: number(determinant(a)), "norm": lambda a: number(norm(a)),
+    "eye": lambda n: identity(n.whole()), "zeros": shaped(Fraction(0)), "ones": shaped(Fraction(1)),
     "kron": kronecker, "orth": range_basis, "null": kernel_basis, "units": units,
-    "rank": lambda a, *tolerance: number(Fraction(checked_rank(a, *tolerance))),
-    "obsv": observability, "c2d": discretized, "gramian": gramian,
+    "rank": lambda *arguments: number(Fraction(checked_rank(*arguments))),
+    "obsv": observability, "c2d": discretized, "gramian": gramian, "chebyshev": chebyshev,
     "backward_gramian": lambda *arguments: gramian(*arguments, backward=True),
     "lyap": lambda a, q: solved(kronecker(identity(a.rows), a) + kronecker(a, identity(a.rows)), q),
-    "dlyap": lambda a, q: solved(kronecker(a, a) - identity(a.rows ** 2), q),
-    "chebyshev": chebyshev,
-}
+    "dlyap": lambda a, q: solved(kronecker(a, a) - identity(a.rows ** 2), q)}
 # Functions that the language can define.
 DEFINITIONS = {name: defined(arguments.split(), text, Scope()) for name, arguments, text in (
-    ("He", "A", "A + A'"),
-    ("tan", "x", "sin(x)./cos(x)"),
-    ("sinh", "x", "(exp(x) - exp(-x))/2"),
-    ("cosh", "x", "(exp(x) + exp(-x))/2"),
-    ("tanh", "x", "sinh(x)./cosh(x)"),
-    ("log10", "x", "log(x)/log(10)"),
-    ("abs", "x", "where(x >= 0, x, -x)"),
-    ("sign", "x", "where(x > 0, 1, where(x < 0, -1, 0))"),
+    ("He", "A", "A + A'"), ("ctrb", "A B", "obsv(A', B')'"), ("tan", "x", "sin(x)./cos(x)"),
+    ("sinh", "x", "(exp(x) - exp(-x))/2"), ("cosh", "x", "(exp(x) + exp(-x))/2"),
+    ("tanh", "x", "sinh(x)./cosh(x)"), ("log10", "x", "log(x)/log(10)"),
+    ("abs", "x", "where(x >= 0, x, -x)"), ("sign", "x", "where(x > 0, 1, where(x < 0, -1, 0))"),
     ("ceil", "x", "-floor(-x)"),
-    ("skew", "v", "[0, -v(3), v(2); v(3), 0, -v(1); -v(2), v(1), 0]"),
-    ("ctrb", "A B", "obsv(A', B')'"),
-)}
+    ("skew", "v", "[0, -v(3), v(2); v(3), 0, -v(1); -v(2), v(1), 0]"))}
 
 def builtin(name, arguments, scope):
     if name == "where":
-        return choose(arguments[0], matrix(arguments[1], scope), matrix(arguments[2], scope), scope)
-    if name == "jacobian": return jacobian(arguments[0], arguments[1], scope)
+        return choose(arguments[0], *[matrix(x, scope) for x in arguments[1:]], scope)
+    if name == "jacobian": return jacobian(*arguments, scope)
     if name in LISTS:
         items = list_items(arguments, scope)
         if name == "sum" and len(arguments) == 1: return number(sum(flat(items[0]), Fraction(0)))
@@ -544,33 +507,27 @@ def list_items(arguments, scope):
     """The values of sum(i in 1..N, M) and the like; or those of the arguments."""
     scopes = [scope]
     while arguments[0][0] == "range":
-        _, name, low, high = arguments[0]
+        (_, name, low, high), *arguments = arguments
         scopes = [Scope(s, {name: number(Fraction(k))}) for s in scopes
                   for k in range(matrix(low, s).whole(), matrix(high, s).whole() + 1)]
-        arguments = arguments[1:]
     return [matrix(x, s) for s in scopes for x in arguments]
 
 OPEN_JACOBIANS = []
 
 def jacobian(expression, variable, scope):
     """The derivatives of the expression by an argument or a variable of forall, by dual numbers.
-
     Definitions without arguments do not depend on such a variable. A jacobian within a jacobian
-    would mix the derivatives of both and is refused, and so is one by a datum.
-    """
-    name = variable[1] if variable[0] == "name" else ""
-    if not scope.is_local(name):
-        raise Unsupported("a jacobian by what is not a variable or an argument")
-    value = scope.find(name)
+    would mix the derivatives of both and is refused, and so is one by a datum."""
     if OPEN_JACOBIANS: raise Unsupported("a jacobian within a jacobian")
-    size = value.rows * value.cols
-    seeds = Matrix([[Dual({0: value[i, j], 1 + i + j * value.rows: Fraction(1)})
-                     for j in range(value.cols)] for i in range(value.rows)])
-    OPEN_JACOBIANS.append(name)
+    if variable[0] != "name" or not scope.is_local(variable[1]):
+        raise Unsupported("a jacobian by what is not a variable or an argument")
+    value = scope.find(variable[1])
+    rows, cols = value.shape()
+    seeds = filled(rows, cols, lambda i, j: Dual({0: value[i, j], 1 + i + j * rows: Fraction(1)}))
+    OPEN_JACOBIANS.append(variable)
     try:
-        result = matrix(expression, Scope(scope, {name: seeds}))
+        result = flat(matrix(expression, Scope(scope, {variable[1]: seeds})).transposed())
     finally:
         OPEN_JACOBIANS.pop()
-    slopes = [x.terms if isinstance(x, Dual) else {} for x in flat(result.transposed())]
-    return Matrix([[s.get(k + 1, Fraction(0)) for k in range(size)] for s in slopes],
-                  len(slopes), size)
+    slopes = [x.terms if isinstance(x, Dual) else {} for x in result]
+    return filled(len(slopes), rows * cols, lambda i, k: slopes[i].get(k + 1, Fraction(0)))

@@ -41,7 +41,7 @@ class Matrix:
         return Matrix([[row[j] for row in self.elements] for j in range(self.cols)],
                       self.cols, self.rows, self.flexible)
     def part(self, rows, cols):
-        return Matrix([[self.elements[i][j] for j in cols] for i in rows], len(rows), len(cols))
+        return filled(len(rows), len(cols), lambda i, j: self.elements[rows[i]][cols[j]])
     def __neg__(self): return self.map(lambda x: -x)
     def __sub__(self, other): return self + (-other)
     def __add__(self, other):
@@ -82,16 +82,17 @@ def form(v, a, w):
     """v'aw of lists v, w."""
     return dot(v, [dot(row, w) for row in a.elements])
 
+def filled(rows, cols, element):
+    """The matrix of element(i, j)."""
+    return Matrix([[element(i, j) for j in range(cols)] for i in range(rows)], rows, cols)
+
 def number(x): return Matrix([[x]])
-def column(values): return Matrix([[x] for x in values], len(values), 1)
-def zeros(rows, cols): return Matrix([[Fraction(0)] * cols for _ in range(rows)], rows, cols)
-
-def diagonal(values):
-    places = range(len(values))
-    return Matrix([[values[i] if i == j else Fraction(0) for j in places] for i in places],
-                  len(values), len(values))
-
+def column(values): return filled(len(values), 1, lambda i, j: values[i])
+def zeros(rows, cols): return filled(rows, cols, lambda i, j: Fraction(0))
 def identity(n, x=Fraction(1)): return diagonal([x] * n)
+def diagonal(values):
+    n = len(values)
+    return filled(n, n, lambda i, j: values[i] if i == j else Fraction(0))
 def flat(a): return [x for row in a.elements for x in row]
 def exactly(a): return all(is_exact(x) for x in flat(a))        # all elements are fractions
 
@@ -103,10 +104,8 @@ def stacked(items):
 def beside(items): return stacked([x.transposed() for x in items]).transposed()
 
 def join_blocks(blocks):
-    """[a, b; c, d]. None stands for `*`, the transpose of the mirrored block.
-
-    Zeros and multiples of I take their size from their block row and block column.
-    """
+    """[a, b; c, d]. None stands for `*`, the transpose of the mirrored block. Zeros and multiples
+    of I take their size from their block row and block column."""
     if any(len(row) != len(blocks[0]) for row in blocks):
         return stacked([join_blocks([row]) for row in blocks])     # each row has its own columns
     heights, widths = block_sizes(blocks)
@@ -165,8 +164,8 @@ def invert(a):
     return result.map(ball) if bits > LONGEST_FRACTION else result
 
 def null_space(a):
-    """A matrix whose columns are a basis of {x: a x = 0}; fractions. Each has one 1 and, beside
-    it, zeros at the other columns of a without a pivot."""
+    """A matrix whose columns are a basis of {x: a x = 0}; fractions. Each has one 1 and, beside it,
+    zeros at the other columns of a without a pivot."""
     pivots, rows = reduced(a, a.cols)
     free = [j for j in range(a.cols) if j not in pivots]
     basis = [[Fraction(int(i == j)) for j in free] for i in range(a.cols)]
@@ -174,11 +173,9 @@ def null_space(a):
     return Matrix(basis, a.cols, len(free))
 
 def pivots_of(rows):
-    """The pivots of the L D L' elimination of a symmetric matrix, whose rows are changed.
-
-    A pivot is left out of the elimination if it is 0. The caller must stop before a pivot that
-    may be 0 with other elements in its column.
-    """
+    """The pivots of the L D L' elimination of a symmetric matrix, whose rows are changed. A pivot
+    is left out of the elimination if it is 0. The caller must stop before a pivot that may be 0
+    with other elements in its column."""
     for k, row in enumerate(rows):
         yield row[k]
         if is_zero(row[k]): continue
@@ -204,11 +201,9 @@ def classify(a):
     return result
 
 def is_positive(a):
-    """Whether every symmetric matrix in the matrix of balls a is proved positive definite.
-
-    If the balls are m_ij +- r_ij, then a >= m - diag(sums of the rows of r). This matrix has one
-    number at each place, so that the balls of its L D L' elimination stay small.
-    """
+    """Whether every symmetric matrix in the matrix of balls a is proved positive definite. If the
+    balls are m_ij +- r_ij, then a >= m - diag(sums of the rows of r). This matrix has one number at
+    each place, so that the balls of its L D L' elimination stay small."""
     balls = a.map(ball)
     rows = [[Ball(x.m) for x in row] for row in balls.elements]
     for i in range(a.rows):
@@ -253,20 +248,16 @@ def rounded(x, bits=400):
 @cache
 def bernstein_weights(degree):
     """w[i][j] with b_i = sum_j w[i][j] c_j: Bernstein coefficients of sum_j c_j t^j on [-1, 1].
-
-    With t = 2s - 1, t^j = sum_k p_jk s^k and b_i = sum_k C(i, k)/C(K, k) (coefficient of s^k).
-    """
+    With t = 2s - 1, t^j = sum_k p_jk s^k and b_i = sum_k C(i, k)/C(K, k) (coefficient of s^k)."""
     def power(j, k): return comb(j, k) * 2 ** k * (-1) ** (j - k)
     places = range(degree + 1)
     return [[sum(Fraction(comb(i, k), comb(degree, k)) * power(j, k)
                  for k in range(min(i, j) + 1)) for j in places] for i in places]
 
 def is_positive_on_box(a):
-    """Whether a matrix of Taylor models is proved positive definite for all t in [-1, 1]^k.
-
-    The value at any t is a convex combination of the Bernstein coefficients, plus the rest. So it
-    is enough that each coefficient is positive definite with the rest as additional radius.
-    """
+    """Whether a matrix of Taylor models is proved positive definite for all t in [-1, 1]^k. The
+    value at any t is a convex combination of the Bernstein coefficients, plus the rest. So it is
+    enough that each coefficient is positive definite with the rest as additional radius."""
     exponents = {e for x in flat(a) for e in x.terms}
     weights = [bernstein_weights(max(e)) for e in zip(*exponents)]
     for rows in product(*weights):
@@ -279,10 +270,8 @@ def is_positive_on_box(a):
     return True
 
 def spectral_norm(a):
-    """A ball around the largest singular value of a matrix of fractions and balls.
-
-    It is below h if and only if [h I, a; a', h I] > 0. The interval [low, high] is halved.
-    """
+    """A ball around the largest singular value of a matrix of fractions and balls. It is below h if
+    and only if [h I, a; a', h I] > 0. The interval [low, high] is halved."""
     if any(level(x) > 1 for x in flat(a)): raise Undecided("a norm that depends on a variable")
     low, high = Fraction(0), sum(upper(x) for x in flat(a))
     while high - low > high / 10 ** 30:

@@ -20,7 +20,7 @@ from arithmetic import (Ball, Undecided, Unsupported, affine_terms, ball, is_exa
 from language import decimal, matrix, parse
 from matrices import Matrix, flat, is_positive, rounded
 from statement import NOT_EVALUATED, Numeral, Statement, Symbols, expect, inequality
-from yes import Claim, outward, reason, scope_at, title
+from yes import Claim, outward, reason, scope_at
 
 # One inequality at one point: its matrix as {i: {(row, column): coefficient of x_i}}, x_0 = 1, its
 # shape, and the rows of its multiplier, or of a factor of it.
@@ -65,10 +65,8 @@ def rows_of(rows):
     return [[decimal(x) for x in row] for row in rows]
 
 def block_of_label(comparisons, label, multiplier):
-    """The block of a label such as `flow at i = 1, tau = 0.768359`, whose values have 6 digits.
-
-    A value near an end of its interval is that end. Any point of the interval would serve.
-    """
+    """The block of a label such as `flow at i = 1, tau = 0.768359`, whose values have 6 digits. A
+    value near an end of its interval is that end. Any point of the interval would serve."""
     names = [n for n in comparisons if label == n or label.startswith(n + " at ")]
     name = max(names, key=len, default="")
     at = dict(part.partition(" = ")[::2] for part in label[len(name) + 4:].split(", ") if part)
@@ -88,7 +86,7 @@ def block_at(comparison, label, at, multiplier, factor):
     if isinstance(comparison, Exception): raise comparison
     for domain in comparison.domains if comparison else ():
         if all(is_near(value, at.get(name)) for name, _, value in domain.choices):
-            scope = scope_at(domain, [place(i, at.get(title(i))) for i in domain.intervals])
+            scope = scope_at(domain, [place(i, at.get(i.title)) for i in domain.intervals])
             if comparison.sign == "==":
                 found = matrix(comparison.left, scope) - matrix(comparison.right, scope)
             else: found = inequality(comparison, scope)
@@ -117,18 +115,15 @@ def place(interval, value):
 # Multipliers near those of the file.
 
 def prove_inside(blocks, tiny, small):
-    """None if exact multipliers are shown to exist near those of the file, else why not.
-
-    Let L_k be any matrices, such as factors of the multipliers of the file, G_ki = L_k' B_ki L_k,
-    r_i = sum_k trace G_ki, and H_ij = sum_k <G_ki, G_kj>. With u = inv(H) r and
-    S_k = sum_j u_j G_kj, the multipliers Y_k = L_k (I - S_k) L_k' satisfy all equations
-    sum_k <B_ki, Y_k> = r_i - (H u)_i = 0. If r' inv(H) r = sum_k |S_k|^2 < 1, then I - S_k > 0.
-    So Y_k >= 0, and Y_k is not 0 if L_k is not 0. Both H > 0 and this hold if [H, r; r', 1] > 0.
-
-    The constant parts are the coefficients of x_0 = 1 > 0, with v = -sum_k trace G_k0 > 0 as its
-    multiplier: another block, of one row, with G = v. Equations E(x) = 0 have multipliers of any
-    sign: their coefficients enter H with the weight 2^40, and r as they are.
-    """
+    """None if exact multipliers are shown to exist near those of the file, else why not. Let L_k be
+    any matrices, such as factors of the multipliers of the file, G_ki = L_k' B_ki L_k, r_i = sum_k
+    trace G_ki, and H_ij = sum_k <G_ki, G_kj>. With u = inv(H) r and S_k = sum_j u_j G_kj, the
+    multipliers Y_k = L_k (I - S_k) L_k' satisfy all equations sum_k <B_ki, Y_k> = r_i - (H u)_i =
+    0. If r' inv(H) r = sum_k |S_k|^2 < 1, then I - S_k > 0. So Y_k >= 0, and Y_k is not 0 if L_k is
+    not 0. Both H > 0 and this hold if [H, r; r', 1] > 0. The constant parts are the coefficients of
+    x_0 = 1 > 0, with v = -sum_k trace G_k0 > 0 as its multiplier: another block, of one row, with G
+    = v. Equations E(x) = 0 have multipliers of any sign: their coefficients enter H with the weight
+    2^40, and r as they are."""
     scale = max((abs(x) for b in blocks for row in b.multiplier or b.factor for x in row),
                 default=0)
     if scale == 0: return "all multipliers are 0"
@@ -185,11 +180,9 @@ def add_block(k, block, factor, rows, residual):
                 if p == q: residual[i] = residual.get(i, Ball(0)) + g
 
 def factors_of(blocks, scale, tiny, small):
-    """{k: L_k} with zero rows where an unknown only relaxes the inequalities.
-
-    An unknown whose coefficients in the remaining rows are diagonal and of one sign makes these
-    rows hold. No multiplier can use them, so they become zero; this is repeated.
-    """
+    """{k: L_k} with zero rows where an unknown only relaxes the inequalities. An unknown whose
+    coefficients in the remaining rows are diagonal and of one sign makes these rows hold. No
+    multiplier can use them, so they become zero; this is repeated."""
     found, dead = {}, relaxed_rows(blocks)
     for k, block in enumerate(blocks):
         size = max(abs(x) for row in block.multiplier or block.factor for x in row)
@@ -220,10 +213,8 @@ def relaxed_rows(blocks):
     return dead
 
 def cholesky(y, tiny):
-    """Rows of L with y near L L'; pivots below `tiny`, for a diagonal near 1, are dropped.
-
-    Nothing is concluded from L: whatever it is, L L' >= 0.
-    """
+    """Rows of L with y near L L'; pivots below `tiny`, for a diagonal near 1, are dropped. Nothing
+    is concluded from L: whatever it is, L L' >= 0."""
     n = len(y)
     scale = [root(y[a][a]) if y[a][a] > 0 else Fraction(1) for a in range(n)]
     rest = [[rounded(y[a][b] / (scale[a] * scale[b]), 200) for b in range(n)] for a in range(n)]

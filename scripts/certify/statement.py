@@ -113,10 +113,8 @@ def read_yaml(text):
 # Problems that are like another one, methods with parts replaced (docs/language.md).
 
 def variant(base, over):
-    """Sections of `base`, also those of its method, with the entries of `over` in their place.
-
-    An entry `none` stays, since it may remove one of a built-in method; without_none ends this.
-    """
+    """Sections of `base`, also those of its method, with the entries of `over` in their place. An
+    entry `none` stays, since it may remove one of a built-in method; without_none ends this."""
     result = dict(base)
     for key, value in over.items():
         old = base.get(key)
@@ -167,7 +165,8 @@ def listed(x): return x if isinstance(x, list) else [x]
 
 # The statement.
 
-Interval = namedtuple("Interval", "name index low high")    # index: element of a column, or None
+# index: the element of a column, or None; title: the name with it, such as x_1
+Interval = namedtuple("Interval", "name index low high title")
 Domain = namedtuple("Domain", "scope intervals choices hulls")
 Comparison = namedtuple("Comparison", "name left sign right domains")
 INDEX = re.compile(r"\s*(\w+)\s+in\s+(.*?)\.\.(.*)", re.S)
@@ -175,10 +174,8 @@ HEAD = re.compile(r"\s*(\w+)\s*\((.*)\)\s*", re.S)
 
 class Statement:
     """Data, definitions and requirements, with the unknowns given by `unknown_value`.
-
     unknown_value(name, rows, cols, kind) is the matrix of an unknown, a member of a family or a
-    coefficient of an unknown function; kind is symmetric, diagonal or full.
-    """
+    coefficient of an unknown function; kind is symmetric, diagonal or full."""
     def __init__(self, gain, unknown_value):
         self.gain, self.unknown_value, self.scope = gain, unknown_value, Scope()
         self.problem, self.method = problem_and_method(gain["statement"])
@@ -383,11 +380,8 @@ class Statement:
                 label = "%s.%d" % (name, k + 1) if len(found) > 1 else name
                 yield label, Comparison(name, left, sign, right, domains)
     def domains(self, texts):
-        """The finite choices of `forall`, each with the intervals that remain.
-
-        An interval has no value, and a vertex stands for a whole polytope: no later entry may
-        depend on them.
-        """
+        """The finite choices of `forall`, each with the intervals that remain. An interval has no
+        value, and a vertex stands for a whole polytope: no later entry may depend on them."""
         found, hidden = [Domain(self.scope, (), (), ())], {}
         later = Later(lambda: refuse("an entry of forall that depends on the one before"))
         for text in listed(texts):
@@ -425,8 +419,9 @@ def choices(domain, scope, name, where):
         shape = high if low.is_number() else low
         if shape.cols != 1 or not (high.is_number() or high.shape() == shape.shape()):
             raise Unsupported("the interval " + where)
-        new = [Interval(name, i, low.spread(i or 0, 0), high.spread(i or 0, 0))
-               for i in ([None] if shape.is_number() else range(shape.rows))]
+        new = [Interval(name, None, low.number(), high.number(), name)] if shape.is_number() else \
+            [Interval(name, i, low.spread(i, 0), high.spread(i, 0), "%s_%d" % (name, i + 1))
+             for i in range(shape.rows)]
         empty = {name: shape} if shape.rows == 0 else {}
         return [domain._replace(scope=Scope(domain.scope, empty),
                                 intervals=domain.intervals + tuple(new))]
@@ -492,12 +487,9 @@ class Symbols:
 BOUNDED = {1: ("norm", "abs", "max", "lambda_max"), -1: ("min", "lambda_min")}
 
 def inequality(comparison, scope):
-    """The symmetric matrix that a comparison asks to be positive (semi)definite.
-
-    A column is compared element by element, so its elements become a diagonal. Norms, absolute
-    values, maxima and eigenvalues on the right side of the comparison are replaced as in
-    docs/language.md.
-    """
+    """The symmetric matrix that a comparison asks to be positive (semi)definite. A column is
+    compared element by element, so its elements become a diagonal. Norms, absolute values, maxima
+    and eigenvalues on the right side of the comparison are replaced as in docs/language.md."""
     small, large = comparison.left, comparison.right
     if comparison.sign in (">", ">="): small, large = large, small
     for side, other, factor in ((small, large, 1), (large, small, -1)):

@@ -9,8 +9,8 @@ from itertools import product
 from arithmetic import (ONE, Affine, Taylor, Undecided, Unsupported, ball, is_zero, middle, sign,
                         upper)
 from language import Scope, matrix, parse
-from matrices import (NEGATIVE, POSITIVE, UNKNOWN, Matrix, classify, column, exactly, flat,
-                      is_positive, is_positive_on_box, number, witness)
+from matrices import (POSITIVE, SEMIDEFINITE, classify, column, exactly, filled, flat, is_positive,
+                      is_positive_on_box, number, witness)
 from statement import (NOT_EVALUATED, Statement, checked, inequality, matrix_of_json, section,
                        values_of_file)
 
@@ -45,17 +45,16 @@ def label_of(choices):
 
 def short(x): return "%.6g" % float(middle(x)) if upper(x) < 10 ** 300 else "a large number"
 
-def prove(name, comparison, domain, near=False):
+def prove(name, comparison, domain, near):
     if domain.hulls: check_affine(comparison, domain)
     if comparison.sign == "==": return prove_equation(name, comparison, domain, near)
     if domain.intervals: return prove_for_all(name, comparison, domain)
-    return judge(name, comparison, inequality(comparison, domain.scope), {})
+    return judge(name, comparison, inequality(comparison, domain.scope))
 
-def judge(name, comparison, a, point):
+def judge(name, comparison, a, point={}):
     """One symmetric matrix: a > 0 or a >= 0."""
-    strict = comparison.sign in ("<", ">")
-    found = classify(a)
-    if found == POSITIVE or found not in (UNKNOWN, NEGATIVE) and not strict:
+    strict, found = comparison.sign in ("<", ">"), classify(a)
+    if found == POSITIVE or found == SEMIDEFINITE and not strict:
         return Claim(name, "proved", "fractions" if exactly(a) else "balls")
     vector = witness(a, strict)
     if vector: return Claim(name, "refuted", "a vector", 0, point, vector)
@@ -74,15 +73,14 @@ def prove_equation(name, comparison, domain, near):
     return Claim(name, "refuted" if decided else "open", "an equation that does not hold exactly")
 
 def check_affine(comparison, domain):
-    """Over conv{...} the vertices are enough where the matrix is affine in the variable. A value
-    of the variable with Affine elements raises Unsupported where it is not."""
+    """Over conv{...} the vertices are enough where the matrix is affine in the variable. A value of
+    the variable with Affine elements raises Unsupported where it is not."""
     if domain.intervals or len(domain.hulls) > 1:
         raise Unsupported("a polytope beside another polytope or an interval")
-    for name, values in domain.hulls:
-        rows, cols = values[0].shape()
-        symbols = [[Affine({1 + i * cols + j: Fraction(1)}) for j in range(cols)]
-                   for i in range(rows)]
-        inequality(comparison, Scope(domain.scope, {name: Matrix(symbols)}))
+    (name, values), = domain.hulls
+    rows, cols = values[0].shape()
+    symbols = filled(rows, cols, lambda i, j: Affine({1 + i * cols + j: Fraction(1)}))
+    inequality(comparison, Scope(domain.scope, {name: symbols}))
 
 # Intervals.
 
@@ -98,28 +96,25 @@ def on_piece(domain, piece):
     interval of one point has the value of this point."""
     wide = [k for k, (low, high) in enumerate(piece) if high > low]
     zero = Taylor({}, 0, (len(wide), ORDERS.get(len(wide), 3)))
-    values = [low for low, _ in piece]
-    for k in wide:
-        low, high = piece[k]
-        exponent = tuple(int(j == k) for j in wide)
-        values[k] = zero.like({zero.origin(): (low + high) / 2, exponent: (high - low) / 2})
+    values = [zero.like({zero.origin(): (low + high) / 2, tuple(int(j == k) for j in wide):
+                         (high - low) / 2}) if k in wide else low
+              for k, (low, high) in enumerate(piece)]
     return scope_at(domain, values), zero
 
 def scope_at(domain, values):
     """The scope with these values of the intervals' variables."""
     names = {}
-    for interval, x in zip(domain.intervals, values): names.setdefault(interval.name, []).append(x)
-    scalars = {i.name for i in domain.intervals if i.index is None}
-    return Scope(domain.scope, {n: number(v[0]) if n in scalars else column(v)
-                                for n, v in names.items()})
+    for i, x in zip(domain.intervals, values):
+        before = [] if not i.index else flat(names[i.name])
+        names[i.name] = number(x) if i.index is None else column(before + [x])
+    return Scope(domain.scope, names)
 
 def prove_for_all(name, comparison, domain):
     """The box is halved until each piece is proved. Where the middle of a piece may fail, the
     matrix there is judged."""
     whole = [outward(x) for x in domain.intervals]
     lengths = [(high - low) or 1 for low, high in whole]
-    titles = [title(i) for i in domain.intervals]
-    todo, pieces = [whole], 0
+    titles, todo, pieces = [i.title for i in domain.intervals], [whole], 0
     while todo:
         piece = todo.pop()
         pieces += 1
@@ -129,7 +124,7 @@ def prove_for_all(name, comparison, domain):
             a = inequality(comparison, scope)
             a = a.map(lambda x: x if isinstance(x, Taylor) else zero.lift(x))
             if all(x.is_constant() for x in flat(a)):
-                found = judge(name, comparison, a.map(lambda x: x.constant()), {})
+                found = judge(name, comparison, a.map(lambda x: x.constant()))
                 if found.result != "proved" or piece == whole: return found
                 continue
             if is_positive_on_box(a): continue
@@ -145,8 +140,7 @@ def prove_for_all(name, comparison, domain):
             at = ", ".join("%s = %s" % (t, short(x)) for t, (x, _) in zip(titles, piece))
             return Claim(name, "open", "%s at %s" % (why, at), pieces)
         half = (low + high) / 2
-        todo += [piece[:k] + [(half, high)] + piece[k + 1:],
-                 piece[:k] + [(low, half)] + piece[k + 1:]]
+        todo += [piece[:k] + [part] + piece[k + 1:] for part in ((half, high), (low, half))]
     texts = ["%s in [%s, %s]" % (t, short(x), short(y)) for t, (x, y) in zip(titles, whole)]
     return Claim(name, "proved", "all " + ", ".join(texts), pieces)
 
@@ -155,18 +149,12 @@ def longest_side(piece, lengths, a):
     Bernstein coefficients are exact for the others; without such, the relatively longest side."""
     sides = [(high - low) / length for (low, high), length in zip(piece, lengths)]
     wide = [k for k, side in enumerate(sides) if side > 0]
-    scores = dict.fromkeys(wide, Fraction(0))
-    if a is not None and len(wide) > 1:
-        scale = [upper(a[i, i]) + Fraction(1, ONE) for i in range(a.rows)]
-        for i, j in product(range(a.rows), repeat=2):
-            for e, c in a[i, j].terms.items():
-                for k, power in zip(wide, e):
-                    if power > 1: scores[k] += upper(c) ** 2 / (scale[i] * scale[j])
-    shortest = max(sides) / 1000
-    return max(wide, key=lambda k: (scores[k] if sides[k] > shortest else 0, sides[k]))
-
-def title(interval):
-    return interval.name + ("" if interval.index is None else "_%d" % (interval.index + 1))
+    scores = dict.fromkeys(wide, 0)
+    for i, j in product(range(a.rows), repeat=2) if a and len(wide) > 1 else ():
+        scale = (upper(a[i, i]) + Fraction(1, ONE)) * (upper(a[j, j]) + Fraction(1, ONE))
+        for e, c in a[i, j].terms.items():
+            for k, power in zip(wide, e): scores[k] += upper(c) ** 2 / scale if power > 1 else 0
+    return max(wide, key=lambda k: (scores[k] if sides[k] > max(sides) / 1000 else 0, sides[k]))
 
 def refutation(name, comparison, domain, piece, corners):
     """The claim refuted at the middle (or a corner) of a piece, or None."""
@@ -176,7 +164,7 @@ def refutation(name, comparison, domain, piece, corners):
         try:
             if any(sign(x - i.low) < 0 or sign(i.high - x) < 0
                    for x, i in zip(point, domain.intervals)): continue
-            at = {title(i): x for i, x in zip(domain.intervals, point)}
+            at = {i.title: x for i, x in zip(domain.intervals, point)}
             found = judge(name, comparison, inequality(comparison, scope_at(domain, point)), at)
             if found.result == "refuted": return found
         except Undecided:
