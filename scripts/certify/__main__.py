@@ -30,15 +30,11 @@ SECONDS_OF_SEARCH = 2       # for the certificate of the value beyond the one th
 MOST_ULPS = 2 ** 20         # a gain farther from its formula is open
 EXIT = {"nothing to prove": 0, "proved": 0, "refuted": 1, "open": 3, "not a gain file": 2}
 
-class OutOfTime(BaseException):
-    pass
-
+class OutOfTime(BaseException): pass
 def out_of_time(*_): raise OutOfTime()
 
 def within(seconds, work):
-    """work(), or OutOfTime after so many seconds of the processor. Where there is no such alarm,
-    there is no limit."""
-    if not hasattr(signal, "setitimer"): return work()
+    """work(), or OutOfTime after so many seconds of the processor."""
     signal.signal(signal.SIGPROF, out_of_time)
     signal.setitimer(signal.ITIMER_PROF, max(seconds, 0.001))
     try:
@@ -51,44 +47,40 @@ def check(path, seconds):
     began = time.process_time()
     found = {"file": path, "verdict": "open", "message": "", "claims": [], "gains": [],
              "proved_at_printed_gains": [], "search": []}
-    def fails(verdict, message): found.update(verdict=verdict, message=message)
     try:
         gain = within(seconds, lambda: read_gain_file(path))
         found["says"] = gain["verdict"]
         within(seconds, lambda: check_verdict(gain, found))
         check_search(gain, found, seconds - (time.process_time() - began))
-    except Damaged as error:
-        fails("not a gain file", str(error))
     except OutOfTime:
         after = " after the claim %s" % found["claims"][-1].name if found["claims"] else ""
-        fails("open", "the time limit of %g s was reached%s" % (seconds, after))
-    except RecursionError:
-        fails("not a gain file", "expected texts that are nested less")
+        found.update(verdict="open", message="the time limit of %g s was reached%s" %
+                     (seconds, after))
     except MemoryError:
-        fails("open", "there was not enough memory")
-    except Exception as error:      # a form of the file that no check above expects
-        fails("not a gain file", "it cannot be read: %s %s" % (type(error).__name__, error))
+        found.update(verdict="open", message="there was not enough memory")
+    except Exception as error:      # Damaged, or a form of the file that no check expects
+        unexpected = "it cannot be read: %s " % type(error).__name__
+        found.update(verdict="not a gain file",
+                     message=("" if isinstance(error, Damaged) else unexpected) + str(error))
     found["seconds"] = time.process_time() - began
     return found
 
 def check_verdict(gain, found):
-    if gain["verdict"] == "undecided":
-        found.update(verdict="nothing to prove", message="the file says undecided")
+    claims = found["claims"]
+    if gain["verdict"] == "undecided": found["message"] = "the file says undecided"
     elif gain["verdict"] == "no":
-        certificate = gain.get("certificate")
-        expect(isinstance(certificate, dict), "certificate: an object")
-        found["claims"] = [prove_no(gain, certificate)]
-        found["verdict"] = found["claims"][0].result
+        expect(isinstance(gain.get("certificate"), dict), "certificate: an object")
+        claims.append(prove_no(gain, gain["certificate"]))
     else:
-        _, found["gains"], found["proved_at_printed_gains"] = prove_yes(gain, found["claims"])
-        results = {c.result for c in found["claims"]} | {"proved"}
-        far = [g.name for g in found["gains"] if g.ulps is not None and g.ulps > MOST_ULPS and
-               g.name not in found["proved_at_printed_gains"]]
-        if not found["claims"]:
-            found.update(verdict="nothing to prove", message="the method has no inequalities")
-        elif results != {"proved"}: found["verdict"] = min(results - {"proved"}, key=EXIT.get)
-        elif far: found.update(verdict="open", message="far from their formulas: " + ", ".join(far))
-        else: found["verdict"] = "proved"
+        _, found["gains"], found["proved_at_printed_gains"] = prove_yes(gain, claims)
+        if not claims: found["message"] = "the method has no inequalities"
+    results = {c.result for c in claims}
+    found["verdict"] = next((r for r in ("refuted", "open", "proved") if r in results),
+                            "nothing to prove")
+    far = [g.name for g in found["gains"] if g.ulps is not None and g.ulps > MOST_ULPS and
+           g.name not in found["proved_at_printed_gains"]]
+    if found["verdict"] == "proved" and far:
+        found.update(verdict="open", message="far from their formulas: " + ", ".join(far))
 
 def check_search(gain, found, seconds):
     """The certificate at the value beyond the best one. It does not change the verdict."""
@@ -99,12 +91,12 @@ def check_search(gain, found, seconds):
     name = figure.split()[-1]
     beyond = dict(gain, searched={**gain.get("searched", {}), name: search["beyond"]})
     label = "no solution at %s = %s" % (name, search["beyond"])
+    found["search"] = [Claim(label, "open", "not decided in %d s" % SECONDS_OF_SEARCH)]
     try:
-        result = within(min(SECONDS_OF_SEARCH, seconds),
-                        lambda: prove_no(beyond, certificate, label))
+        found["search"] = [within(min(SECONDS_OF_SEARCH, seconds),
+                                  lambda: prove_no(beyond, certificate, label))]
     except OutOfTime:
-        result = Claim(label, "open", "not decided in %d s" % SECONDS_OF_SEARCH)
-    found["search"] = [result]
+        pass
 
 # Reports.
 
@@ -121,9 +113,8 @@ def summary(found):
         ulps = max(1, math.ceil(worst.ulps))
         parts.append("%s within %s ulp" % ("gains" if ulps == 1 else "gains (%s)" % worst.name,
                                            ulps if ulps < 10 ** 6 else "%.1e" % ulps))
-    other = [g.name for g in gains if g.ulps is None]
     for text, names in (("proved at the printed ", found["proved_at_printed_gains"]),
-                        ("not compared: ", other)):
+                        ("not compared: ", [g.name for g in gains if g.ulps is None])):
         if names: parts.append(text + ", ".join(names))
     return ", ".join(parts + ["%s: %s" % (c.name, c.result) for c in found["search"]])
 

@@ -18,7 +18,8 @@ from itertools import product
 
 from arithmetic import Ball, Undecided, ball, is_exact, sign
 from language import Family
-from matrices import Matrix, beside, column, exactly, flat, identity, null_space, stacked, zeros
+from matrices import (Matrix, beside, column, exactly, filled, flat, identity, null_space, stacked,
+                      zeros)
 from statement import NOT_EVALUATED
 
 LARGEST = 8         # rows of a matrix whose eigenvalues are tried
@@ -42,8 +43,7 @@ def eigenvector(a, start):
 def companion(p):
     """C with l e = C e for e = (1, l, ..., l^(n-1))'."""
     n = len(p) - 1
-    return Matrix([[Fraction(int(j == i + 1)) if i < n - 1 else -p[j] for j in range(n)]
-                   for i in range(n)])
+    return filled(n, n, lambda i, j: Fraction(int(j == i + 1)) if i < n - 1 else -p[j])
 
 # Roots.
 
@@ -171,8 +171,7 @@ def quadratic(entries, w, halves):
     """X with z*B z = e*X e. A half of z is f w; `halves` has the products with f and conjugate."""
     n, total = w.rows, zeros(w.cols, w.cols)
     for (i, (_, left)), (j, (right, _)) in product(enumerate(halves), repeat=2):
-        b = Matrix([[entries.get((i * n + r, j * n + s), Fraction(0)) for s in range(n)]
-                    for r in range(n)])
+        b = filled(n, n, lambda r, s: entries.get((i * n + r, j * n + s), Fraction(0)))
         total = total + left(right(w.transposed() * b * w))
     return total
 
@@ -196,14 +195,13 @@ def certifies(blocks, forms, basis, p, c):
 def excludes(blocks, weights, constant, root):
     """The signs: c_k >= 0; the constant part < 0, or exactly 0 with c_k > 0 for a strict
     inequality."""
-    strict, (re, im) = False, root
+    re, im = root
     values = {"1": ball(Fraction(1)), "l + m": 2 * re, "l m": re * re + im * im}
+    used = {k: sum(values[n] * x for n, x in w.items()) for k, w in weights.items()
+            if any(w.values())}
     try:
-        for k, weight in weights.items():
-            if not any(weight.values()): continue
-            if sign(sum(values[n] * x for n, x in weight.items())) < 0: return False
-            strict = strict or blocks[k].sign in STRICT
+        if any(sign(c) < 0 for c in used.values()): return False
         if any(flat(constant)): return sign(value_at(constant, re, im)) < 0
-        return strict
+        return any(blocks[k].sign in STRICT for k in used)
     except Undecided:
         return False

@@ -12,6 +12,7 @@ prove_inside shows that there are some near those of the file; algebraic.py buil
 
 from collections import namedtuple
 from fractions import Fraction
+from itertools import product
 from math import isqrt
 
 from algebraic import prove_algebraic
@@ -19,7 +20,7 @@ from arithmetic import (Ball, Undecided, Unsupported, affine_terms, ball, is_exa
                         upper)
 from language import decimal, matrix, parse
 from matrices import Matrix, flat, is_positive, rounded
-from statement import NOT_EVALUATED, Numeral, Statement, Symbols, expect, inequality
+from statement import NOT_EVALUATED, Statement, Symbols, expect, inequality, matrix_of_json
 from yes import Claim, outward, reason, scope_at
 
 # One inequality at one point: its matrix as {i: {(row, column): coefficient of x_i}}, x_0 = 1, its
@@ -53,16 +54,9 @@ def blocks_of(statement, certificate):
     comparisons = dict(statement.comparisons())
     if "blocks" in certificate:
         return [block_of_record(comparisons, entry) for entry in certificate["blocks"]]
-    multipliers = certificate.get("multipliers")
-    expect(isinstance(multipliers, dict), "certificate.multipliers: an object")
-    return [block_of_label(comparisons, label, rows_of(rows))
-            for label, rows in multipliers.items()]
-
-def rows_of(rows):
-    rows = rows if isinstance(rows, list) else [[rows]]
-    expect(all(isinstance(row, list) and all(isinstance(x, Numeral) for x in row) for row in rows),
-           "multipliers: matrices")
-    return [[decimal(x) for x in row] for row in rows]
+    expect(isinstance(certificate.get("multipliers"), dict), "certificate.multipliers: an object")
+    return [block_of_label(comparisons, label, matrix_of_json(rows, "multipliers").elements)
+            for label, rows in certificate["multipliers"].items()]
 
 def block_of_label(comparisons, label, multiplier):
     """The block of a label such as `flow at i = 1, tau = 0.768359`, whose values have 6 digits. A
@@ -91,9 +85,8 @@ def block_at(comparison, label, at, multiplier, factor):
                 found = matrix(comparison.left, scope) - matrix(comparison.right, scope)
             else: found = inequality(comparison, scope)
             terms = {}
-            for a, row in enumerate(found.elements):
-                for b, x in enumerate(row):
-                    for i, c in affine_terms(x).items(): terms.setdefault(i, {})[a, b] = c
+            for a, b in product(range(found.rows), range(found.cols)):
+                for i, c in affine_terms(found[a, b]).items(): terms.setdefault(i, {})[a, b] = c
             return Block(comparison.sign, terms, found.shape(), multiplier, factor)
     raise Unsupported("the block " + label)
 
@@ -156,8 +149,7 @@ def inner(a, b):
 
 def add_equation(k, block, scale, rows, residual):
     """E(x) = 0 with the multiplier M of [0, E; E', 0], of which 2 M_12 counts."""
-    height, width = block.shape
-    given = block.multiplier or []
+    (height, width), given = block.shape, block.multiplier or []
     for i, entries in block.terms.items():
         for (a, b), c in entries.items():
             m = 2 * given[a][height + b] if len(given) == height + width else given[a][b]
@@ -168,16 +160,15 @@ def add_block(k, block, factor, rows, residual):
     """G_ki = L' B_i L for all i."""
     columns = range(len(factor[0]))
     for i, entries in block.terms.items():
-        product = {}                # B_i L, by rows
+        moved = {}                  # B_i L, by rows
         for (a, b), c in entries.items():
             if any(factor[a]) and any(factor[b]):
-                row = product.setdefault(a, [Ball(0)] * len(columns))
-                product[a] = [x + ball(c) * y for x, y in zip(row, factor[b])]
-        for p in columns if product else ():
-            for q in columns:
-                g = sum((row[q] * factor[a][p] for a, row in product.items()), Ball(0))
-                rows.setdefault(i, {})[k, p, q] = g
-                if p == q: residual[i] = residual.get(i, Ball(0)) + g
+                row = moved.get(a, [Ball(0)] * len(columns))
+                moved[a] = [x + ball(c) * y for x, y in zip(row, factor[b])]
+        for p, q in product(columns, columns) if moved else ():
+            g = sum((row[q] * factor[a][p] for a, row in moved.items()), Ball(0))
+            rows.setdefault(i, {})[k, p, q] = g
+            if p == q: residual[i] = residual.get(i, Ball(0)) + g
 
 def factors_of(blocks, scale, tiny, small):
     """{k: L_k} with zero rows where an unknown only relaxes the inequalities. An unknown whose
@@ -190,8 +181,8 @@ def factors_of(blocks, scale, tiny, small):
         if block.sign == "==" or size == 0 or size < small * scale or not live: continue
         if block.factor: part = [block.factor[a] for a in live]
         else: part = cholesky([[block.multiplier[a][b] / scale for b in live] for a in live], tiny)
+        rows = dict(zip(live, part))
         if any(any(row) for row in part):      # L_k is not 0
-            rows = dict(zip(live, part))
             found[k] = [rows.get(a, [Fraction(0)] * len(part[0])) for a in range(block.shape[0])]
     return found
 
