@@ -9,7 +9,7 @@ import operator
 import re
 from collections import namedtuple
 from fractions import Fraction
-from functools import cache, reduce
+from functools import cache, partial, reduce
 from itertools import islice
 
 from arithmetic import (BITS, PI, Affine, Dual, Taylor, Undecided, Unsupported, ball, function,
@@ -346,9 +346,12 @@ def gramian(f, hc, j, hd, lengths, backward=False):
 
 def squared(a): return a.transposed() * a
 
-def orthonormal(basis):
-    """The basis of docs/language.md: pivoted Cholesky factor of the projector on the range."""
-    size, columns, e = basis.rows, [], function("exp", ball(1))
+def orthonormal(subspace, a, *tolerance):
+    """The basis of docs/language.md of the range or kernel of a matrix whose rank is checked: the
+    pivoted Cholesky factor of the projector."""
+    checked_rank(a, *tolerance)
+    basis, columns, e = subspace(a), [], function("exp", ball(1))
+    size = basis.rows
     if basis.cols in (0, size): return zeros(size, 0) if basis.cols == 0 else identity(size)
     w = basis * invert(squared(basis)) * basis.transposed()
     for _ in range(basis.cols):
@@ -374,13 +377,7 @@ def checked_rank(a, tolerance=number(Fraction(1, 10 ** 12))):
     if above != rank: raise Undecided("a rank that depends on the tolerance")
     return rank
 
-def range_basis(a, *tolerance):
-    checked_rank(a, *tolerance)
-    return orthonormal(a.part(range(a.rows), reduced(a, a.cols)[0]))
-
-def kernel_basis(a, *tolerance):
-    checked_rank(a, *tolerance)
-    return orthonormal(null_space(a))
+def range_of(a): return a.part(range(a.rows), reduced(a, a.cols)[0])
 
 def floor(x):
     if not is_exact(x): raise Undecided("floor of a number that is not rational")
@@ -437,10 +434,6 @@ def extreme(name):
         return reduce(elementwise(lambda x, y: x if RELATIONS[name](sign(x - y), 0) else y), values)
     return apply
 
-def norm(a):
-    if 1 in a.shape(): return function("sqrt", sum((x * x for x in flat(a)), Fraction(0)))
-    return spectral_norm(a)
-
 def pseudo_inverse(a):
     t = a.transposed()
     return invert(t * a) * t if a.rows >= a.cols else t * invert(a * t)
@@ -473,12 +466,13 @@ BUILTINS = {
     "mod": elementwise(lambda x, y: x - y * floor(x * inverse(y))),
     "min": extreme("<="), "max": extreme(">="), "diag": diagonal_or_its_matrix,
     "trace": lambda a: number(sum((a[i, i] for i in range(a.rows)), Fraction(0))),
-    "det": lambda a: number(determinant(a)), "norm": lambda a: number(norm(a)),
+    "det": lambda a: number(determinant(a)), "norm": lambda a: number(spectral_norm(a)),
     "eye": lambda n: identity(n.whole()), "zeros": shaped(Fraction(0)), "ones": shaped(Fraction(1)),
-    "kron": kronecker, "orth": range_basis, "null": kernel_basis, "units": units,
+    "kron": kronecker, "orth": partial(orthonormal, range_of),
+    "null": partial(orthonormal, null_space), "units": units,
     "rank": lambda *arguments: number(Fraction(checked_rank(*arguments))),
     "obsv": observability, "c2d": discretized, "gramian": gramian, "chebyshev": chebyshev,
-    "backward_gramian": lambda *arguments: gramian(*arguments, backward=True),
+    "backward_gramian": partial(gramian, backward=True),
     "lyap": lambda a, q: solved(kronecker(identity(a.rows), a) + kronecker(a, identity(a.rows)), q),
     "dlyap": lambda a, q: solved(kronecker(a, a) - identity(a.rows ** 2), q)}
 # Functions that the language can define.

@@ -5,8 +5,8 @@ from functools import cache
 from itertools import product
 from math import comb, prod
 
-from arithmetic import (Ball, Undecided, Unsupported, ball, inverse, is_exact, is_zero, level,
-                        middle, sign, sum_of_balls, typical, upper)
+from arithmetic import (Ball, Undecided, Unsupported, ball, function, inverse, is_exact, is_zero,
+                        level, middle, sign, sum_of_balls, typical, upper)
 
 LONGEST_FRACTION = 3000     # bits; longer inverses become balls
 
@@ -272,6 +272,7 @@ def is_positive_on_box(a):
 def spectral_norm(a):
     """A ball around the largest singular value of a matrix of fractions and balls. It is below h if
     and only if [h I, a; a', h I] > 0. The interval [low, high] is halved."""
+    if 1 in a.shape(): return function("sqrt", sum((x * x for x in flat(a)), Fraction(0)))
     if any(level(x) > 1 for x in flat(a)): raise Undecided("a norm that depends on a variable")
     low, high = Fraction(0), sum(upper(x) for x in flat(a))
     while high - low > high / 10 ** 30:

@@ -33,10 +33,10 @@ class Damaged(Exception):
 class Numeral(str):
     """A number of the JSON file, as it is written."""
 
+def listed(x): return x if isinstance(x, list) else [x]
+def refuse(text): raise Unsupported(text)
 def expect(condition, what):
     if not condition: raise Damaged("expected " + what)
-
-def refuse(text): raise Unsupported(text)
 
 # Reading.
 
@@ -47,10 +47,8 @@ def read_gain_file(path):
         with open(path, encoding="utf-8") as stream:
             gain = json.load(stream, parse_float=Numeral, parse_int=Numeral,
                              parse_constant=decimal, object_pairs_hook=unique_keys)
-    except OSError as error:
-        raise Damaged("cannot read this file: %s" % error.strerror)
-    except (ValueError, RecursionError, Unsupported) as error:
-        raise Damaged("expected a JSON object: %s" % error)
+    except (OSError, ValueError, RecursionError, Unsupported) as error:
+        raise Damaged("cannot read this file: %s" % (getattr(error, "strerror", None) or error))
     expect(isinstance(gain, dict), "a JSON object")
     expect(gain.get("verdict") in ("yes", "no", "undecided"), "verdict: yes, no or undecided")
     for key in OBJECTS: expect(isinstance(gain.get(key), dict), key + ": an object")
@@ -78,17 +76,15 @@ def check_statement(statement):
         matrices = dict(entry.get("matrices", {}))
         if "matrix" in entry: matrices[""] = entry["matrix"]
         for name, rows in matrices.items():
-            flat_list = not (isinstance(rows, list) and rows and isinstance(rows[0], list))
-            value = matrix_of_json(rows, "statement.files")
-            parts += [name, "list" if flat_list else "%d x %d" % value.shape()]
-            parts += [str(x) for row in (rows if not flat_list else [rows]) for x in row]
+            size = "%d x %d" % matrix_of_json(rows, "statement.files").shape()
+            parts += [name, size if rows and isinstance(rows[0], list) else "list"]
+            parts += [str(x) for row in rows for x in listed(row)]
     found = hashlib.sha256("\0".join(parts).encode()).hexdigest()
     expect(found == statement["sha256"], "a statement with the sha256 that it names: it was edited")
 
 def matrix_of_json(value, where):
     """The matrix of a number, a list of numbers (a column) or a list of rows."""
-    rows = value if isinstance(value, list) else [[value]]
-    rows = [row if isinstance(row, list) else [row] for row in rows]
+    rows = [listed(row) for row in listed(value)]
     expect(all(isinstance(x, Numeral) for row in rows for x in row), where + ": numbers")
     try:
         return Matrix([[decimal(x) for x in row] for row in rows])
@@ -120,9 +116,8 @@ def variant(base, over):
         old = base.get(key)
         if key == "method" and old and not isinstance(value, str):
             result[key] = variant({"like": old} if isinstance(old, str) else old, value)
-        else:
-            both = isinstance(value, dict) and isinstance(old, dict)
-            result[key] = {**old, **value} if both else value
+        elif isinstance(value, dict) and isinstance(old, dict): result[key] = {**old, **value}
+        else: result[key] = value
     return result
 
 def without_none(mapping):
@@ -160,8 +155,6 @@ def declarations(mapping, key):
     """The entries of a section, where a text alone is a shape."""
     return {name: entry if isinstance(entry, dict) else {"shape": entry}
             for name, entry in section(mapping, key).items()}
-
-def listed(x): return x if isinstance(x, list) else [x]
 
 # The statement.
 
@@ -254,17 +247,16 @@ class Statement:
     def datum(self, name, declared):
         x = self.given_value(name)
         if "of" in declared: return self.function_of_data(name, x, declared)
-        x = x if x is not None else declared["default"]
+        if x is None: x = declared["default"]
         if "for" in declared: return self.family_of_data(x, declared)
         if name in self.gain.get("bases", {}): return self.basis(name, x, declared["shape"])
         return self.shaped(x, declared["shape"], self.scope)
     def function_of_data(self, name, x, declared):
         """A datum with arguments. Its value at zero shows a size that nothing else gives."""
-        heads = [HEAD.fullmatch(k) for k in self.given if HEAD.fullmatch(k)]
         names = list(declared["of"])
-        for head in heads:
+        for head in filter(None, map(HEAD.fullmatch, self.given)):
             if head.group(1) == name:
-                x, names = self.given[head.group(0)], [a.strip() for a in head.group(2).split(",")]
+                x, names = self.given[head.group()], [a.strip() for a in head.group(2).split(",")]
         result = defined(names, declared["default"] if x is None else x, self.scope)
         try:
             shapes = [self.shape(s) for s in declared["of"].values()]
@@ -355,7 +347,9 @@ class Statement:
         if isinstance(span, str): span = span.strip()[1:-1].split(",")
         return polynomial(parts, span and [matrix(parse(x), self.scope).number() for x in span])
     def vertex_function(self, name, rows, cols, kind):
-        """An unknown with a matrix for each vertex: the file has its formula."""
+        """An unknown with a matrix for each vertex: the file has its formula. This is one of many
+        functions, so it proves no *no*."""
+        if isinstance(self.unknown_value, Symbols): raise Unsupported("a no of vertex gains")
         for head, text in self.gain.get("functions", {}).items():
             call = HEAD.fullmatch(head)
             if call and call.group(1) == name:
@@ -454,13 +448,12 @@ def chain_parts(tree):
 
 def values_of_file(gain):
     """unknown_value of the decimals of the file. Symmetric unknowns must be symmetric."""
-    def value(name, rows, cols, kind):
-        if name not in gain["unknowns"]: raise Unsupported("a file without the unknown " + name)
-        return checked(matrix_of_json(gain["unknowns"][name], name), name, rows, cols, kind)
-    return value
+    return lambda name, *kind: checked(gain["unknowns"], name, *kind)
 
-def checked(a, name, rows, cols, kind):
-    """The matrix, if it has this size and is of this kind; a flat list may be a row."""
+def checked(values, name, rows, cols, kind="full"):
+    """A matrix of the file, if it has this size and is of this kind; a flat list may be a row."""
+    if name not in values: raise Unsupported("a file without " + name)
+    a = matrix_of_json(values[name], name)
     if a.shape() != (rows, cols) and a.cols == 1: a = a.transposed()
     if 0 in (rows, cols): a = zeros(rows, cols)
     if a.shape() != (rows, cols): raise Unsupported("the size of " + name)

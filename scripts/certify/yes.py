@@ -206,9 +206,9 @@ def compare_gains(statement):
 
 def distance(value, decimals):
     """The largest difference of two matrices in units of the last place of the second."""
+    if value.flexible: raise Unsupported("a gain without a size")
     if decimals.shape() != value.shape() and decimals.cols == 1: decimals = decimals.transposed()
     if 0 in value.shape(): return Fraction(0)
-    if value.flexible: raise Unsupported("a gain without a size")
     if decimals.shape() != value.shape(): return Fraction(10 ** 9)
     largest = max([abs(x) for x in flat(decimals)] + [Fraction(1, 10 ** 300)])
     return max(upper(ball(x)) for x in flat(value - decimals)) / Fraction(math.ulp(float(largest)))
@@ -240,8 +240,8 @@ def values_with_gains(gain, found):
         if name not in found: return values_of_file(gain)(name, rows, cols, kind)
         p_name, k_name, left = found[name]
         size = rows if left else cols
-        p = checked(matrix_of_json(gain["unknowns"][p_name], p_name), p_name, size, size, "full")
-        k = checked(matrix_of_json(gain["gains"][k_name], k_name), k_name, rows, cols, "full")
+        p = checked(gain["unknowns"], p_name, size, size)
+        k = checked(gain["gains"], k_name, rows, cols)
         if kind != "full": raise Unsupported("the printed gain " + k_name)
         return p * k if left else k * p
     return value

@@ -66,6 +66,11 @@ class Balls(unittest.TestCase):
             self.assertRaises(Undecided, inverse, b)
         self.assertRaises(Undecided, inverse, Fraction(0))
 
+    def test_functions_of_balls_that_are_too_wide_are_undecided(self):
+        for name, x in (("log", Ball(ONE * 6 // 10, ONE * 6 // 10 - ONE // 10 ** 6)),
+                        ("log", Ball(ONE, ONE)), ("exp", Ball(0, ONE)), ("sqrt", Ball(1, 2))):
+            self.assertRaises(Undecided, function, name, x)
+
     def test_signs(self):
         self.assertEqual([sign(Ball(3, 2)), sign(Ball(-3, 2)), sign(Fraction(0))], [1, -1, 0])
         for b in (Ball(3, 3), Ball(-2, 3), Ball(0, 0)):
