@@ -119,6 +119,7 @@ def decimal(text):
 
 @cache
 def parse(text): return Parser(text).whole()
+def parse_range(text): return Parser(text).argument()
 
 # Names.
 
@@ -499,12 +500,16 @@ def builtin(name, arguments, scope):
 
 def list_items(arguments, scope):
     """The values of sum(i in 1..N, M) and the like; or those of the arguments."""
-    scopes = [scope]
-    while arguments[0][0] == "range":
-        (_, name, low, high), *arguments = arguments
-        scopes = [Scope(s, {name: number(Fraction(k))}) for s in scopes
-                  for k in range(matrix(low, s).whole(), matrix(high, s).whole() + 1)]
-    return [matrix(x, s) for s in scopes for x in arguments]
+    ranges = [x for x in arguments if x[0] == "range"]
+    return [matrix(x, s) for _, s in members(ranges, scope) for x in arguments[len(ranges):]]
+
+def members(ranges, scope):
+    """[(indices, scope)] of several i in low..high."""
+    found = [((), scope)]
+    for _, name, low, high in ranges:
+        found = [(key + (k,), Scope(s, {name: number(Fraction(k))})) for key, s in found
+                 for k in range(matrix(low, s).whole(), matrix(high, s).whole() + 1)]
+    return found
 
 OPEN_JACOBIANS = []
 

@@ -18,7 +18,7 @@ import yaml
 
 from arithmetic import Affine, Series, Undecided, Unsupported, is_exact, middle, upper
 from language import (Family, Function, Later, Scope, basis_functions, decimal, defined,
-                      elementwise, evaluate, holds, matrix, parse)
+                      elementwise, evaluate, holds, matrix, members, parse, parse_range)
 from matrices import Matrix, column, diagonal, flat, identity, norm_block, number, zeros
 
 LARGEST_FILE = 64_000_000
@@ -162,7 +162,7 @@ def declarations(mapping, key):
 Interval = namedtuple("Interval", "name index low high title")
 Domain = namedtuple("Domain", "scope intervals choices hulls")
 Comparison = namedtuple("Comparison", "name left sign right domains")
-INDEX = re.compile(r"\s*(\w+)\s+in\s+(.*?)\.\.(.*)", re.S)
+SHAPE = re.compile(r"\s*(symmetric|diagonal)?\s*(.+?)(?:\s+x\s+(.+))?\s*", re.S)
 HEAD = re.compile(r"\s*(\w+)\s*\((.*)\)\s*", re.S)
 
 class Statement:
@@ -277,51 +277,37 @@ class Statement:
         """One text for all members, or a list of them, which may give the last index."""
         texts = listed(declared["for"])
         several = isinstance(x, list) and len(texts) == 1
-        _, low, high = INDEX.fullmatch(texts[0]).groups()
-        if several and self.size(high) is None:
-            self.set_size(high.strip(), len(x) + self.whole(low) - 1)
-        members = self.index_keys(texts)
-        if several and len(members) != len(x): raise Unsupported("the number of members")
-        values = x if several else [x] * len(members)
+        _, _, low, high = parse_range(texts[0])
+        if several: self.unify_size(high, len(x) + matrix(low, self.scope).whole() - 1)
+        found = self.members(texts)
         return Family({key: self.shaped(y, declared["shape"], scope)
-                       for (key, scope), y in zip(members, values)})
-    def index_keys(self, texts):
+                       for (key, scope), y in zip(found, x if several else [x] * len(found))})
+    def members(self, texts):
         """[(indices, scope)] of `for: [i in 1..N, k in 0..2]`."""
-        found = [((), self.scope)]
-        for text in listed(texts):
-            name, low, high = INDEX.fullmatch(text).groups()
-            found = [(key + (k,), Scope(scope, {name: number(Fraction(k))}))
-                     for key, scope in found
-                     for k in range(self.whole(low, scope), self.whole(high, scope) + 1)]
-        return found
+        return members([parse_range(text) for text in listed(texts)], self.scope)
 
     # Shapes.
-    def whole(self, text, scope=None): return matrix(parse(text), scope or self.scope).whole()
-    def size(self, text):
+    def parts(self, shape):
+        """The trees of the rows and columns of `n x m`, `n`, `symmetric n`, `scalar`."""
+        kind, rows, cols = SHAPE.fullmatch(shape).groups()
+        return [parse(rows.replace("scalar", "1")), parse(rows if kind else cols or "1")]
+    def size(self, tree):
         """The whole number that a text is, or None."""
         try:
-            return self.whole(text)
+            return matrix(tree, self.scope).whole()
         except Unsupported:
             return None
-    def set_size(self, name, size):
-        if not re.fullmatch(r"\w+", name): raise Unsupported("the size " + name)
-        self.scope.names[name] = number(Fraction(size))
-    def parts(self, shape):
-        words = shape.split()
-        if words == ["scalar"]: return ["1", "1"]
-        if words[0] in ("symmetric", "diagonal"): return [shape.strip()[len(words[0]):]] * 2
-        found = re.split(r"\s+x\s+", shape.strip())
-        return found if len(found) == 2 else [shape, "1"]
     def shape(self, shape): return tuple(self.size(p) for p in self.parts(shape))
     def unify(self, shape, value):
-        """Sizes of the shape that are not known yet become those of the value."""
-        for text, size in zip(self.parts(shape), value.shape()):
-            known = self.size(text)
-            if known is None: self.set_size(text.strip(), size)
-            elif known != size: raise Unsupported("the size of a datum: %d, not %d" % (size, known))
+        for tree, size in zip(self.parts(shape), value.shape()): self.unify_size(tree, size)
+    def unify_size(self, tree, size):
+        """A name whose size is not known yet gets it."""
+        known = self.size(tree)
+        if known is None and tree[0] == "name": self.scope.names[tree[1]] = number(Fraction(size))
+        elif known != size: raise Unsupported("the size of a datum: %d, not %s" % (size, known))
     def shaped(self, x, shape, scope):
         rows, cols = self.shape(shape)
-        value = self.value(x, (rows, 1 if self.parts(shape)[1] == "1" else cols), scope)
+        value = self.value(x, (rows, cols), scope)
         if value.flexible and rows: value = identity(rows, value.number())
         elif value.is_zero() and rows is not None and cols is not None: value = zeros(rows, cols)
         self.unify(shape, value)
@@ -331,16 +317,16 @@ class Statement:
     def unknown_or_family(self, name, declared):
         if "for" not in declared: return self.unknown(name, declared)
         return Family({key: self.unknown("_".join(map(str, (name,) + key)), declared)
-                       for key, _ in self.index_keys(declared["for"])})
+                       for key, _ in self.members(declared["for"])})
     def unknown(self, name, declared):
-        kind = declared["shape"].split()[0]
-        kind = kind if kind in ("symmetric", "diagonal") else "full"
+        kind = SHAPE.fullmatch(declared["shape"]).group(1) or "full"
         rows, cols = self.shape(declared["shape"])
         if "of" not in declared: return self.unknown_value(name, rows, cols, kind)
         way = section(self.problem, "synthesis").get("forall")
         if "vertex_gains" in (way, way.get("way") if isinstance(way, dict) else ""):
             return self.vertex_function(name, rows, cols, kind)
-        names = ["%s_%d" % (name, k) for k in range(self.whole(declared.get("degree") or "0") + 1)]
+        degree = matrix(parse(declared.get("degree") or "0"), self.scope).whole()
+        names = ["%s_%d" % (name, k) for k in range(degree + 1)]
         parts = [self.unknown_value(n, rows, cols, kind) for n in names]
         self.scope.names.update(zip(names, parts))
         span = declared.get("in")

@@ -179,7 +179,7 @@ def gains_of(statement):
         name, calls = head.split("(")[0].strip(), re.findall(r"\(([^()]*)\)", head)
         arguments = [c.strip() for c in calls if " in " not in c]
         indices = [c.split(",") for c in calls if " in " in c]
-        members = statement.index_keys(indices[-1]) if indices else [((), statement.scope)]
+        members = statement.members(indices[-1]) if indices else [((), statement.scope)]
         for key, scope in members:
             yield ("_".join(map(str, (name,) + key)), text, scope,
                    arguments[0] if arguments else None)
