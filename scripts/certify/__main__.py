@@ -32,7 +32,6 @@ EXIT = {"nothing to prove": 0, "proved": 0, "refuted": 1, "open": 3, "not a gain
 
 class OutOfTime(BaseException): pass
 def out_of_time(*_): raise OutOfTime()
-
 def within(seconds, work):
     """work(), or OutOfTime after so many seconds of the processor."""
     signal.signal(signal.SIGPROF, out_of_time)
@@ -127,16 +126,13 @@ def summary_of_claims(claims):
         else: texts.append("%d %s %s" % (count, "in" if kind in ("balls", "fractions") else "by",
                                          kind))
     return counted(len(claims), "claim") + (" (%s)" % ", ".join(texts) if texts else "")
-
 def counted(number, word): return "%d %s%s" % (number, word, "s" if number > 1 else "")
-
 def text_of_claim(c):
     lines = ["  %-9s %s  (%s%s)" % (c.result, c.name, c.how,
                                     ", %d pieces" % c.pieces if c.pieces else "")]
     if c.point: lines.append("at " + ", ".join("%s = %s" % p for p in c.point.items()))
     if c.vector: lines.append("v = [%s]" % ", ".join(map(str, c.vector)))
     return "\n            ".join(lines)
-
 def plain(x):
     """What JSON can write."""
     if isinstance(x, Fraction): return str(x)

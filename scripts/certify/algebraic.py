@@ -39,7 +39,6 @@ def eigenvector(a, start):
     p = [kernel[i, 0] / kernel[n, 0] for i in range(n + 1)]
     return p, beside([sum((powers[j - k - 1].map(lambda x: p[j] * x) for j in range(k + 1, n + 1)),
                           zeros(a.rows, 1)) for k in range(n)])
-
 def companion(p):
     """C with l e = C e for e = (1, l, ..., l^(n-1))'."""
     n = len(p) - 1
@@ -135,7 +134,6 @@ def with_shifts(matrices, scalars):
         if c != r and y.number() != 0 and a.rows > 1:
             shifted = (a - identity(a.rows, x.number())).map(lambda z: z / y.number())
             yield "(%s - %s*I)/%s" % (n, c, r), shifted
-
 def starts(a, others):
     """Vectors b: the unit vectors; and a basis of each kernel of [C; C A; ...], C a matrix."""
     n = a.rows

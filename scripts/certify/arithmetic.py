@@ -68,17 +68,14 @@ def ball(x):
     if not is_exact(x): raise Unsupported("a number is expected, not a function")
     m, rest = divmod(x.numerator << BITS, x.denominator)
     return Ball(m, 1 if rest else 0)
-
 def sum_of_balls(pairs):
     """The sum of products of balls, rounded once: both shifts round down, by less than 1 each."""
     m = sum(a.m * b.m for a, b in pairs)
     r = sum(abs(a.m) * b.r + a.r * (abs(b.m) + b.r) for a, b in pairs)
     return Ball(m >> BITS, (r >> BITS) + 2)
-
 def upper(x):
     """A fraction that is at least |x|, for fractions, balls and Taylor models."""
     return abs(x) if is_exact(x) else Fraction(x.size(), ONE)
-
 def middle(x):
     """The fraction in the middle of a fraction or a ball."""
     return Fraction(x) if is_exact(x) else Fraction(ball(x).m, ONE)
@@ -153,7 +150,6 @@ def affine_terms(x):
     """{i: c_i} of x = c_0 + sum c_i x_i, without exact zeros."""
     terms = x.terms if isinstance(x, Affine) else {0: x}
     return {i: c for i, c in terms.items() if not is_zero(c)}
-
 def sign(x):
     """1, 0 or -1 if all members of x have this sign."""
     if is_exact(x): return (x > 0) - (x < 0)
@@ -162,7 +158,6 @@ def sign(x):
     if isinstance(x, Taylor): x = ball(x.constant()).widened(x.variable().size())
     if abs(x.m) <= x.r: raise Undecided("a sign")
     return 1 if x.m > 0 else -1
-
 def typical(x):
     """A fraction near |x|. It chooses pivots; nothing is concluded from it."""
     if isinstance(x, Series): return typical(x.constant())
@@ -179,13 +174,11 @@ def series_sum(first, ratio):
         term = term * ratio(k)
         total, k = total + term, k + 1
     return total.widened(term.size() + 1)
-
 def halved(x):
     """(y, k) with |y| < 2^-12, and y = m/2^k but for rounding, where m is the middle of x."""
     whole = (abs(x.m) >> BITS).bit_length()
     if whole > 20: raise Undecided("an argument above a million")
     return Ball(x.m >> (whole + 12), 1), whole + 12
-
 def ball_exp(x):
     """exp(x) = exp(y)^(2^k). The radius of x enters by |exp(r) - 1| <= 2 r for r <= 1/4."""
     if x.r > ONE >> 2: raise Undecided("exp of a wide ball")
@@ -193,7 +186,6 @@ def ball_exp(x):
     total = series_sum(Ball(ONE), lambda j: y.scaled(Fraction(1, j + 1)))
     for _ in range(k): total = total * total
     return total * Ball(ONE, 2 * x.r) if x.r else total
-
 def ball_sin_cos(x):
     """sin and cos by series near 0, then doublings of the angle. |sin'|, |cos'| <= 1 adds r."""
     y, k = halved(x)
@@ -202,33 +194,28 @@ def ball_sin_cos(x):
     c = series_sum(Ball(ONE), lambda j: square.scaled(Fraction(1, (2 * j + 1) * (2 * j + 2))))
     for _ in range(k): s, c = 2 * (s * c), c * c - s * s
     return s.widened(x.r), c.widened(x.r)
-
 def ball_sqrt(x):
     if x.m < x.r: raise Undecided("a root of a number that may be negative")
     low = isqrt((x.m - x.r) << BITS)
     high = isqrt((x.m + x.r) << BITS) + 1
     return Ball((low + high) >> 1, ((high - low + 1) >> 1) + 1)
-
 def twice_atanh(z):
     """2 (z + z^3/3 + z^5/5 + ...) for |z| <= 1/2."""
     if z.size() > ONE >> 1: raise Undecided("a logarithm of a wide ball")
     square = z * z
     return 2 * series_sum(z, lambda j: square.scaled(Fraction(2 * j + 1, 2 * j + 3)))
-
 def ball_log(x):
     """log(x) = k log 2 + log(u), u in [1/2, 1], log(u) = 2 atanh((u - 1)/(u + 1))."""
     if x.m <= x.r: raise Undecided("a logarithm of a number that may be negative")
     k = x.m.bit_length() - BITS
     u = x * (Fraction(1, 2) ** k)
     return twice_atanh((u - 1) * inverse(u + 1)) + k * twice_atanh(ball(Fraction(1, 3)))
-
 def ball_inverse(x):
     if abs(x.m) <= x.r: raise Undecided("a division by a number that may be zero")
     low = (ONE << BITS) // (abs(x.m) + x.r)
     high = -((-ONE << BITS) // (abs(x.m) - x.r))
     m = (low + high) >> 1
     return Ball(m if x.m > 0 else -m, high - m + 1)
-
 def atan_of_inverse(n):
     """atan(1/n) = 1/n - 1/(3 n^3) + ..., whose rest is at most its first term, for n > 4."""
     terms = [Fraction((-1) ** k, (2 * k + 1) * n ** (2 * k + 1)) for k in range(BITS // 4)]
@@ -252,7 +239,6 @@ def function(name, x):
         n, d = isqrt(abs(x.numerator)), isqrt(x.denominator)
         if name == "sqrt" and (n * n, d * d) == (x.numerator, x.denominator): return Fraction(n, d)
     return BALL_FUNCTIONS[name](ball(x))
-
 def inverse(x): return function("inv", x)
 
 SLOPES = {"exp": lambda p, f: f, "log": lambda p, f: inverse(p), "inv": lambda p, f: -(f * f),

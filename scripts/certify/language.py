@@ -116,7 +116,6 @@ def decimal(text):
     """The fraction that a decimal is."""
     if len(text) < 2000 and DECIMAL.fullmatch(text): return Fraction(text)
     raise Unsupported("the number %s" % text[:40])
-
 @cache
 def parse(text): return Parser(text).whole()
 def parse_range(text): return Parser(text).argument()
@@ -173,7 +172,6 @@ def matrix(tree, scope):
     value = evaluate(tree, scope)
     if not isinstance(value, Matrix): raise Unsupported("a function where a value is expected")
     return value
-
 def elementwise(operation):
     """The operation on equal shapes, or on a number and a matrix."""
     def apply(a, b):
@@ -182,17 +180,14 @@ def elementwise(operation):
         rows, cols = (b if a.is_number() else a).shape()
         return filled(rows, cols, lambda i, j: operation(a.spread(i, j), b.spread(i, j)))
     return apply
-
 def repeated(base, k, one):
     """base^k."""
     if abs(k) > 10_000: raise Unsupported("an exponent above 10000")
     return reduce(operator.mul, [base] * abs(int(k)), one)
-
 def power_of_number(x, k):
     whole = is_exact(k) and k.denominator == 1
     if whole: return repeated(x if k >= 0 else inverse(x), k, Fraction(1))
     return function("sqrt", x) if k == Fraction(1, 2) else function("exp", k * function("log", x))
-
 def power(base, exponent):
     if base.is_number(): return base.map(lambda x: power_of_number(x, exponent.number()))
     k = exponent.whole()
@@ -237,7 +232,6 @@ def part_of(value, arguments, scope):
     return value.part(places(arguments[0], value.rows), places(arguments[1], value.cols))
 
 def relation(name): return elementwise(lambda x, y: RELATIONS[name](sign(x - y), 0))
-
 def holds(tree, scope):
     """Whether a condition holds for all elements."""
     kind, *parts = tree
@@ -247,7 +241,6 @@ def holds(tree, scope):
     values = [matrix(x, scope) for x in parts[0][::2]]
     return all(all(flat(relation(name)(a, b)))
                for a, name, b in zip(values, parts[0][1::2], values[1:]))
-
 def choose(condition, yes, no, scope):
     """where(condition, yes, no), element by element."""
     if condition[0] == "compare" and len(condition[1]) == 3:
@@ -318,12 +311,10 @@ def determinant(a):
     return Fraction(1) if a.rows == 0 else sum(
         ((-1) ** j * x * determinant(minor(j)) for j, x in enumerate(a.elements[0])
          if not is_zero(x)), Fraction(0))
-
 def observability(a, c):
     blocks = [c]
     for _ in range(a.rows - 1): blocks.append(blocks[-1] * a)
     return stacked(blocks)
-
 def solved(system, q):
     """X of S vec X + vec Q = 0, where vec writes the columns one below the other."""
     x = invert(system) * column([-y for y in flat(q.transposed())])
@@ -379,7 +370,6 @@ def checked_rank(a, tolerance=number(Fraction(1, 10 ** 12))):
     return rank
 
 def range_of(a): return a.part(range(a.rows), reduced(a, a.cols)[0])
-
 def floor(x):
     if not is_exact(x): raise Undecided("floor of a number that is not rational")
     return Fraction(x.numerator // x.denominator)
@@ -427,33 +417,26 @@ def basis_functions(t, span=None):
 def chebyshev(k, t, low, high):
     functions = basis_functions(t.number(), (low.number(), high.number()))
     return number(next(islice(functions, k.whole(), None))[0])
-
 def extreme(name):
     """The largest or smallest, element by element, or of the elements of one argument."""
     def apply(*values):
         if len(values) == 1: values = [number(x) for x in flat(values[0])]
         return reduce(elementwise(lambda x, y: x if RELATIONS[name](sign(x - y), 0) else y), values)
     return apply
-
 def pseudo_inverse(a):
     t = a.transposed()
     return invert(t * a) * t if a.rows >= a.cols else t * invert(a * t)
-
 def kronecker(a, b):
     return Matrix([[x * y for x in row for y in other] for row in a.elements
                    for other in b.elements], a.rows * b.rows, a.cols * b.cols)
-
 def discretized(a, b, t):
     n, m = a.rows, b.cols
     joined = stacked([beside([a, b]), zeros(m, n + m)])
     return matrix_exponential(t * joined).part(range(n), range(n + m))
-
 def each(operation): return lambda a: a.map(operation)
 def shaped(x): return lambda n, m=None: filled(n.whole(), (m or n).whole(), lambda i, j: x)
-
 def diagonal_or_its_matrix(a):
     return diagonal(flat(a)) if 1 in a.shape() else column([a[i, i] for i in range(a.rows)])
-
 def block_diagonal(items):
     return stacked([beside([x if i == j else zeros(x.rows, y.cols) for j, y in enumerate(items)])
                     for i, x in enumerate(items)])
@@ -502,7 +485,6 @@ def list_items(arguments, scope):
     """The values of sum(i in 1..N, M) and the like; or those of the arguments."""
     ranges = [x for x in arguments if x[0] == "range"]
     return [matrix(x, s) for _, s in members(ranges, scope) for x in arguments[len(ranges):]]
-
 def members(ranges, scope):
     """[(indices, scope)] of several i in low..high."""
     found = [((), scope)]

@@ -77,15 +77,12 @@ def dot(a, b):
     if pairs and all(isinstance(z, Ball) for pair in pairs for z in pair):
         return sum_of_balls(pairs)
     return sum((x * y for x, y in pairs), Fraction(0))
-
 def form(v, a, w):
     """v'aw of lists v, w."""
     return dot(v, [dot(row, w) for row in a.elements])
-
 def filled(rows, cols, element):
     """The matrix of element(i, j)."""
     return Matrix([[element(i, j) for j in range(cols)] for i in range(rows)], rows, cols)
-
 def number(x): return Matrix([[x]])
 def column(values): return filled(len(values), 1, lambda i, j: values[i])
 def zeros(rows, cols): return filled(rows, cols, lambda i, j: Fraction(0))
@@ -95,12 +92,10 @@ def diagonal(values):
     return filled(n, n, lambda i, j: values[i] if i == j else Fraction(0))
 def flat(a): return [x for row in a.elements for x in row]
 def exactly(a): return all(is_exact(x) for x in flat(a))        # all elements are fractions
-
 def stacked(items):
     if len({x.cols for x in items}) > 1: raise Unsupported("different widths of stacked matrices")
     return Matrix([row for x in items for row in x.elements], sum(x.rows for x in items),
                   items[0].cols)
-
 def beside(items): return stacked([x.transposed() for x in items]).transposed()
 
 def join_blocks(blocks):
@@ -162,7 +157,6 @@ def invert(a):
     result = Matrix([row[a.cols:] for row in rows], a.rows, a.rows)
     bits = max((x.denominator.bit_length() for x in flat(result) if is_exact(x)), default=0)
     return result.map(ball) if bits > LONGEST_FRACTION else result
-
 def null_space(a):
     """A matrix whose columns are a basis of {x: a x = 0}; fractions. Each has one 1 and, beside it,
     zeros at the other columns of a without a pivot."""
@@ -199,7 +193,6 @@ def classify(a):
         if pivot < 0 or pivot == 0 and any(row[k] != 0 for row in rows[k + 1:]): return NEGATIVE
         if pivot == 0: result = SEMIDEFINITE
     return result
-
 def is_positive(a):
     """Whether every symmetric matrix in the matrix of balls a is proved positive definite. If the
     balls are m_ij +- r_ij, then a >= m - diag(sums of the rows of r). This matrix has one number at
@@ -244,7 +237,6 @@ def rounded(x, bits=400):
     if x.denominator.bit_length() < bits: return x
     shift = bits + max(0, x.denominator.bit_length() - x.numerator.bit_length())
     return Fraction((x.numerator << shift) // x.denominator, 1 << shift)
-
 @cache
 def bernstein_weights(degree):
     """w[i][j] with b_i = sum_j w[i][j] c_j: Bernstein coefficients of sum_j c_j t^j on [-1, 1].

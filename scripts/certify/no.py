@@ -57,7 +57,6 @@ def blocks_of(statement, certificate):
     expect(isinstance(certificate.get("multipliers"), dict), "certificate.multipliers: an object")
     return [block_of_label(comparisons, label, matrix_of_json(rows, "multipliers").elements)
             for label, rows in certificate["multipliers"].items()]
-
 def block_of_label(comparisons, label, multiplier):
     """The block of a label such as `flow at i = 1, tau = 0.768359`, whose values have 6 digits. A
     value near an end of its interval is that end. Any point of the interval would serve."""
@@ -66,7 +65,6 @@ def block_of_label(comparisons, label, multiplier):
     at = dict(part.partition(" = ")[::2] for part in label[len(name) + 4:].split(", ") if part)
     return block_at(comparisons.get(name), label, {key: decimal(x) for key, x in at.items()},
                     multiplier, None)
-
 def block_of_record(comparisons, entry):
     """The block of {requirement, comparison, at: {variable: text}, factor: rows of texts}."""
     name = entry["requirement"]
@@ -94,7 +92,6 @@ def is_near(value, given):
     if not value.is_number() or given is None: raise Unsupported("the value of an element of a set")
     x = middle(value.number())
     return abs(x - middle(given)) <= (1 + abs(x)) / 10 ** 5
-
 def place(interval, value):
     """The point of the interval that a value of 6 digits means; it is shown to be inside."""
     outward(interval)       # not empty
@@ -146,7 +143,6 @@ def prove_inside(blocks, tiny, small):
 def inner(a, b):
     a, b = (a, b) if len(a) <= len(b) else (b, a)
     return sum((x * b[key] for key, x in a.items() if key in b), Ball(0))
-
 def add_equation(k, block, scale, rows, residual):
     """E(x) = 0 with the multiplier M of [0, E; E', 0], of which 2 M_12 counts."""
     (height, width), given = block.shape, block.multiplier or []

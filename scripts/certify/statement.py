@@ -150,7 +150,6 @@ def section(mapping, key):
     value = mapping.get(key) or {}
     expect(isinstance(value, dict), key + ": a mapping")
     return value
-
 def declarations(mapping, key):
     """The entries of a section, where a text alone is a shape."""
     return {name: entry if isinstance(entry, dict) else {"shape": entry}
@@ -424,14 +423,12 @@ def polynomial(parts, span):
             return reduce(add, [part * number(b[which]) for part, b in zip(parts, functions)])
         return apply
     return Function(function(0), function(1))
-
 def chain_parts(tree):
     """(left, sign, right) of each comparison of a requirement."""
     if tree[0] == "and": return chain_parts(tree[1]) + chain_parts(tree[2])
     if tree[0] != "compare" or "!=" in tree[1][1::2]:
         raise Unsupported("a requirement that is not an inequality")
     return [tree[1][k:k + 3] for k in range(0, len(tree[1]) - 2, 2)]
-
 def values_of_file(gain):
     """unknown_value of the decimals of the file. Symmetric unknowns must be symmetric."""
     return lambda name, *kind: checked(gain["unknowns"], name, *kind)

@@ -37,20 +37,16 @@ def reason(error):
     kinds = {Undecided: "not decided: ", Unsupported: "not known to certify: "}
     known = "not evaluated: %s " % type(error).__name__
     return kinds.get(type(error), known) + str(error)
-
 def label_of(choices):
     texts = ["%s = %s" % (name, short(value.number())) if value.is_number()
              else "%s = element %d" % (name, k) for name, k, value in choices]
     return " at " + ", ".join(texts) if texts else ""
-
 def short(x): return "%.6g" % float(middle(x)) if upper(x) < 10 ** 300 else "a large number"
-
 def prove(name, comparison, domain, near):
     if domain.hulls: check_affine(comparison, domain)
     if comparison.sign == "==": return prove_equation(name, comparison, domain, near)
     if domain.intervals: return prove_for_all(name, comparison, domain)
     return judge(name, comparison, inequality(comparison, domain.scope))
-
 def judge(name, comparison, a, point={}):
     """One symmetric matrix: a > 0 or a >= 0."""
     strict, found = comparison.sign in ("<", ">"), classify(a)
@@ -90,7 +86,6 @@ def outward(interval):
                  for s, x in ((-1, interval.low), (1, interval.high))]
     if low > high: raise Unsupported("an interval whose low end is above its high end")
     return low, high
-
 def on_piece(domain, piece):
     """(scope with Taylor models of the variables on the piece, a number 0 of their space). An
     interval of one point has the value of this point."""
@@ -100,7 +95,6 @@ def on_piece(domain, piece):
                          (high - low) / 2}) if k in wide else low
               for k, (low, high) in enumerate(piece)]
     return scope_at(domain, values), zero
-
 def scope_at(domain, values):
     """The scope with these values of the intervals' variables."""
     names = {}

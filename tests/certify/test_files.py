@@ -258,6 +258,13 @@ class No(unittest.TestCase):
         found = problem(text.replace(">=", ">") % ("1", "1"), {})
         self.assertEqual(prove_no(found, certificate).result, "open")   # the rule needs v > 0
 
+    def test_the_formula_of_vertex_gains_does_not_limit_them(self):
+        found = problem("problem: p\nsynthesis: {forall: vertex_gains}\nmethod:\n"
+                        "  unknowns: {L: {shape: scalar, of: t}}\n  require: {a: L(0) >= 1}\n", {})
+        found["functions"] = {"L(t)": "0*L_1"}
+        claim = prove_no(found, {"multipliers": {"a": helper.Numeral("1")}})
+        self.assertEqual((claim.result, "vertex gains" in claim.how), ("open", True))
+
     def test_factors(self):
         """A certificate with factors of its multipliers, at points in full decimals."""
         text = ("problem: p\nmethod:\n  unknowns: {x: scalar, y: scalar}\n"
