@@ -3,8 +3,8 @@
     Fraction   a rational number, exact
     Ball       all reals x with |x - m/2^320| <= r/2^320, where m and r are whole numbers
     Taylor     all functions of t in [-1, 1]^k that differ from a polynomial by at most a remainder
-    Dual       a value with its first derivatives
     Affine     c_0 + c_1 x_1 + ... + c_m x_m in the unknowns x
+    Dual       a value with its first derivatives
 
 Every operation returns a set that contains all results of the operation on members of its
 arguments. Two kinds may be mixed; the result has the later kind of the list. A question that a
@@ -134,17 +134,17 @@ class Taylor(Series):
         total = (lambda pairs: sum(a * b for a, b in pairs)) if exact else sum_of_balls
         return self.like({e: total(pairs) for e, pairs in terms.items()}, rest)
 
-class Dual(Series):
-    """terms[0] is a value, terms[k] its derivative by the k-th element of one variable."""
-    level = 3
-
 class Affine(Series):
     """terms[0] + sum of terms[i] x_i. A product of two unknowns raises Unsupported. So a matrix
     that was evaluated with Affine elements is known to be affine in the unknowns."""
-    level = 4
+    level = 3
     def times(self, other):
         if self.is_constant() or other.is_constant(): return super().times(other)
         raise Unsupported("the text is not affine in the unknowns")
+
+class Dual(Series):
+    """terms[0] is a value, terms[k] its derivative by the k-th element of one variable."""
+    level = 4
 
 def affine_terms(x):
     """{i: c_i} of x = c_0 + sum c_i x_i, without exact zeros."""

@@ -62,12 +62,13 @@ class Parser:
         elif self.taken("-"): tree = ("minus", self.expression(max(level, 6)))
         elif self.taken("+"): tree = self.expression(max(level, 6))
         else: tree = self.factor()
+        chain = None        # of comparisons
         while self.next_is(*LEVELS) and LEVELS[self.token()[1]] >= level:
             sign_ = self.take()
             right = self.expression(LEVELS[sign_] + 1)
             if sign_ not in RELATIONS: tree = (sign_, tree, right)
-            elif tree[0] == "compare": tree = ("compare", tree[1] + [sign_, right])
-            else: tree = ("compare", [tree, sign_, right])
+            elif tree is chain: tree[1].extend([sign_, right])
+            else: tree = chain = ("compare", [tree, sign_, right])
         return tree
     def factor(self):
         """A value with what follows it, from left to right: A^2' is (A^2)'."""

@@ -102,6 +102,7 @@ FAULTS = [
     ("a point of an empty interval", "no.py", "outward(interval)       # not empty", "pass"),
     ("the sign of r", "no.py", "if p == q: residual[i] = residual.get(i, Ball(0)) + g",
      "if p == q: residual[i] = residual.get(i, Ball(0)) - g"),
+    ("derivatives of terms with unknowns are 0", "arithmetic.py", "level = 3", "level = 5"),
     ("a no of vertex gains", "statement.py", "if isinstance(self.unknown_value, Symbols):",
      "if False:"),
     ("r' inv(H) r <= 10^9", "no.py", "+ [Fraction(1)])", "+ [Fraction(10 ** 9)])"),

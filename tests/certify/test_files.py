@@ -265,6 +265,23 @@ class No(unittest.TestCase):
         claim = prove_no(found, {"multipliers": {"a": helper.Numeral("1")}})
         self.assertEqual((claim.result, "vertex gains" in claim.how), ("open", True))
 
+    def test_derivatives_of_terms_with_unknowns(self):
+        text = ("problem: p\nmethod:\n  unknowns: {x: scalar}\n  let: {f(v): x*v^2}\n  require:\n"
+                "    a: {forall: \"t in {1}\", that: \"jacobian(f(t), t) >= 2\"}\n    b: x <= %s\n")
+        certificate = {"multipliers": {"a at t = 1": helper.Numeral("1"),
+                                       "b": helper.Numeral("2")}}
+        for high, expected in (("0.5", "proved"), ("1", "open"), ("2", "open")):
+            claim = prove_no(problem(text % high, {}), certificate)
+            self.assertEqual(claim.result, expected, high)
+
+    def test_a_polytope_needs_derivatives_that_are_affine(self):
+        text = ("problem: p\nmethod:\n  unknowns: {x: scalar}\n"
+                "  let: {\"g(v, a)\": \"jacobian(a*v, v)\"}\n"
+                "  require: {c: {forall: \"a in conv{-1, 1}\", that: \"%s > 0.5\"}}\n")
+        for that, expected in (("g(1, a)*a", "open"), ("g(1, a) + 2", "proved")):
+            found = results(problem(text % that, {"x": "0"}))
+            self.assertEqual(set(found.values()), {expected}, that)
+
     def test_factors(self):
         """A certificate with factors of its multipliers, at points in full decimals."""
         text = ("problem: p\nmethod:\n  unknowns: {x: scalar, y: scalar}\n"
