@@ -124,16 +124,22 @@ def without_none(mapping):
     return {key: {k: v for k, v in value.items() if v != "none"} if isinstance(value, dict)
             else value for key, value in mapping.items() if value != "none"}
 
+def files_named(statement, name):
+    """The entries of a file: of this name, or else of the same name in another folder."""
+    files = [f for f in statement.get("files", []) if isinstance(f.get("file"), str)]
+    found = [f for f in files if f["file"] == name] or \
+        [f for f in files if os.path.basename(f["file"]) == os.path.basename(name)]
+    expect(len({f["file"] for f in found}) <= 1, "one file with the name " + name)
+    return found
+
 def problem_and_method(statement):
     """Both texts with all variants applied."""
-    files = statement.get("files", [])
     def text_of(name):
-        found = [f for f in files if f.get("file") == name] or \
-            [f for f in files if os.path.basename(f.get("file", "")) == os.path.basename(name)]
+        found = files_named(statement, name)
         expect(len(found) == 1 and isinstance(found[0].get("text"), str), "the text of " + name)
         return found[0]["text"]
     def built_in(name):
-        named = any(f.get("file") == "method " + name for f in files)
+        named = any(f.get("file") == "method " + name for f in statement.get("files", []))
         return read_yaml(text_of("method " + name) if named else statement["method_text"])
 
     problem = read_yaml(statement["problem_text"])
@@ -161,7 +167,7 @@ def declarations(mapping, key):
 Interval = namedtuple("Interval", "name index low high title")
 Domain = namedtuple("Domain", "scope intervals choices hulls")
 Comparison = namedtuple("Comparison", "name left sign right domains")
-SHAPE = re.compile(r"\s*(symmetric|diagonal)?\s*(.+?)(?:\s+x\s+(.+))?\s*", re.S)
+SHAPE = re.compile(r"\s*(?:(symmetric|diagonal)\s+)?(.+?)(?:\s+x\s+(.+))?\s*", re.S)
 HEAD = re.compile(r"\s*(\w+)\s*\((.*)\)\s*", re.S)
 
 class Statement:
@@ -228,12 +234,11 @@ class Statement:
         result = Matrix([[matrix(parse(y), scope).number() for y in row] for row in rows])
         return result.transposed() if rows[0] is x and shape[1] == 1 != shape[0] else result
     def matrix_of_file(self, reference):
-        path = next((reference[k] for k in ("csv", "mat", "npy", "json") if k in reference), None)
-        for entry in self.gain["statement"].get("files", []):
-            if path and os.path.basename(entry.get("file", "")) == os.path.basename(path):
-                if "name" in reference and reference["name"] in entry.get("matrices", {}):
-                    return entry["matrices"][reference["name"]]
-                if "matrix" in entry: return entry["matrix"]
+        path = next((reference[k] for k in ("csv", "mat", "npy", "json") if k in reference), "")
+        for entry in files_named(self.gain["statement"], path):
+            if reference.get("name") in entry.get("matrices", {}):
+                return entry["matrices"][reference["name"]]
+            if "matrix" in entry: return entry["matrix"]
         return refuse("a matrix from a file")
     def declare_data(self):
         for name, declared in declarations(self.method, "data").items():
@@ -289,7 +294,8 @@ class Statement:
     def parts(self, shape):
         """The trees of the rows and columns of `n x m`, `n`, `symmetric n`, `scalar`."""
         kind, rows, cols = SHAPE.fullmatch(shape).groups()
-        return [parse(rows.replace("scalar", "1")), parse(rows if kind else cols or "1")]
+        rows = "1" if rows == "scalar" else rows
+        return [parse(rows), parse(rows if kind else cols or "1")]
     def size(self, tree):
         """The whole number that a text is, or None."""
         try:

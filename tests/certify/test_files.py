@@ -211,6 +211,15 @@ class Yes(unittest.TestCase):
         self.assertGreater(ulps["F"], 10 ** 9)
         self.assertGreater(ulps["K_2"], 10 ** 6)
 
+    def test_files_of_one_name_in_two_folders(self):
+        text = ("problem: p\nmethod:\n  data: {a: scalar}\n  unknowns: {x: scalar}\n"
+                "  require: {c: x < a}\ndata: {a: {csv: %s/m.csv}}\n")
+        for folder, expected in (("one", "proved"), ("two", "refuted")):
+            found = problem(text % folder, {"x": "0"})
+            found["statement"]["files"] = [{"file": k + "/m.csv", "matrix": [[helper.Numeral(v)]]}
+                                           for k, v in (("one", "1"), ("two", "-1"))]
+            self.assertEqual(results(found), {"c": expected})
+
     def test_variants(self):
         found = gain("lyapunov")
         base = found["statement"]["problem_text"]
