@@ -98,7 +98,6 @@ def check_search(gain, found, seconds):
         pass
 
 # Reports.
-
 def summary(found):
     """The rest of the line about a file."""
     if found["verdict"] == "not a gain file": return found["message"]

@@ -45,7 +45,6 @@ def companion(p):
     return filled(n, n, lambda i, j: Fraction(int(j == i + 1)) if i < n - 1 else -p[j])
 
 # Roots.
-
 def roots(p):
     """Disks (re, im) of balls, each with exactly one root of p. Multiple roots have none. Rouche:
     the disk of radius h <= 1 has one root if |p| + M h^2/2 < |p'| h at its centre, where M >= |p''|
@@ -72,7 +71,6 @@ def complex_value(p, re, im):
     a, b = re * 0, re * 0
     for c in reversed(p): a, b = a * re - b * im + c, a * im + b * re
     return a, b
-
 def float_roots(p):
     """Roots in floating point (Durand and Kerner): only a guess."""
     n = len(p) - 1
@@ -85,7 +83,6 @@ def float_roots(p):
             for j in range(n): quotient *= (z[i] - z[j]) if i != j else 1
             z[i] -= value / quotient if quotient else 0
     return [x for x in z if abs(x) < 1e300]
-
 def value_at(x, re, im):
     """The real part of e*X e at l = re + i im."""
     powers = [(ball(Fraction(1)), Ball(0))]
@@ -96,7 +93,6 @@ def value_at(x, re, im):
                 for j, (u, v) in enumerate(powers)), Ball(0))
 
 # The search.
-
 def prove_algebraic(statement, blocks):
     """A text that says by which eigenvalue there is no solution, or None."""
     blocks = [b for b in blocks if b.sign != "==" and
@@ -110,7 +106,6 @@ def prove_algebraic(statement, blocks):
                 if any(certifies(blocks, forms, basis, p, c) for basis in WEIGHTS):
                     return "an eigenvalue of %s, exactly" % name
     return None
-
 def rational_values(statement):
     """([(name, matrix)], [(name, scalar)]) of the data and definitions that are fractions."""
     matrices, scalars = [], []
@@ -124,7 +119,6 @@ def rational_values(statement):
                 if not x.is_number(): matrices.append((name, x))
                 elif name in statement.method.get("data", {}): scalars.append((name, x))
     return matrices + [s for s in scalars if s[0] not in ("n", "m", "p")], scalars
-
 def with_shifts(matrices, scalars):
     """(name, A) of the square matrices and their transposes; then (A - c I)/r for scalars c, r."""
     square = [(n, a) for n, a in matrices if a.rows == a.cols <= LARGEST]

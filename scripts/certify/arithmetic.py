@@ -164,7 +164,6 @@ def typical(x):
     return abs(x) if is_exact(x) else Fraction(max(abs(x.m) - x.r, 0), ONE)
 
 # Elementary functions of balls.
-
 def series_sum(first, ratio):
     """first (1 + ratio(0) + ratio(0) ratio(1) + ...) in balls. All ratios must be at most 1/2. Then
     all terms after one are together at most as large as this one."""
@@ -227,7 +226,6 @@ BALL_FUNCTIONS = {"exp": ball_exp, "log": ball_log, "sqrt": ball_sqrt, "inv": ba
                   "sin": lambda x: ball_sin_cos(x)[0], "cos": lambda x: ball_sin_cos(x)[1]}
 
 # Elementary functions of all kinds.
-
 EXACT = {("exp", 0): 1, ("cos", 0): 1, ("sin", 0): 0, ("log", 1): 0}
 
 def function(name, x):

@@ -19,7 +19,6 @@ from matrices import (Matrix, beside, column, diagonal, exactly, filled, flat, i
                       zeros)
 
 # Trees: a tuple of a kind and its parts. In 2./v the point belongs to the operator.
-
 TOKEN = re.compile(r"""\s*(?:
     (?P<number>\d+(?=\.[*/^])|(?:\d+(?:\.(?!\.)\d*)?|\.\d+)(?:[eE][+-]?\d+)?)
   | (?P<name>[A-Za-z_]\w*)
@@ -122,7 +121,6 @@ def parse(text): return Parser(text).whole()
 def parse_range(text): return Parser(text).argument()
 
 # Names.
-
 class Scope:
     """Names with their values; an inner scope hides names of the outer one."""
     def __init__(self, outer=None, names=()): self.outer, self.names = outer, dict(names)
@@ -153,7 +151,6 @@ class Family(dict):
     """Members by their indices, a tuple of whole numbers."""
 
 # Evaluation.
-
 CONSTANTS = {"I": Matrix([[Fraction(1)]], flexible=True), "pi": number(PI)}
 
 def evaluate(tree, scope):
@@ -168,7 +165,6 @@ def evaluate(tree, scope):
     value = scope.find(parts[0])
     if value is None and parts[0] not in CONSTANTS: raise Unsupported("the name " + parts[0])
     return CONSTANTS[parts[0]] if value is None else value
-
 def matrix(tree, scope):
     value = evaluate(tree, scope)
     if not isinstance(value, Matrix): raise Unsupported("a function where a value is expected")
@@ -217,7 +213,6 @@ def call(head, arguments, scope):
     return value[key]
 
 def with_end(scope, last): return Scope(scope, {"end": number(Fraction(last))})
-
 def part_of(value, arguments, scope):
     """M(i, j), v(i); an index is a number, lo:hi or : alone."""
     def places(tree, length):
@@ -231,7 +226,6 @@ def part_of(value, arguments, scope):
         arguments = arguments + [("all",)] if value.cols == 1 else [("all",)] + arguments
     if len(arguments) != 2: raise Unsupported("the number of indices")
     return value.part(places(arguments[0], value.rows), places(arguments[1], value.cols))
-
 def relation(name): return elementwise(lambda x, y: RELATIONS[name](sign(x - y), 0))
 def holds(tree, scope):
     """Whether a condition holds for all elements."""
@@ -253,7 +247,6 @@ def choose(condition, yes, no, scope):
     return yes if holds(condition, scope) else no
 
 # The matrix exponential.
-
 def matrix_exponential(a):
     """expm(a) by parts that commute, or by scaling, Taylor series and squaring."""
     if any(isinstance(x, (Affine, Dual)) for x in flat(a)):
@@ -268,9 +261,7 @@ def matrix_exponential(a):
                                      (ball(x) if is_exact(x) else x) * Fraction(1, 2 ** halvings)))
     for _ in range(halvings): total = total * total
     return total
-
 def row_sum(a): return max(sum(upper(x) for x in row) for row in a.elements)
-
 def affine_parts(a, model):
     """The exponentials of M_0 and of all M_e t^e, where a = M_0 + sum M_e t^e, if all M are exact
     and commute; else None. So the error of the one does not grow with the norm of the other."""
@@ -305,7 +296,6 @@ def exponential_series(a, embed=lambda x, j: x, last=None):
                   (ball(total[i, k]) if is_exact(total[i, k]) else total[i, k]).widened(error))
 
 # Functions.
-
 def determinant(a):
     """By the first row."""
     def minor(j): return a.part(range(1, a.rows), [k for k in range(a.cols) if k != j])
@@ -324,16 +314,15 @@ def solved(system, q):
 def gramian(f, hc, j, hd, lengths, backward=False):
     """Sum over flows and the jumps between them of the outputs' squares, x'W x, by the state at the
     start (or at the end). expm([-F', H'H; 0, F] t) = [.., expm(-F't) W; 0, expm(F t)]."""
-    n, total, moved, before = f.rows, zeros(f.rows, f.rows), identity(f.rows), None
+    n, total, moved = f.rows, zeros(f.rows, f.rows), identity(f.rows)
     generator = join_blocks([[-f.transposed(), hc.transposed() * hc], [zeros(n, n), f]])
     first, second = range(n), range(n, 2 * n)
     for k, t in enumerate(flat(lengths)):
         if k: total, moved = total + squared(hd * moved), j * moved
-        if t is not before:
-            both, before = matrix_exponential(generator.map(lambda x: x * t)), t
-            flow = both.part(second, second)
-            seen_in_flow = flow.transposed() * both.part(first, second)
-        total, moved = total + moved.transposed() * seen_in_flow * moved, flow * moved
+        both = matrix_exponential(generator.map(lambda x: x * t))
+        flow = both.part(second, second)
+        seen = flow.transposed() * both.part(first, second)
+        total, moved = total + moved.transposed() * seen * moved, flow * moved
     back = invert(moved) if backward else identity(n)
     return back.transposed() * total * back
 
@@ -363,13 +352,10 @@ def checked_rank(a, tolerance=number(Fraction(1, 10 ** 12))):
     eigenvalues of a'a above s; here s = (tolerance)^2 trace(a'a), and trace >= largest."""
     if not exactly(a): raise Unsupported("the rank of numbers that are not rational")
     rank, s = len(reduced(a, a.cols)[0]), tolerance.number() ** 2 * sum(x * x for x in flat(a))
-    above = 0
-    for pivot in pivots_of((squared(a) - identity(a.cols, s)).elements) if rank else ():
-        if pivot == 0: raise Undecided("a rank")
-        above += pivot > 0
-    if above != rank: raise Undecided("a rank that depends on the tolerance")
+    pivots = list(pivots_of((squared(a) - identity(a.cols, s)).elements)) if rank else []
+    if 0 in pivots or sum(p > 0 for p in pivots) != rank:
+        raise Undecided("a rank that depends on the tolerance")
     return rank
-
 def range_of(a): return a.part(range(a.rows), reduced(a, a.cols)[0])
 def floor(x):
     if not is_exact(x): raise Undecided("floor of a number that is not rational")
@@ -397,11 +383,10 @@ def units(a, c):
     return diagonal([Fraction(2) ** nearest(x) for x in flat(exponents)])
 
 def nearest(x):
-    """The nearest whole number. A ball around k + 1/2 is undecided; around k it is k."""
-    k = (middle(x) + Fraction(1, 2)).__floor__()
+    """The nearest whole number. A ball around k + 1/2 is undecided."""
+    k = floor(middle(x) + Fraction(1, 2))
     if upper(x - k) >= Fraction(1, 2): raise Undecided("a rounding")
     return k
-
 def basis_functions(t, span=None):
     """(b_k(t), b_k'(t)) for k = 0, 1, ...: powers, or the Chebyshev polynomials on the span. b_k =
     t b_(k-1), or b_k = 2 u b_(k-1) - b_(k-2) with u = (2 t - low - high)/(high - low)."""
@@ -414,7 +399,6 @@ def basis_functions(t, span=None):
         yield b, d
         if span: before, b, d = (b, d), 2 * (u * b) - before[0], 2 * (slope * b + u * d) - before[1]
         else: b, d = t * b, b + t * d
-
 def chebyshev(k, t, low, high):
     functions = basis_functions(t.number(), (low.number(), high.number()))
     return number(next(islice(functions, k.whole(), None))[0])
@@ -481,7 +465,6 @@ def builtin(name, arguments, scope):
     if name in DEFINITIONS: return DEFINITIONS[name].apply(*values)
     if name not in BUILTINS: raise Unsupported("the function " + name)
     return BUILTINS[name](*values)
-
 def list_items(arguments, scope):
     """The values of sum(i in 1..N, M) and the like; or those of the arguments."""
     ranges = [x for x in arguments if x[0] == "range"]

@@ -97,7 +97,6 @@ def stacked(items):
     return Matrix([row for x in items for row in x.elements], sum(x.rows for x in items),
                   items[0].cols)
 def beside(items): return stacked([x.transposed() for x in items]).transposed()
-
 def join_blocks(blocks):
     """[a, b; c, d]. None stands for `*`, the transpose of the mirrored block. Zeros and multiples
     of I take their size from their block row and block column."""
@@ -131,7 +130,6 @@ def block_sizes(blocks):
     return sizes[:count], sizes[count:]
 
 # Elimination.
-
 def reduced(a, cols):
     """(pivot columns, rows) of the Gauss-Jordan elimination in the first columns of a; the pivot is
     the largest of its column. A column without a pivot is all zeros below, as fractions."""
@@ -165,7 +163,6 @@ def null_space(a):
     basis = [[Fraction(int(i == j)) for j in free] for i in range(a.cols)]
     for i, p in enumerate(pivots): basis[p] = [-rows[i][j] for j in free]
     return Matrix(basis, a.cols, len(free))
-
 def pivots_of(rows):
     """The pivots of the L D L' elimination of a symmetric matrix, whose rows are changed. A pivot
     is left out of the elimination if it is 0. The caller must stop before a pivot that may be 0
@@ -180,7 +177,6 @@ def pivots_of(rows):
                 for j in range(k + 1, i + 1): rows[i][j] = rows[i][j] - f * rows[j][k]
 
 # Definite matrices.
-
 POSITIVE, SEMIDEFINITE, UNKNOWN, NEGATIVE = "positive", "semidefinite", "unknown", "negative"
 
 def classify(a):
@@ -202,7 +198,6 @@ def is_positive(a):
     for i in range(a.rows):
         rows[i][i].m -= sum(max(balls[i, j].r, balls[j, i].r) for j in range(a.rows))
     return all(pivot.m > pivot.r for pivot in pivots_of(rows))
-
 def witness(a, strict):
     """A vector v of fractions with v'av < 0 (if strict: <= 0 and v not 0), or None."""
     found = None
@@ -245,7 +240,6 @@ def bernstein_weights(degree):
     places = range(degree + 1)
     return [[sum(Fraction(comb(i, k), comb(degree, k)) * power(j, k)
                  for k in range(min(i, j) + 1)) for j in places] for i in places]
-
 def is_positive_on_box(a):
     """Whether a matrix of Taylor models is proved positive definite for all t in [-1, 1]^k. The
     value at any t is a convex combination of the Bernstein coefficients, plus the rest. So it is
@@ -260,7 +254,6 @@ def is_positive_on_box(a):
             return total if x.rest == 0 else ball(total).widened(x.rest)
         if classify(a.map(coefficient)) != POSITIVE: return False
     return True
-
 def spectral_norm(a):
     """A ball around the largest singular value of a matrix of fractions and balls. It is below h if
     and only if [h I, a; a', h I] > 0. The interval [low, high] is halved."""
@@ -273,7 +266,6 @@ def spectral_norm(a):
         elif witness(norm_block(a, number(half)), strict=True): low = half
         else: break
     return ball((low + high) / 2).widened(ball((high - low) / 2).size() + 1)
-
 def norm_block(m, bound):
     """[g I, M; M', g I], which is >= 0 if and only if norm(M) <= g."""
     g = bound.number()

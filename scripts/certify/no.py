@@ -48,7 +48,6 @@ def prove_no(gain, certificate, name="no solution"):
         return Claim(name, "open", reason(error))
 
 # The blocks of a certificate.
-
 def blocks_of(statement, certificate):
     """The inequalities that have multipliers, at their points."""
     comparisons = dict(statement.comparisons())
@@ -73,7 +72,6 @@ def block_of_record(comparisons, entry):
     at = {key: matrix(parse(str(text)), comparisons[name].domains[0].scope).number()
           for key, text in entry.get("at", {}).items()}
     return block_at(comparisons[name], name, at, None, factor)
-
 def block_at(comparison, label, at, multiplier, factor):
     if isinstance(comparison, Exception): raise comparison
     for domain in comparison.domains if comparison else ():
@@ -87,7 +85,6 @@ def block_at(comparison, label, at, multiplier, factor):
                 for i, c in affine_terms(found[a, b]).items(): terms.setdefault(i, {})[a, b] = c
             return Block(comparison.sign, terms, found.shape(), multiplier, factor)
     raise Unsupported("the block " + label)
-
 def is_near(value, given):
     if not value.is_number() or given is None: raise Unsupported("the value of an element of a set")
     x = middle(value.number())
@@ -103,7 +100,6 @@ def place(interval, value):
     return value
 
 # Multipliers near those of the file.
-
 def prove_inside(blocks, tiny, small):
     """None if exact multipliers are shown to exist near those of the file, else why not. Let L_k be
     any matrices, such as factors of the multipliers of the file, G_ki = L_k' B_ki L_k, r_i = sum_k
@@ -151,7 +147,6 @@ def add_equation(k, block, scale, rows, residual):
             m = 2 * given[a][height + b] if len(given) == height + width else given[a][b]
             residual[i] = residual.get(i, Ball(0)) + ball(c) * (m / scale)
             rows.setdefault(i, {})[k, a, b] = ball(c) * Fraction(2 ** 40)
-
 def add_block(k, block, factor, rows, residual):
     """G_ki = L' B_i L for all i."""
     columns = range(len(factor[0]))

@@ -39,7 +39,6 @@ def expect(condition, what):
     if not condition: raise Damaged("expected " + what)
 
 # Reading.
-
 def read_gain_file(path):
     """The JSON object, with numbers as Numeral; its form is checked as far as it is used."""
     try:
@@ -107,7 +106,6 @@ def read_yaml(text):
     return result
 
 # Problems that are like another one, methods with parts replaced (docs/language.md).
-
 def variant(base, over):
     """Sections of `base`, also those of its method, with the entries of `over` in their place. An
     entry `none` stays, since it may remove one of a built-in method; without_none ends this."""
@@ -119,11 +117,9 @@ def variant(base, over):
         elif isinstance(value, dict) and isinstance(old, dict): result[key] = {**old, **value}
         else: result[key] = value
     return result
-
 def without_none(mapping):
     return {key: {k: v for k, v in value.items() if v != "none"} if isinstance(value, dict)
             else value for key, value in mapping.items() if value != "none"}
-
 def files_named(statement, name):
     """The entries of a file: of this name, or else of the same name in another folder."""
     files = [f for f in statement.get("files", []) if isinstance(f.get("file"), str)]
@@ -438,7 +434,6 @@ def chain_parts(tree):
 def values_of_file(gain):
     """unknown_value of the decimals of the file. Symmetric unknowns must be symmetric."""
     return lambda name, *kind: checked(gain["unknowns"], name, *kind)
-
 def checked(values, name, rows, cols, kind="full"):
     """A matrix of the file, if it has this size and is of this kind; a flat list may be a row."""
     if name not in values: raise Unsupported("a file without " + name)
@@ -465,7 +460,6 @@ class Symbols:
         return result
 
 # Inequalities as symmetric matrices.
-
 BOUNDED = {1: ("norm", "abs", "max", "lambda_max"), -1: ("min", "lambda_min")}
 
 def inequality(comparison, scope):
@@ -507,5 +501,4 @@ def symmetric(a):
                 raise Unsupported("a matrix that is not symmetric")
             result.elements[i][j] = result.elements[j][i] = result[i, j] * Fraction(1, 2)
     return result
-
 def coefficients(x): return x.terms.values() if isinstance(x, Series) else [x]

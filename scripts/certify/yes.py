@@ -32,7 +32,6 @@ def prove_requirements(statement):
                 yield prove(name, comparison, domain, "solution_within" in statement.gain)
             except NOT_EVALUATED as error:
                 yield Claim(name, "open", reason(error))
-
 def reason(error):
     kinds = {Undecided: "not decided: ", Unsupported: "not known to certify: "}
     known = "not evaluated: %s " % type(error).__name__
@@ -55,7 +54,6 @@ def judge(name, comparison, a, point={}):
     vector = witness(a, strict)
     if vector: return Claim(name, "refuted", "a vector", 0, point, vector)
     return Claim(name, "open", "the matrix is not shown to be definite")
-
 def prove_equation(name, comparison, domain, near):
     """Both sides are the same fractions; over intervals, the same polynomials of fractions. With
     `solution_within` (near) the file does not say that its decimals satisfy the equations."""
@@ -67,7 +65,6 @@ def prove_equation(name, comparison, domain, near):
     if all(is_zero(c) for c in terms): return Claim(name, "proved", "fractions")
     decided = not domain.intervals and exactly(difference) and not near
     return Claim(name, "refuted" if decided else "open", "an equation that does not hold exactly")
-
 def check_affine(comparison, domain):
     """Over conv{...} the vertices are enough where the matrix is affine in the variable. A value of
     the variable with Affine elements raises Unsupported where it is not."""
@@ -79,7 +76,6 @@ def check_affine(comparison, domain):
     inequality(comparison, Scope(domain.scope, {name: symbols}))
 
 # Intervals.
-
 def outward(interval):
     """The ends as fractions; an end that is a ball is moved outward."""
     low, high = [middle(x) + s * upper(x - middle(x))
@@ -149,7 +145,6 @@ def longest_side(piece, lengths, a):
         for e, c in a[i, j].terms.items():
             for k, power in zip(wide, e): scores[k] += upper(c) ** 2 / scale if power > 1 else 0
     return max(wide, key=lambda k: (scores[k] if sides[k] > max(sides) / 1000 else 0, sides[k]))
-
 def refutation(name, comparison, domain, piece, corners):
     """The claim refuted at the middle (or a corner) of a piece, or None."""
     points = [[(low + high) / 2 for low, high in piece]]
@@ -166,7 +161,6 @@ def refutation(name, comparison, domain, piece, corners):
     return None
 
 # Gains.
-
 def gains_of(statement):
     """(name in the file, text of its formula, scope, argument or None) of all gains."""
     for head, text in section(statement.method, "gains").items():
@@ -206,7 +200,6 @@ def distance(value, decimals):
     if decimals.shape() != value.shape(): return Fraction(10 ** 9)
     largest = max([abs(x) for x in flat(decimals)] + [Fraction(1, 10 ** 300)])
     return max(upper(ball(x)) for x in flat(value - decimals)) / Fraction(math.ulp(float(largest)))
-
 def replaced_unknowns(statement):
     """{Y: (P, K, left)} of the gains K = inv(P)*Y (left) and K = Y*inv(P)."""
     found, known = {}, statement.gain["unknowns"]
@@ -221,13 +214,11 @@ def replaced_unknowns(statement):
         except NOT_EVALUATED:
             pass
     return found
-
 def member(tree, scope):
     """The name in the file of an unknown, or of a member P(i) of a family."""
     if tree[0] == "name": return tree[1]
     if tree[0] != "call" or tree[1][0] != "name": return ""
     return "_".join([tree[1][1]] + [str(matrix(x, scope).whole()) for x in tree[2]])
-
 def values_with_gains(gain, found):
     """unknown_value of the file, but Y = P*K (or K*P) with K as it is printed."""
     def value(name, rows, cols, kind):
