@@ -51,8 +51,8 @@ class Parser:
         return self.take() if self.next_is(*signs) else None
     def expect(self, text):
         if not self.taken(text): raise Unsupported("%r is missing in %r" % (text, self.text[:60]))
-    def whole(self):
-        tree = self.expression()
+    def whole(self, read):
+        tree = read(self)
         if self.at == len(self.tokens): return tree
         raise Unsupported("%r in %r" % (self.token()[1], self.text[:60]))
     def expression(self, level=1):
@@ -109,16 +109,18 @@ class Parser:
         return ("block", rows)
     def entry(self):
         """An entry of a matrix; None for a * that stands alone."""
-        if self.next_is("*") and self.next_is(",", ";", "]", ahead=1): return self.take() and None
-        return self.expression()
+        if not self.next_is("*") or not self.next_is(",", ";", "]", ahead=1):
+            return self.expression()
+        self.take()
+        return None
 
 def decimal(text):
     """The fraction that a decimal is."""
     if len(text) < 2000 and DECIMAL.fullmatch(text): return Fraction(text)
     raise Unsupported("the number %s" % text[:40])
 @cache
-def parse(text): return Parser(text).whole()
-def parse_range(text): return Parser(text).argument()
+def parse(text): return Parser(text).whole(Parser.expression)
+def parse_range(text): return Parser(text).whole(Parser.argument)
 
 # Names.
 class Scope:

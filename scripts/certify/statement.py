@@ -372,7 +372,7 @@ class Statement:
                 found = [d for d, scope in zip(found, scopes) if holds(parse(text), scope)]
                 continue
             name, where = entry.group(1), entry.group(2).strip()
-            if name in hidden or any(name in (n for n, _, _ in d.choices) for d in found):
+            if name in hidden or any(name == n for d in found for n, _, _ in d.choices):
                 raise Unsupported("a variable that occurs twice")
             found = [new for d, scope in zip(found, scopes)
                      for new in choices(d, scope, name, where)]
