@@ -312,7 +312,6 @@ def solved(system, q):
     """X of S vec X + vec Q = 0, where vec writes the columns one below the other."""
     x = invert(system) * column([-y for y in flat(q.transposed())])
     return filled(q.rows, q.rows, lambda i, j: x[j * q.rows + i, 0])
-
 def gramian(f, hc, j, hd, lengths, backward=False):
     """Sum over flows and the jumps between them of the outputs' squares, x'W x, by the state at the
     start (or at the end). expm([-F', H'H; 0, F] t) = [.., expm(-F't) W; 0, expm(F t)]."""
@@ -327,7 +326,6 @@ def gramian(f, hc, j, hd, lengths, backward=False):
         total, moved = total + moved.transposed() * seen * moved, flow * moved
     back = invert(moved) if backward else identity(n)
     return back.transposed() * total * back
-
 def squared(a): return a.transposed() * a
 
 def orthonormal(subspace, a, *tolerance):

@@ -227,10 +227,10 @@ def directions(a):
             step = -(abs(c) + 1) / b        # (step z_k + z)'a (step z_k + z) = 2 step b + c
             yield [rounded(step * x + y) for x, y in zip(first, z)]
 
-def rounded(x, bits=400):
+def rounded(x):
     """x if it is short, else a fraction near it."""
-    if x.denominator.bit_length() < bits: return x
-    shift = bits + max(0, x.denominator.bit_length() - x.numerator.bit_length())
+    if x.denominator.bit_length() < 400: return x
+    shift = 400 + max(0, x.denominator.bit_length() - x.numerator.bit_length())
     return Fraction((x.numerator << shift) // x.denominator, 1 << shift)
 @cache
 def bernstein_weights(degree):

@@ -10,16 +10,16 @@ The matrices Y_k of the file are rounded and satisfy no equation. Two rules find
 prove_inside shows that there are some near those of the file; algebraic.py builds some.
 """
 
+import math
 from collections import namedtuple
 from fractions import Fraction
 from itertools import product
-from math import isqrt
 
 from algebraic import prove_algebraic
 from arithmetic import (Ball, Undecided, Unsupported, affine_terms, ball, is_exact, middle, sign,
                         upper)
 from language import decimal, matrix, parse
-from matrices import Matrix, flat, is_positive, rounded
+from matrices import Matrix, is_positive
 from statement import NOT_EVALUATED, Statement, Symbols, expect, inequality, matrix_of_json
 from yes import Claim, outward, reason, scope_at
 
@@ -195,23 +195,16 @@ def relaxed_rows(blocks):
     return dead
 
 def cholesky(y, tiny):
-    """Rows of L with y near L L'; pivots below `tiny`, for a diagonal near 1, are dropped. Nothing
-    is concluded from L: whatever it is, L L' >= 0."""
-    n = len(y)
-    scale = [root(y[a][a]) if y[a][a] > 0 else Fraction(1) for a in range(n)]
-    rest = [[rounded(y[a][b] / (scale[a] * scale[b]), 200) for b in range(n)] for a in range(n)]
+    """Rows of L with y near L L', in floating point; pivots below `tiny`, for a diagonal near 1,
+    are dropped. Nothing is concluded from L: whatever it is, L L' >= 0."""
+    places = range(len(y))
+    scale = [math.sqrt(max(y[a][a], 0)) or 1.0 for a in places]
+    rest = [[float(y[a][b]) / scale[a] / scale[b] for b in places] for a in places]
     columns = []
-    for _ in range(n):
-        p = max(range(n), key=lambda a: rest[a][a])
-        if rest[p][p] <= tiny or y[p][p] <= 0: break
-        column = [rounded(rest[a][p] / root(rest[p][p]), 200) for a in range(n)]
-        columns.append(column)
-        rest = [[rounded(x - column[a] * column[b], 200) for b, x in enumerate(row)]
-                for a, row in enumerate(rest)]
-    return [[rounded(c[a] * scale[a], 200) for c in columns] for a in range(n)]
-
-def root(x):
-    """A fraction near the root of x > 0."""
-    shift = max(0, 200 + x.denominator.bit_length() - x.numerator.bit_length())
-    shift += shift % 2
-    return Fraction(isqrt((x.numerator << shift) // x.denominator) or 1, 1 << (shift // 2))
+    for _ in places:
+        p = max(places, key=lambda a: rest[a][a])
+        if rest[p][p] <= tiny: break
+        c = [rest[a][p] / math.sqrt(rest[p][p]) for a in places]
+        columns.append(c)
+        rest = [[rest[a][b] - c[a] * c[b] for b in places] for a in places]
+    return [[Fraction(c[a] * scale[a]) for c in columns] for a in places]

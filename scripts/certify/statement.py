@@ -19,7 +19,7 @@ import yaml
 from arithmetic import Affine, Series, Undecided, Unsupported, is_exact, middle, upper
 from language import (Family, Function, Later, Scope, basis_functions, decimal, defined,
                       elementwise, evaluate, holds, matrix, members, parse, parse_range)
-from matrices import Matrix, column, diagonal, flat, identity, norm_block, number, zeros
+from matrices import Matrix, diagonal, flat, identity, norm_block, number, zeros
 
 LARGEST_FILE = 64_000_000
 OBJECTS = ("gains", "unknowns", "statement")
