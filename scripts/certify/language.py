@@ -315,14 +315,15 @@ def solved(system, q):
 def gramian(f, hc, j, hd, lengths, backward=False):
     """Sum over flows and the jumps between them of the outputs' squares, x'W x, by the state at the
     start (or at the end). expm([-F', H'H; 0, F] t) = [.., expm(-F't) W; 0, expm(F t)]."""
-    n, total, moved = f.rows, zeros(f.rows, f.rows), identity(f.rows)
+    n, total, moved, before = f.rows, zeros(f.rows, f.rows), identity(f.rows), None
     generator = join_blocks([[-f.transposed(), hc.transposed() * hc], [zeros(n, n), f]])
     first, second = range(n), range(n, 2 * n)
     for k, t in enumerate(flat(lengths)):
         if k: total, moved = total + squared(hd * moved), j * moved
-        both = matrix_exponential(generator.map(lambda x: x * t))
-        flow = both.part(second, second)
-        seen = flow.transposed() * both.part(first, second)
+        if t is not before:
+            both, before = matrix_exponential(generator.map(lambda x: x * t)), t
+            flow = both.part(second, second)
+            seen = flow.transposed() * both.part(first, second)
         total, moved = total + moved.transposed() * seen * moved, flow * moved
     back = invert(moved) if backward else identity(n)
     return back.transposed() * total * back
