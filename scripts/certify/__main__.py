@@ -7,6 +7,7 @@ Exit code 0: everything is proved, or there is nothing to prove. 1: something is
 
 import argparse
 import json
+import math
 import os
 import signal
 import sys
@@ -22,22 +23,17 @@ except ImportError:
     sys.exit(2)
 
 from no import prove_no
-from statement import Damaged, read_gain_file
-from yes import claim, prove_yes
+from statement import Damaged, expect, read_gain_file
+from yes import Claim, prove_yes
 
 SECONDS_OF_SEARCH = 2       # for the certificate of the value beyond the one that a search found
 MOST_ULPS = 2 ** 20         # a gain farther from its formula is open
 EXIT = {"nothing to prove": 0, "proved": 0, "refuted": 1, "open": 3, "not a gain file": 2}
 
-class OutOfTime(BaseException):
-    pass
-
+class OutOfTime(BaseException): pass
 def out_of_time(*_): raise OutOfTime()
-
 def within(seconds, work):
-    """work(), or OutOfTime after so many seconds of the processor. Where there is no such alarm,
-    there is no limit."""
-    if not hasattr(signal, "setitimer"): return work()
+    """work(), or OutOfTime after so many seconds of the processor."""
     signal.signal(signal.SIGPROF, out_of_time)
     signal.setitimer(signal.ITIMER_PROF, max(seconds, 0.001))
     try:
@@ -54,124 +50,94 @@ def check(path, seconds):
         gain = within(seconds, lambda: read_gain_file(path))
         found["says"] = gain["verdict"]
         within(seconds, lambda: check_verdict(gain, found))
-        if certificate_of_search(gain):
-            left = seconds - (time.process_time() - began)
-            check_search(gain, found, min(SECONDS_OF_SEARCH, left))
-    except Damaged as error:
-        found.update(verdict="not a gain file", message=str(error))
+        check_search(gain, found, seconds - (time.process_time() - began))
     except OutOfTime:
         after = " after the claim %s" % found["claims"][-1].name if found["claims"] else ""
-        found.update(verdict="open",
-                     message="the time limit of %g s was reached%s" % (seconds, after))
-    except RecursionError:
-        found.update(verdict="not a gain file", message="expected texts that are nested less")
+        found.update(verdict="open", message="the time limit of %g s was reached%s" %
+                     (seconds, after))
     except MemoryError:
         found.update(verdict="open", message="there was not enough memory")
-    except Exception as error:      # a form of the file that no check above expects
+    except Exception as error:      # Damaged, or a form of the file that no check expects
+        unexpected = "it cannot be read: %s " % type(error).__name__
         found.update(verdict="not a gain file",
-                     message="it cannot be read: %s %s" % (type(error).__name__, error))
+                     message=("" if isinstance(error, Damaged) else unexpected) + str(error))
     found["seconds"] = time.process_time() - began
     return found
 
 def check_verdict(gain, found):
-    if gain["verdict"] == "no":
-        certificate = gain.get("certificate")
-        if not isinstance(certificate, dict): raise Damaged("expected certificate: an object")
-        found["claims"] = [prove_no(gain, certificate)]
-        found["verdict"] = found["claims"][0].result
-    elif gain["verdict"] == "undecided":
-        found.update(verdict="nothing to prove", message="the file says undecided")
+    claims = found["claims"]
+    if gain["verdict"] == "undecided": found["message"] = "the file says undecided"
+    elif gain["verdict"] == "no":
+        expect(isinstance(gain.get("certificate"), dict), "certificate: an object")
+        claims.append(prove_no(gain, gain["certificate"]))
     else:
-        _, found["gains"], found["proved_at_printed_gains"] = prove_yes(gain, found["claims"])
-        found["verdict"] = verdict_of_yes(found)
-
-def verdict_of_yes(found):
-    results = {c.result for c in found["claims"]}
-    if not results:
-        found["message"] = "the method has no inequalities"
-        return "nothing to prove"
-    if results == {"proved"}:
-        far = [g.name for g in found["gains"] if g.ulps is not None and g.ulps > MOST_ULPS and
-               g.name not in found["proved_at_printed_gains"]]
-        if far: found["message"] = "far from their formulas: " + ", ".join(far)
-        return "open" if far else "proved"
-    return "refuted" if "refuted" in results else "open"
-
-def certificate_of_search(gain):
-    search = gain.get("search", {})
-    certificate = search.get("certificate")
-    return isinstance(certificate, dict) and certificate.get("about") == "problem" and \
-        isinstance(search.get("figure"), str) and search.get("beyond") is not None
+        _, found["gains"], found["proved_at_printed_gains"] = prove_yes(gain, claims)
+        if not claims: found["message"] = "the method has no inequalities"
+    results = {c.result for c in claims}
+    found["verdict"] = next((r for r in ("refuted", "open", "proved") if r in results),
+                            "nothing to prove")
+    far = [g.name for g in found["gains"] if g.ulps is not None and g.ulps > MOST_ULPS and
+           g.name not in found["proved_at_printed_gains"]]
+    if found["verdict"] == "proved" and far:
+        found.update(verdict="open", message="far from their formulas: " + ", ".join(far))
 
 def check_search(gain, found, seconds):
     """The certificate at the value beyond the best one. It does not change the verdict."""
-    search = gain["search"]
-    name = search["figure"].split()[-1]
+    search = gain.get("search", {})
+    certificate, figure = search.get("certificate"), search.get("figure")
+    if not isinstance(certificate, dict) or certificate.get("about") != "problem" or \
+            not isinstance(figure, str) or search.get("beyond") is None: return
+    name = figure.split()[-1]
     beyond = dict(gain, searched={**gain.get("searched", {}), name: search["beyond"]})
     label = "no solution at %s = %s" % (name, search["beyond"])
+    found["search"] = [Claim(label, "open", "not decided in %d s" % SECONDS_OF_SEARCH)]
     try:
-        result = within(seconds, lambda: prove_no(beyond, search["certificate"], label))
+        found["search"] = [within(min(SECONDS_OF_SEARCH, seconds),
+                                  lambda: prove_no(beyond, certificate, label))]
     except OutOfTime:
-        result = claim(label, "open", "not decided in %d s" % SECONDS_OF_SEARCH)
-    found["search"] = [result]
+        pass
 
 # Reports.
-
 def summary(found):
     """The rest of the line about a file."""
     if found["verdict"] == "not a gain file": return found["message"]
     if found["verdict"] == "nothing to prove": return "nothing to prove: " + found["message"]
-    parts = [summary_of_claims(found["claims"])] if found["claims"] else []
+    claims, gains = found["claims"], found["gains"]
+    parts = [summary_of_claims(claims)] if claims else []
     parts += [found["message"]] if found["message"] else []
-    parts += ["%s: %s" % (c.name, c.how) for c in found["claims"] if c.result != "proved"][:1]
-    parts += summary_of_gains(found)
-    parts += ["%s: %s" % (c.name, c.result) for c in found["search"]]
-    return ", ".join(parts)
+    parts += ["%s: %s" % (c.name, c.how) for c in claims if c.result != "proved"][:1]
+    worst = max((g for g in gains if g.ulps is not None), key=lambda g: g.ulps, default=None)
+    if worst:
+        ulps = max(1, math.ceil(worst.ulps))
+        parts.append("%s within %s ulp" % ("gains" if ulps == 1 else "gains (%s)" % worst.name,
+                                           ulps if ulps < 10 ** 6 else "%.1e" % ulps))
+    for text, names in (("proved at the printed ", found["proved_at_printed_gains"]),
+                        ("not compared: ", [g.name for g in gains if g.ulps is None])):
+        if names: parts.append(text + ", ".join(names))
+    return ", ".join(parts + ["%s: %s" % (c.name, c.result) for c in found["search"]])
 
 def summary_of_claims(claims):
-    proved = [c for c in claims if c.result == "proved"]
-    kinds = Counter(c.how for c in proved)
-    pieces = Counter()
-    for c in proved: pieces[c.how] += c.pieces
-    texts = []
-    for kind, count in kinds.items():
+    proved, texts = [c for c in claims if c.result == "proved"], []
+    for kind, count in Counter(c.how for c in proved).items():
         if kind.startswith("all "):
-            plural = "s" if pieces[kind] > 1 else ""
-            texts.append("%d for %s, %d piece%s" % (count, kind, pieces[kind], plural))
-        else:
-            texts.append("%d %s %s" % (count, "by" if "eigen" in kind or "mult" in kind else "in",
-                                       kind))
-    text = "%d claim%s" % (len(claims), "s" if len(claims) > 1 else "")
-    return text + (" (%s)" % ", ".join(texts) if texts else "")
-
-def summary_of_gains(found):
-    compared = [g for g in found["gains"] if g.ulps is not None]
-    texts = []
-    if compared:
-        worst = max(compared, key=lambda g: g.ulps)
-        ulps = max(1, -(-worst.ulps.numerator // worst.ulps.denominator))
-        name = "gains" if ulps == 1 else "gains (%s)" % worst.name
-        texts.append("%s within %s ulp" % (name, ulps if ulps < 10 ** 6 else "%.1e" % ulps))
-    if found["proved_at_printed_gains"]:
-        texts.append("proved at the printed " + ", ".join(found["proved_at_printed_gains"]))
-    other = [g.name for g in found["gains"] if g.ulps is None]
-    return texts + (["not compared: " + ", ".join(other)] if other else [])
-
+            pieces = sum(c.pieces for c in proved if c.how == kind)
+            texts.append("%d for %s, %s" % (count, kind, counted(pieces, "piece")))
+        else: texts.append("%d %s %s" % (count, "in" if kind in ("balls", "fractions") else "by",
+                                         kind))
+    return counted(len(claims), "claim") + (" (%s)" % ", ".join(texts) if texts else "")
+def counted(number, word): return "%d %s%s" % (number, word, "s" if number > 1 else "")
 def text_of_claim(c):
     lines = ["  %-9s %s  (%s%s)" % (c.result, c.name, c.how,
                                     ", %d pieces" % c.pieces if c.pieces else "")]
-    if c.result == "refuted" and c.point:
-        lines.append("            at " + ", ".join("%s = %s" % p for p in c.point.items()))
-    if c.vector: lines.append("            v = [%s]" % ", ".join(map(str, c.vector)))
-    return "\n".join(lines)
-
-def as_json(found):
-    def plain(x):
-        if isinstance(x, Fraction): return str(x)
-        if hasattr(x, "_asdict"): return plain(x._asdict())
-        if isinstance(x, dict): return {str(k): plain(v) for k, v in x.items()}
-        return [plain(y) for y in x] if isinstance(x, (list, tuple)) else x
-    return json.dumps(plain(found))
+    if c.point: lines.append("at " + ", ".join("%s = %s" % p for p in c.point.items()))
+    if c.vector: lines.append("v = [%s]" % ", ".join(map(str, c.vector)))
+    return "\n            ".join(lines)
+def plain(x):
+    """What JSON can write."""
+    if isinstance(x, Fraction): return str(x)
+    if hasattr(x, "_asdict"): return plain(x._asdict())
+    if isinstance(x, dict): return {str(k): plain(v) for k, v in x.items()}
+    return [plain(y) for y in x] if isinstance(x, (list, tuple)) else x
 
 def main():
     parser = argparse.ArgumentParser(prog="certify", description=__doc__.split("\n")[0])
@@ -182,20 +148,18 @@ def main():
                         help="limit for each file; what is not decided then is open (60)")
     options = parser.parse_args()
     sys.setrecursionlimit(5000)
-    codes = []
+    codes = set()
     for path in options.files:
         found = check(path, options.time)
-        codes.append(EXIT[found["verdict"]])
-        if options.json: print(as_json(found))
+        codes.add(EXIT[found["verdict"]])
+        if options.json: print(json.dumps(plain(found)))
         else:
             shown = found["verdict"].replace("nothing to prove", "nothing")
             print("%-8s %s  %s  %.2f s" % (shown, path, summary(found), found["seconds"]))
             for c in found["claims"] + found["search"] if options.claims else ():
                 print(text_of_claim(c))
         sys.stdout.flush()
-    for code in (1, 2, 3):
-        if code in codes: return code
-    return 0
+    return next((code for code in (1, 2, 3) if code in codes), 0)
 
 def exit_code():
     """That of main(). Python's own code of an exception, 1, would say that a file is refuted."""

@@ -3,8 +3,8 @@
     Fraction   a rational number, exact
     Ball       all reals x with |x - m/2^320| <= r/2^320, where m and r are whole numbers
     Taylor     all functions of t in [-1, 1]^k that differ from a polynomial by at most a remainder
-    Dual       a value with its first derivatives
     Affine     c_0 + c_1 x_1 + ... + c_m x_m in the unknowns x
+    Dual       a value with its first derivatives
 
 Every operation returns a set that contains all results of the operation on members of its
 arguments. Two kinds may be mixed; the result has the later kind of the list. A question that a
@@ -27,59 +27,40 @@ class Unsupported(Exception):
     """The text asks for something that this checker does not know."""
 
 def is_exact(x): return x.__class__ is Fraction or x.__class__ is int
+def is_zero(x): return is_exact(x) and x == 0
+def level(x): return 0 if is_exact(x) else x.level      # the place of its kind in the list above
 
 class Number:
-    """The operators of all kinds but fractions. `level` orders the kinds."""
+    """The operators of all kinds but fractions."""
     __slots__ = ()
-    level = 0
-    def __add__(self, other):
-        a, b = same_kind(self, other)
-        return a.plus(b)
-
-    __radd__ = __add__
+    def __add__(self, other): return self.at_level(other, lambda a, b: a.plus(b))
     def __sub__(self, other): return self + (-other)
     def __rsub__(self, other): return (-self) + other
-
+    def __truediv__(self, other): return self * inverse(other)
+    def __rtruediv__(self, other): return other * inverse(self)
     def __mul__(self, other):
         if is_exact(other):
             return Fraction(0) if other == 0 else self if other == 1 else self.scaled(other)
-        a, b = same_kind(self, other)
-        return a.times(b)
-
-    __rmul__ = __mul__
-    def __truediv__(self, other): return self * inverse(other)
-    def __rtruediv__(self, other): return other * inverse(self)
-
-def same_kind(a, b):
-    """Both numbers in the later kind of the two."""
-    level_a = 0 if is_exact(a) else a.level
-    level_b = 0 if is_exact(b) else b.level
-    if level_a < level_b: return b.lift(a), b
-    return (a, b) if level_a == level_b else (a, a.lift(b))
+        return self.at_level(other, lambda a, b: a.times(b))
+    def at_level(self, other, operation):
+        """The operation on both numbers in the later of their kinds."""
+        if level(other) > self.level: return operation(other.lift(self), other)
+        return operation(self, self.lift(other) if level(other) < self.level else other)
+    __radd__, __rmul__ = __add__, __mul__
 
 class Ball(Number):
     """The interval [m - r, m + r]/2^320."""
-    __slots__ = ("m", "r")
-    level = 1
+    __slots__, level = ("m", "r"), 1
     def __init__(self, m, r=0): self.m, self.r = m, r
     def lift(self, x): return ball(x)
-
-    def size(self):
-        """An upper bound of |x| 2^320."""
-        return abs(self.m) + self.r
-
+    def size(self): return abs(self.m) + self.r         # at least |x| 2^320
     def plus(self, other): return Ball(self.m + other.m, self.r + other.r)
-
-    def times(self, other):
-        # Both shifts round down, by less than 1 each.
-        spread = abs(self.m) * other.r + self.r * other.size()
-        return Ball((self.m * other.m) >> BITS, (spread >> BITS) + 2)
-
+    def times(self, other): return sum_of_balls([(self, other)])
+    def widened(self, error): return Ball(self.m, self.r + error)
+    def __neg__(self): return Ball(-self.m, self.r)
     def scaled(self, q):
         n, d = q.numerator, q.denominator
         return Ball(self.m * n // d, self.r * abs(n) // d + 2)
-
-    def __neg__(self): return Ball(-self.m, self.r)
 
 def ball(x):
     """The ball of a fraction; a ball stays as it is."""
@@ -87,304 +68,210 @@ def ball(x):
     if not is_exact(x): raise Unsupported("a number is expected, not a function")
     m, rest = divmod(x.numerator << BITS, x.denominator)
     return Ball(m, 1 if rest else 0)
-
+def sum_of_balls(pairs):
+    """The sum of products of balls, rounded once: both shifts round down, by less than 1 each."""
+    m = sum(a.m * b.m for a, b in pairs)
+    r = sum(abs(a.m) * b.r + a.r * (abs(b.m) + b.r) for a, b in pairs)
+    return Ball(m >> BITS, (r >> BITS) + 2)
 def upper(x):
     """A fraction that is at least |x|, for fractions, balls and Taylor models."""
     return abs(x) if is_exact(x) else Fraction(x.size(), ONE)
-
 def middle(x):
     """The fraction in the middle of a fraction or a ball."""
     return Fraction(x) if is_exact(x) else Fraction(ball(x).m, ONE)
 
-class Taylor(Number):
-    """sum of c_e t^e plus a function between -rest/2^320 and rest/2^320, t in [-1, 1]^k.
-
-    `terms` maps exponents e to fractions or balls. `space` is (k, order); products drop the terms
-    above the order and add their size to the rest.
-    """
-    __slots__ = ("terms", "rest", "space")
-    level = 2
-    def __init__(self, terms, rest, space): self.terms, self.rest, self.space = terms, rest, space
-    def lift(self, x): return Taylor({self.origin(): x}, 0, self.space)
-    def origin(self): return (0,) * self.space[0]
+class Series(Number):
+    """A polynomial, the sum of terms[e] x^e, up to an error of rest/2^320."""
+    def __init__(self, terms, rest=0, space=None):
+        self.terms, self.rest, self.space = terms, rest, space
+    def like(self, terms, rest=0): return self.__class__(terms, rest, self.space)
+    def origin(self): return 0          # the exponent of the constant term
+    def lift(self, x): return self.like({self.origin(): x})
     def constant(self): return self.terms.get(self.origin(), Fraction(0))
+    def is_constant(self): return not self.rest and all(e == self.origin() for e in self.terms)
+    def variable(self):
+        """What remains without the constant term."""
+        origin = self.origin()
+        return self.like({e: c for e, c in self.terms.items() if e != origin}, self.rest)
+    def __neg__(self): return self.like({e: -c for e, c in self.terms.items()}, self.rest)
+    def plus(self, other):
+        terms = dict(self.terms)
+        for e, c in other.terms.items(): terms[e] = terms[e] + c if e in terms else c
+        return self.like(terms, self.rest + other.rest)
+    def scaled(self, q):
+        rest = self.rest * abs(q.numerator) // q.denominator + 1 if self.rest else 0
+        return self.like({e: c * q for e, c in self.terms.items()}, rest)
+    def times(self, other):
+        """The product of polynomials of degree 1, without terms of degree 2."""
+        a, b = self.constant(), other.constant()
+        terms = {e: c * b for e, c in self.terms.items()}
+        for e, c in other.terms.items():
+            if e != 0: terms[e] = terms[e] + a * c if e in terms else a * c
+        return self.like(terms)
 
-    def without_constant(self):
-        terms = {e: c for e, c in self.terms.items() if any(e)}
-        return Taylor(terms, self.rest, self.space)
-
+class Taylor(Series):
+    """A polynomial in t in [-1, 1]^k with fractions or balls as coefficients, and its rest. The
+    exponents e are tuples. `space` is (k, order); products drop the terms above the order and add
+    their size to the rest."""
+    level = 2
+    def origin(self): return (0,) * self.space[0]
+    def widened(self, error): return self.like(self.terms, self.rest + error)
     def size(self):
         """An upper bound of |f| 2^320 on the box."""
         return sum(ball(c).size() for c in self.terms.values()) + self.rest
-
-    def plus(self, other):
-        terms = dict(self.terms)
-        for e, c in other.terms.items():
-            terms[e] = terms[e] + c if e in terms else c
-        return Taylor(terms, self.rest + other.rest, self.space)
-
     def times(self, other):
-        left = [(e, sum(e), c) for e, c in self.terms.items()]
-        right = [(e, sum(e), c) for e, c in other.terms.items()]
-        exact = all(is_exact(c) for _, _, c in left + right)
-        if not exact:
-            left = [(e, d, ball(c)) for e, d, c in left]
-            right = [(e, d, ball(c)) for e, d, c in right]
+        exact = all(map(is_exact, [*self.terms.values(), *other.terms.values()]))
+        left, right = [[(e, sum(e), c if exact else ball(c)) for e, c in x.terms.items()]
+                       for x in (self, other)]
         terms, rest, order = {}, 0, self.space[1]
         for e, d, a in left:
             for f, g, b in right:
                 if d + g > order: rest += (ball(a).size() * ball(b).size() >> BITS) + 1
                 else: terms.setdefault(tuple(map(add, e, f)), []).append((a, b))
-        total = sum_of_fractions if exact else sum_of_balls
-        terms = {e: total(pairs) for e, pairs in terms.items()}
         if self.rest or other.rest:
             polynomial = self.size() - self.rest
             rest += ((polynomial * other.rest + self.rest * other.size()) >> BITS) + 1
-        return Taylor(terms, rest, self.space)
+        total = (lambda pairs: sum(a * b for a, b in pairs)) if exact else sum_of_balls
+        return self.like({e: total(pairs) for e, pairs in terms.items()}, rest)
 
-    def scaled(self, q):
-        rest = self.rest * abs(q.numerator) // q.denominator + 1 if self.rest else 0
-        return Taylor({e: c * q for e, c in self.terms.items()}, rest, self.space)
-
-    def __neg__(self): return Taylor({e: -c for e, c in self.terms.items()}, self.rest, self.space)
-
-class Dual(Number):
-    """A value and its derivatives by the elements 0, 1, ... of one variable."""
-    __slots__ = ("value", "slopes")
+class Affine(Series):
+    """terms[0] + sum of terms[i] x_i. A product of two unknowns raises Unsupported. So a matrix
+    that was evaluated with Affine elements is known to be affine in the unknowns."""
     level = 3
-    def __init__(self, value, slopes): self.value, self.slopes = value, slopes
-    def lift(self, x): return Dual(x, {})
-
-    def plus(self, other):
-        return Dual(self.value + other.value, merged_sum(self.slopes, other.slopes))
-
     def times(self, other):
-        left = {i: s * other.value for i, s in self.slopes.items()}
-        right = {i: s * self.value for i, s in other.slopes.items()}
-        return Dual(self.value * other.value, merged_sum(left, right))
+        if self.is_constant() or other.is_constant(): return super().times(other)
+        raise Unsupported("the text is not affine in the unknowns")
 
-    def scaled(self, q): return Dual(self.value * q, {i: s * q for i, s in self.slopes.items()})
-    def __neg__(self): return Dual(-self.value, {i: -s for i, s in self.slopes.items()})
-
-class Affine(Number):
-    """c[0] + sum of c[i] x_i. A product of two unknowns raises Unsupported.
-
-    So a matrix that was evaluated with Affine elements is known to be affine in the unknowns.
-    """
-    __slots__ = ("c",)
+class Dual(Series):
+    """terms[0] is a value, terms[k] its derivative by the k-th element of one variable."""
     level = 4
-    def __init__(self, c): self.c = c
-    def lift(self, x): return Affine({0: x})
-    def is_constant(self): return not any(self.c)
-    def plus(self, other): return Affine(merged_sum(self.c, other.c))
-
-    def times(self, other):
-        a, b = (self, other) if self.is_constant() else (other, self)
-        if not a.is_constant(): raise Unsupported("the text is not affine in the unknowns")
-        factor = a.c.get(0, Fraction(0))
-        return Affine({i: c * factor for i, c in b.c.items()})
-
-    def scaled(self, q): return Affine({i: c * q for i, c in self.c.items()})
-    def __neg__(self): return Affine({i: -c for i, c in self.c.items()})
-
-def sum_of_fractions(pairs): return sum((a * b for a, b in pairs), Fraction(0))
-
-def sum_of_balls(pairs):
-    """The sum of products of balls, rounded once."""
-    m = sum(a.m * b.m for a, b in pairs)
-    r = sum(abs(a.m) * b.r + a.r * (abs(b.m) + b.r) for a, b in pairs)
-    return Ball(m >> BITS, (r >> BITS) + 2)
-
-def merged_sum(a, b):
-    result = dict(a)
-    for i, x in b.items(): result[i] = result[i] + x if i in result else x
-    return result
 
 def affine_terms(x):
     """{i: c_i} of x = c_0 + sum c_i x_i, without exact zeros."""
-    terms = x.c if isinstance(x, Affine) else {0: x}
-    return {i: c for i, c in terms.items() if not (is_exact(c) and c == 0)}
-
-def inverse(x):
-    """1/x."""
-    if is_exact(x):
-        if x == 0: raise Undecided("a division by zero")
-        return 1 / Fraction(x)
-    if isinstance(x, Ball):
-        if abs(x.m) <= x.r: raise Undecided("a division by a number that may be zero")
-        low = (ONE << BITS) // (abs(x.m) + x.r)
-        high = -((-ONE << BITS) // (abs(x.m) - x.r))
-        m = (low + high) >> 1
-        return Ball(m if x.m > 0 else -m, high - m + 1)
-    if isinstance(x, Taylor): return taylor_function("inv", x)
-    if isinstance(x, Dual):
-        value = inverse(x.value)
-        return Dual(value, {i: -(value * value * s) for i, s in x.slopes.items()})
-    if x.is_constant(): return inverse(x.c.get(0, Fraction(0)))
-    raise Unsupported("a quotient by an unknown")
-
+    terms = x.terms if isinstance(x, Affine) else {0: x}
+    return {i: c for i, c in terms.items() if not is_zero(c)}
 def sign(x):
     """1, 0 or -1 if all members of x have this sign."""
     if is_exact(x): return (x > 0) - (x < 0)
-    if isinstance(x, Dual): return sign(x.value)
-    if isinstance(x, Ball): m, r = x.m, x.r
-    elif isinstance(x, Taylor):
-        c = ball(x.constant())
-        m, r = c.m, c.r + x.without_constant().size()
-    elif x.is_constant(): return sign(x.c.get(0, Fraction(0)))
-    else: raise Unsupported("the sign of an unknown")
-    if abs(m) <= r: raise Undecided("a sign")
-    return 1 if m > 0 else -1
-
+    if isinstance(x, Affine) and not x.is_constant(): raise Unsupported("the sign of an unknown")
+    if isinstance(x, (Affine, Dual)): return sign(x.constant())
+    if isinstance(x, Taylor): x = ball(x.constant()).widened(x.variable().size())
+    if abs(x.m) <= x.r: raise Undecided("a sign")
+    return 1 if x.m > 0 else -1
 def typical(x):
     """A fraction near |x|. It chooses pivots; nothing is concluded from it."""
-    if isinstance(x, Taylor): return typical(x.constant())
-    if isinstance(x, Dual): return typical(x.value)
-    if isinstance(x, Affine): return typical(x.c.get(0, Fraction(0)))
+    if isinstance(x, Series): return typical(x.constant())
     return abs(x) if is_exact(x) else Fraction(max(abs(x.m) - x.r, 0), ONE)
 
 # Elementary functions of balls.
-
-def halvings(m):
-    """How often |m|/2^320 is halved to fall below 2^-12."""
-    whole = (abs(m) >> BITS).bit_length()
+def series_sum(first, ratio):
+    """first (1 + ratio(0) + ratio(0) ratio(1) + ...) in balls. All ratios must be at most 1/2. Then
+    all terms after one are together at most as large as this one."""
+    total = term = first
+    k = 0
+    while abs(term.m) > 2 or k < 2:
+        term = term * ratio(k)
+        total, k = total + term, k + 1
+    return total.widened(term.size() + 1)
+def halved(x):
+    """(y, k) with |y| < 2^-12, and y = m/2^k but for rounding, where m is the middle of x."""
+    whole = (abs(x.m) >> BITS).bit_length()
     if whole > 20: raise Undecided("an argument above a million")
-    return whole + 12
-
+    return Ball(x.m >> (whole + 12), 1), whole + 12
 def ball_exp(x):
-    """exp(x) = exp(y)^(2^k) with y = m/2^k. Below 2^-12, the rest of the series is less than its
-    last term. The radius of x enters by |exp(r) - 1| <= 2 r, r <= 1/4."""
-    k = halvings(x.m)
-    y = Ball(x.m >> k, 1)
-    total, term, n = Ball(ONE), Ball(ONE), 1
-    while abs(term.m) > 1 or n < 4:
-        term = (term * y).scaled(Fraction(1, n))
-        total, n = total + term, n + 1
-    total = Ball(total.m, total.r + term.size() + 1)
-    for _ in range(k): total = total * total
+    """exp(x) = exp(y)^(2^k). The radius of x enters by |exp(r) - 1| <= 2 r for r <= 1/4."""
     if x.r > ONE >> 2: raise Undecided("exp of a wide ball")
+    y, k = halved(x)
+    total = series_sum(Ball(ONE), lambda j: y.scaled(Fraction(1, j + 1)))
+    for _ in range(k): total = total * total
     return total * Ball(ONE, 2 * x.r) if x.r else total
-
 def ball_sin_cos(x):
-    """sin and cos by series below 2^-12, then doublings of the angle. |sin' | <= 1 adds r."""
-    k = halvings(x.m)
-    y = Ball(x.m >> k, 1)
-    square = y * y
-
-    def series(term, n):
-        total = term
-        while abs(term.m) > 2:
-            term = -(term * square).scaled(Fraction(1, (n + 1) * (n + 2)))
-            total, n = total + term, n + 2
-        return Ball(total.m, total.r + term.size() + 4)
-
-    s, c = series(y, 1), series(Ball(ONE), 0)
+    """sin and cos by series near 0, then doublings of the angle. |sin'|, |cos'| <= 1 adds r."""
+    y, k = halved(x)
+    square = -(y * y)
+    s = series_sum(y, lambda j: square.scaled(Fraction(1, (2 * j + 2) * (2 * j + 3))))
+    c = series_sum(Ball(ONE), lambda j: square.scaled(Fraction(1, (2 * j + 1) * (2 * j + 2))))
     for _ in range(k): s, c = 2 * (s * c), c * c - s * s
-    return Ball(s.m, s.r + x.r), Ball(c.m, c.r + x.r)
-
+    return s.widened(x.r), c.widened(x.r)
 def ball_sqrt(x):
     if x.m < x.r: raise Undecided("a root of a number that may be negative")
     low = isqrt((x.m - x.r) << BITS)
     high = isqrt((x.m + x.r) << BITS) + 1
     return Ball((low + high) >> 1, ((high - low + 1) >> 1) + 1)
-
 def twice_atanh(z):
-    """2 (z + z^3/3 + z^5/5 + ...) for |z| <= 1/2: the rest is less than twice the last term."""
-    total = power = z
-    square, n = z * z, 1
-    while abs(power.m) > 1:
-        power, n = power * square, n + 2
-        total = total + power.scaled(Fraction(1, n))
-    return 2 * Ball(total.m, total.r + 2 * power.size() + 4)
-
+    """2 (z + z^3/3 + z^5/5 + ...) for |z| <= 1/2."""
+    if z.size() > ONE >> 1: raise Undecided("a logarithm of a wide ball")
+    square = z * z
+    return 2 * series_sum(z, lambda j: square.scaled(Fraction(2 * j + 1, 2 * j + 3)))
 def ball_log(x):
     """log(x) = k log 2 + log(u), u in [1/2, 1], log(u) = 2 atanh((u - 1)/(u + 1))."""
     if x.m <= x.r: raise Undecided("a logarithm of a number that may be negative")
     k = x.m.bit_length() - BITS
     u = x * (Fraction(1, 2) ** k)
     return twice_atanh((u - 1) * inverse(u + 1)) + k * twice_atanh(ball(Fraction(1, 3)))
+def ball_inverse(x):
+    if abs(x.m) <= x.r: raise Undecided("a division by a number that may be zero")
+    low = (ONE << BITS) // (abs(x.m) + x.r)
+    high = -((-ONE << BITS) // (abs(x.m) - x.r))
+    m = (low + high) >> 1
+    return Ball(m if x.m > 0 else -m, high - m + 1)
+def atan_of_inverse(n):
+    """atan(1/n) = 1/n - 1/(3 n^3) + ..., whose rest is at most its first term, for n > 4."""
+    terms = [Fraction((-1) ** k, (2 * k + 1) * n ** (2 * k + 1)) for k in range(BITS // 4)]
+    return sum(map(ball, terms), Ball(0, 1))
 
-def ball_pi():
-    """Machin: pi = 16 atan(1/5) - 4 atan(1/239), alternating series."""
-    def atan_of_inverse(n):
-        total = power = ONE // n
-        k, negative = 1, True
-        while power:
-            power //= n * n
-            k += 2
-            total += -(power // k) if negative else power // k
-            negative = not negative
-        return Ball(total, k + 4)
+PI = 16 * atan_of_inverse(5) - 4 * atan_of_inverse(239)         # Machin
 
-    return 16 * atan_of_inverse(5) - 4 * atan_of_inverse(239)
+BALL_FUNCTIONS = {"exp": ball_exp, "log": ball_log, "sqrt": ball_sqrt, "inv": ball_inverse,
+                  "sin": lambda x: ball_sin_cos(x)[0], "cos": lambda x: ball_sin_cos(x)[1]}
 
-PI = ball_pi()
-
-def exact_value(name, x):
-    """The value of a function at a fraction if it is rational and known, else None."""
-    known = {("exp", 0): 1, ("cos", 0): 1, ("sin", 0): 0, ("log", 1): 0}
-    if (name, x) in known: return Fraction(known[name, x])
-    if name == "sqrt" and x >= 0:
-        n, d = isqrt(x.numerator), isqrt(x.denominator)
-        if n * n == x.numerator and d * d == x.denominator: return Fraction(n, d)
-    return None
+# Elementary functions of all kinds.
+EXACT = {("exp", 0): 1, ("cos", 0): 1, ("sin", 0): 0, ("log", 1): 0}
 
 def function(name, x):
-    """exp, sin, cos, sqrt or log of a number of any kind."""
-    if isinstance(x, Affine):
-        if not x.is_constant(): raise Unsupported(name + " of an unknown")
-        return function(name, x.c.get(0, Fraction(0)))
-    if isinstance(x, Taylor): return taylor_function(name, x)
-    if isinstance(x, Dual):
-        value = function(name, x.value)
-        slope = {"exp": lambda: value, "sin": lambda: function("cos", x.value),
-                 "cos": lambda: -function("sin", x.value),
-                 "sqrt": lambda: inverse(2 * value), "log": lambda: inverse(x.value)}[name]()
-        return Dual(value, {i: slope * s for i, s in x.slopes.items()})
+    """exp, log, sqrt, inv, sin or cos of a number of any kind; fractions where they are known."""
+    if isinstance(x, Series): return function_of_series(name, x)
     if is_exact(x):
-        value = exact_value(name, Fraction(x))
-        if value is not None: return value
-    x = ball(x)
-    if name in ("sin", "cos"): return ball_sin_cos(x)[0 if name == "sin" else 1]
-    return {"exp": ball_exp, "sqrt": ball_sqrt, "log": ball_log}[name](x)
+        if (name, x) in EXACT: return Fraction(EXACT[name, x])
+        if name == "inv" and x != 0: return 1 / Fraction(x)
+        n, d = isqrt(abs(x.numerator)), isqrt(x.denominator)
+        if name == "sqrt" and (n * n, d * d) == (x.numerator, x.denominator): return Fraction(n, d)
+    return BALL_FUNCTIONS[name](ball(x))
+def inverse(x): return function("inv", x)
 
-def taylor_function(name, x):
-    """f(p + d) by its series in d, where p is the constant term of x and |d| <= delta.
+SLOPES = {"exp": lambda p, f: f, "log": lambda p, f: inverse(p), "inv": lambda p, f: -(f * f),
+          "sqrt": lambda p, f: inverse(2 * f), "sin": lambda p, f: function("cos", p),
+          "cos": lambda p, f: -function("sin", p)}
+EXPONENTS = {"inv": Fraction(-1), "sqrt": Fraction(1, 2), "log": Fraction(0)}
 
-    With K the order, the series of sin and cos leave at most delta^(K+1)/(K+1)!, that of exp
-    leaves exp(delta) times this. inv, sqrt and log are series in u = d/p with coefficients of
-    at most 1. For |u| <= q < 1 these leave at most q^(K+1)/(1 - q).
-    """
-    p, d, order = x.constant(), x.without_constant(), x.space[1]
-    if not d.terms and not d.rest: return x.lift(inverse(p) if name == "inv" else function(name, p))
-    if name in ("inv", "sqrt", "log"):
-        d = x.lift(inverse(p)) * d
-        if d.size() >= ONE:
-            raise Undecided("a quotient, root or logarithm whose argument varies too much")
-    coefficients = series_coefficients(name, p, order)
-    result = x.lift(coefficients[order])
-    for c in reversed(coefficients[:order]): result = result * d + c
-    delta = Fraction(d.size(), ONE)
-    left = delta ** (order + 1)
-    if name in ("exp", "sin", "cos"):
-        left = left / factorial(order + 1)
-        left = upper(ball(left) * ball_exp(ball(delta))) if name == "exp" else left
-    else: left = left / (1 - delta)
-    result = Taylor(result.terms, result.rest + ball(left).size() + 1, result.space)
-    if name == "log": return result + function("log", p)
-    if name in ("exp", "sqrt"): return result * x.lift(function(name, p))
-    return result * x.lift(inverse(p)) if name == "inv" else result
-
-def series_coefficients(name, p, order):
-    """Coefficients 0 to K of the series that taylor_function uses."""
-    if name in ("sin", "cos"):
-        s, c = function("sin", p), function("cos", p)
-        cycle = [s, c, -s, -c] if name == "sin" else [c, -s, -c, s]
-        return [cycle[j % 4] * Fraction(1, factorial(j)) for j in range(order + 1)]
-    result = [Fraction(0 if name == "log" else 1)]
-    for j in range(1, order + 1):
-        if name == "exp": result.append(result[-1] / j)
-        elif name == "inv": result.append(-result[-1])
-        elif name == "sqrt": result.append(result[-1] * (Fraction(3, 2) - j) / j)
-        else: result.append(Fraction((-1) ** (j + 1), j))
-    return result
+def function_of_series(name, x):
+    """f(p + d) by its series in d up to the order K, where p is the constant term and |d| <= delta.
+    The series of sin and cos leave at most delta^(K+1)/(K+1)!, that of exp leaves exp(p + delta)
+    times this. With u = d/p, inv and sqrt are f(p) (1 + u)^a: the j-th coefficient is (a - j + 1)/j
+    times the one before. With a = 0 this gives log, from its term u on. All coefficients of (1 +
+    u)^a are at most 1. So for |u| <= q < 1 the series leave at most f(p) q^(K+1)/(1 - q), that of
+    log without f(p)."""
+    p, d = x.constant(), x.variable()
+    if isinstance(x, Affine) and not x.is_constant(): raise Unsupported(name + " of an unknown")
+    value = function(name, p)
+    if x.is_constant(): return x.lift(value)
+    if isinstance(x, Dual): return d * x.lift(SLOPES[name](p, value)) + value
+    order, largest = x.space[1], 1
+    if name in EXPONENTS:
+        d, a = d * inverse(p), EXPONENTS[name]
+        delta = upper(d)
+        if delta >= 1: raise Undecided("a quotient or root whose argument varies too much")
+        left = delta ** (order + 1) / (1 - delta)
+        if name != "log": largest = value
+        series = [value, Fraction(1) if name == "log" else value * a]
+        for j in range(2, order + 1): series.append(series[-1] * ((a - j + 1) / j))
+    else:
+        delta = upper(d)
+        left = delta ** (order + 1) / factorial(order + 1)
+        if name == "exp": largest = value * function("exp", ball(delta))
+        slope = SLOPES[name](p, value)
+        cycle = [value] if name == "exp" else [value, slope, -value, -slope]
+        series = [cycle[j % len(cycle)] * Fraction(1, factorial(j)) for j in range(order + 1)]
+    result = x.lift(series[order])
+    for c in reversed(series[:order]): result = result * d + c
+    return result.widened(ball(left * upper(largest)).size() + 1)

@@ -1,529 +1,363 @@
-"""The matrix language of methods and problems: text -> tree -> matrix.
+"""The matrix language of docs/language.md: text -> tree -> matrix.
 
 The elements of a matrix are numbers of any kind of arithmetic.py. So the same text gives exact
 values, enclosures for all values of a variable, derivatives, or functions of the unknowns.
-The language is that of docs/language.md. A name or function that is not here raises Unsupported.
+A name or function that is not here raises Unsupported.
 """
 
+import operator
 import re
+from collections import namedtuple
 from fractions import Fraction
+from functools import cache, partial, reduce
+from itertools import islice
 
-from arithmetic import (BITS, PI, Affine, Ball, Dual, Taylor, Undecided, Unsupported, ball,
-                        ball_exp, function, inverse, is_exact, middle, sign, typical, upper)
-from definite import spectral_norm
-from matrices import (Matrix, column, diagonal, exactly, flat, identity, invert, join_blocks,
-                      null_space, number, row_echelon, zeros)
+from arithmetic import (BITS, PI, Affine, Dual, Taylor, Undecided, Unsupported, ball, function,
+                        inverse, is_exact, is_zero, middle, sign, upper)
+from matrices import (Matrix, beside, column, diagonal, exactly, filled, flat, identity, invert,
+                      join_blocks, null_space, number, pivots_of, reduced, spectral_norm, stacked,
+                      zeros)
 
-# Tokens and trees. A tree is a tuple: its kind, then its parts. In 2./v the point belongs to the
-# operator, not to the number.
-
+# Trees: a tuple of a kind and its parts. In 2./v the point belongs to the operator.
 TOKEN = re.compile(r"""\s*(?:
     (?P<number>\d+(?=\.[*/^])|(?:\d+(?:\.(?!\.)\d*)?|\.\d+)(?:[eE][+-]?\d+)?)
   | (?P<name>[A-Za-z_]\w*)
-  | (?P<sign>\.\.|\.\^|\.\*|\./|<=|>=|==|!=|[-+*/^'()\[\],;:<>{}]))""", re.X)
-COMPARISONS = ("<", ">", "<=", ">=", "==", "!=")
-LONGEST = 100_000
-
-def tokens_of(text):
-    if len(text) > LONGEST: raise Unsupported("a formula of more than %d characters" % LONGEST)
-    tokens, at, text = [], 0, text.strip()
-    while at < len(text):
-        found = TOKEN.match(text, at)
-        if not found: raise Unsupported("the text %r" % text[at:at + 20])
-        tokens.append((found.lastgroup, found.group(found.lastgroup)))
-        at = found.end()
-    return tokens
+  | (?P<sign>\.\.|\.\^|\.\*|\./|<=|>=|==|!=|[-+*/^'()\[\],;:<>{}])
+  | (?P<other>\S))""", re.X)
+DECIMAL = re.compile(r"-?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,3})?")
+RELATIONS = {"<": operator.lt, ">": operator.gt, "<=": operator.le, ">=": operator.ge,
+             "==": operator.eq, "!=": operator.ne}
+LEVELS = {"or": 1, "and": 2, **dict.fromkeys(RELATIONS, 4), "+": 5, "-": 5,
+          **dict.fromkeys(("*", "/", ".*", "./"), 6)}      # not: 3, a sign: 6, beside * and /: 7
+LONGEST = 100_000       # characters of a formula
 
 class Parser:
-    """Recursive descent; each method reads one level of the table of operators."""
-
-    def __init__(self, text): self.text, self.tokens, self.at = text, tokens_of(text), 0
-
-    def next_is(self, *signs, ahead=0):
+    """Recursive descent by the levels of operators."""
+    def __init__(self, text):
+        if len(text) > LONGEST: raise Unsupported("a formula of more than %d characters" % LONGEST)
+        self.text, self.at = text, 0
+        self.tokens = [(m.lastgroup, m.group(m.lastgroup)) for m in TOKEN.finditer(text)]
+    def token(self, ahead=0):
         at = self.at + ahead
-        return at < len(self.tokens) and self.tokens[at][0] != "number" and \
-            self.tokens[at][1] in signs
-
+        return self.tokens[at] if at < len(self.tokens) else ("end", "")
+    def next_is(self, *signs, ahead=0):
+        kind, text = self.token(ahead)
+        return kind in ("sign", "name") and text in signs
     def take(self):
         self.at += 1
-        return self.tokens[self.at - 1][1]
-
+        return self.token(-1)[1]
     def taken(self, *signs):
         """The next sign if it is one of these; it is consumed."""
         return self.take() if self.next_is(*signs) else None
-
-    def expect(self, sign_):
-        if not self.taken(sign_): raise Unsupported("%r is missing in %r" % (sign_, self.text[:60]))
-
-    def whole(self):
-        tree = self.condition()
-        if self.at < len(self.tokens):
-            raise Unsupported("%r in %r" % (self.tokens[self.at][1], self.text[:60]))
+    def expect(self, text):
+        if not self.taken(text): raise Unsupported("%r is missing in %r" % (text, self.text[:60]))
+    def whole(self, read):
+        tree = read(self)
+        if self.at == len(self.tokens): return tree
+        raise Unsupported("%r in %r" % (self.token()[1], self.text[:60]))
+    def expression(self, level=1):
+        """Operators of this level and above, from left to right."""
+        if self.taken("not"): tree = ("not", self.expression(3))
+        elif self.taken("-"): tree = ("minus", self.expression(max(level, 6)))
+        elif self.taken("+"): tree = self.expression(max(level, 6))
+        else: tree = self.factor()
+        chain = None        # of comparisons
+        while self.next_is(*LEVELS) and LEVELS[self.token()[1]] >= level:
+            sign_ = self.take()
+            right = self.expression(LEVELS[sign_] + 1)
+            if sign_ not in RELATIONS: tree = (sign_, tree, right)
+            elif tree is chain: tree[1].extend([sign_, right])
+            else: tree = chain = ("compare", [tree, sign_, right])
         return tree
-
-    def chain(self, signs, read):
-        tree = read()
-        while self.next_is(*signs): tree = (self.take(), tree, read())
-        return tree
-
-    def condition(self): return self.chain(("or",), self.conjunction)
-    def conjunction(self): return self.chain(("and",), self.negation)
-    def negation(self): return ("not", self.negation()) if self.taken("not") else self.comparison()
-    def sum(self): return self.chain(("+", "-"), self.term)
-
-    def comparison(self):
-        parts = [self.sum()]
-        while self.next_is(*COMPARISONS): parts += [self.take(), self.sum()]
-        return ("compare", parts) if len(parts) > 1 else parts[0]
-
-    def term(self):
-        if self.taken("-"): return ("minus", self.term())
-        if self.taken("+"): return self.term()
-        return self.chain(("*", "/", ".*", "./"), lambda: self.signed(self.factor))
-
-    def signed(self, read): return ("minus", read()) if self.taken("-") else read()
-
     def factor(self):
         """A value with what follows it, from left to right: A^2' is (A^2)'."""
         tree = self.value()
         while True:
             if self.taken("'"): tree = ("'", tree)
-            elif self.next_is("^", ".^"): tree = (self.take(), tree, self.signed(self.value))
-            elif self.taken("("): tree = ("call", tree, self.arguments())
+            elif self.next_is("^", ".^"):
+                power, negative = self.take(), self.taken("-")
+                tree = (power, tree, ("minus", self.value()) if negative else self.value())
+            elif self.taken("("): tree = ("call", tree, self.listed(self.argument, ")"))
             else: return tree
-
-    def arguments(self):
-        found = []
-        if self.taken(")"):
-            return found
-        while True:
-            found.append(self.argument())
-            if not self.taken(","):
-                self.expect(")")
-                return found
-
+    def listed(self, read, end):
+        found = [] if self.next_is(end) else [read()]
+        while self.taken(","): found.append(read())
+        self.expect(end)
+        return found
     def argument(self):
         if self.taken(":"): return ("all",)
         if self.next_is("in", ahead=1):
-            name = self.take()
-            self.take()
-            low = self.sum()
+            name, _, low = self.take(), self.take(), self.expression(5)
             self.expect("..")
-            return ("range", name, low, self.sum())
-        tree = self.condition()
-        return ("span", tree, self.sum()) if self.taken(":") else tree
-
+            return ("range", name, low, self.expression(5))
+        tree = self.expression()
+        return ("span", tree, self.expression(5)) if self.taken(":") else tree
     def value(self):
-        if self.at >= len(self.tokens): raise Unsupported("the end of %r" % self.text[:60])
-        kind, text = self.tokens[self.at]
-        if kind in ("number", "name"):
-            self.at += 1
-            return (kind, decimal(text) if kind == "number" else text)
+        kind = self.token()[0]
+        if kind == "number": return (kind, decimal(self.take()))
+        if kind == "name": return (kind, self.take())
         if self.taken("("):
-            tree = self.condition()
+            tree = self.expression()
             self.expect(")")
             return tree
         self.expect("[")
-        rows = [[]]
-        while True:
-            if self.next_is("*") and self.next_is(",", ";", "]", ahead=1):
-                self.take()
-                rows[-1].append(("mirror",))
-            else: rows[-1].append(self.condition())
-            separator = self.taken(",", ";")
-            if separator == ";": rows.append([])
-            elif not separator:
-                self.expect("]")
-                return ("block", rows)
-
-DECIMAL = re.compile(r"-?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,4})?")
+        rows = [[self.entry()]]
+        while self.next_is(",", ";"):
+            if self.take() == ";": rows.append([])
+            rows[-1].append(self.entry())
+        self.expect("]")
+        return ("block", rows)
+    def entry(self):
+        """An entry of a matrix; None for a * that stands alone."""
+        if not self.next_is("*") or not self.next_is(",", ";", "]", ahead=1):
+            return self.expression()
+        self.take()
+        return None
 
 def decimal(text):
     """The fraction that a decimal is."""
-    if len(text) > 2000 or not DECIMAL.fullmatch(text):
-        raise Unsupported("the number %s" % text[:40])
-    mantissa, _, exponent = text.lower().partition("e")
-    if abs(int(exponent or 0)) > 1000: raise Unsupported("the exponent of %s" % text[:40])
-    return Fraction(mantissa) * Fraction(10) ** int(exponent or 0)
-
-TREES = {}
-
-def parse(text):
-    if text not in TREES: TREES[text] = Parser(text).whole()
-    return TREES[text]
+    if len(text) < 2000 and DECIMAL.fullmatch(text): return Fraction(text)
+    raise Unsupported("the number %s" % text[:40])
+@cache
+def parse(text): return Parser(text).whole(Parser.expression)
+def parse_range(text): return Parser(text).whole(Parser.argument)
 
 # Names.
-
 class Scope:
     """Names with their values; an inner scope hides names of the outer one."""
-
-    def __init__(self, outer=None, names=None): self.outer, self.names = outer, dict(names or {})
-
+    def __init__(self, outer=None, names=()): self.outer, self.names = outer, dict(names)
     def find(self, name):
-        scope = self
-        while scope is not None:
-            if name in scope.names:
-                value = scope.names[name]
-                return value.get() if isinstance(value, Later) else value
-            scope = scope.outer
-        return None
-
+        """The value of a name, or None."""
+        if name not in self.names: return self.outer and self.outer.find(name)
+        value = self.names[name]
+        return value.get() if isinstance(value, Later) else value
     def is_local(self, name):
         """Whether a variable or argument has this name, not a datum or a definition."""
-        scope = self
-        while scope.outer is not None:
-            if name in scope.names: return True
-            scope = scope.outer
-        return False
+        return self.outer is not None and (name in self.names or self.outer.is_local(name))
 
 class Later:
     """A value that is computed when it is first used, once."""
+    def __init__(self, compute): self.get = cache(compute)
 
-    def __init__(self, compute): self.compute, self.busy, self.done = compute, False, False
+# A definition with arguments, or an unknown that is a function.
+Function = namedtuple("Function", "apply derivative", defaults=[None])
 
-    def get(self):
-        if not self.done:
-            if self.busy: raise Unsupported("a definition that uses itself")
-            self.busy = True
-            try:
-                self.value, self.done = self.compute(), True
-            finally:
-                self.busy = False
-        return self.value
-
-class Function:
-    """A definition with arguments, or an unknown that is a function."""
-
-    def __init__(self, apply, derivative=None): self.apply, self.derivative = apply, derivative
+def defined(names, text, scope):
+    """The function of these arguments that the text is."""
+    def apply(*values):
+        if len(values) < len(names): raise Unsupported("the number of arguments")
+        return matrix(parse(text), Scope(scope, zip(names, values)))
+    return Function(apply)
 
 class Family(dict):
     """Members by their indices, a tuple of whole numbers."""
 
 # Evaluation.
+CONSTANTS = {"I": Matrix([[Fraction(1)]], flexible=True), "pi": number(PI)}
 
 def evaluate(tree, scope):
     """The matrix (or Function, Family) that a tree means."""
-    kind = tree[0]
-    if kind == "number": return number(tree[1])
-    if kind == "name": return value_of_name(tree[1], scope)
-    if kind == "call": return call(tree[1], tree[2], scope)
+    kind, *parts = tree
+    if kind == "number": return number(parts[0])
+    if kind == "call": return call(*parts, scope)
     if kind == "block":
-        return join_blocks([[None if x == ("mirror",) else evaluate(x, scope) for x in row]
-                            for row in tree[1]])
-    if kind in OPERATORS: return OPERATORS[kind](*[matrix(part, scope) for part in tree[1:]])
-    raise Unsupported("a condition where a value is expected")
-
+        return join_blocks([[x and matrix(x, scope) for x in row] for row in parts[0]])
+    if kind in OPERATORS: return OPERATORS[kind](*[matrix(x, scope) for x in parts])
+    if kind != "name": raise Unsupported("a condition where a value is expected")
+    value = scope.find(parts[0])
+    if value is None and parts[0] not in CONSTANTS: raise Unsupported("the name " + parts[0])
+    return CONSTANTS[parts[0]] if value is None else value
 def matrix(tree, scope):
     value = evaluate(tree, scope)
     if not isinstance(value, Matrix): raise Unsupported("a function where a value is expected")
     return value
-
-def value_of_name(name, scope):
-    value = scope.find(name)
-    if value is not None: return value
-    if name == "I": return Matrix([[Fraction(1)]], flexible=True)
-    if name == "pi": return number(PI)
-    raise Unsupported("the name " + name)
-
 def elementwise(operation):
     """The operation on equal shapes, or on a number and a matrix."""
     def apply(a, b):
-        shape = b if a.is_number() else a
         if not (a.is_number() or b.is_number()) and a.shape() != b.shape():
             raise Unsupported("different shapes")
-        return Matrix([[operation(a.spread(i, j), b.spread(i, j)) for j in range(shape.cols)]
-                       for i in range(shape.rows)], shape.rows, shape.cols)
+        rows, cols = (b if a.is_number() else a).shape()
+        return filled(rows, cols, lambda i, j: operation(a.spread(i, j), b.spread(i, j)))
     return apply
-
+def repeated(base, k, one):
+    """base^k."""
+    if abs(k) > 10_000: raise Unsupported("an exponent above 10000")
+    return reduce(operator.mul, [base] * abs(int(k)), one)
 def power_of_number(x, k):
-    if is_exact(k) and k.denominator == 1:
-        if abs(k) > 10_000: raise Unsupported("an exponent above 10000")
-        base, result = x if k >= 0 else inverse(x), Fraction(1)
-        for _ in range(abs(int(k))): result = result * base
-        return result
-    if k == Fraction(1, 2): return function("sqrt", x)
-    return function("exp", k * function("log", x))
-
+    whole = is_exact(k) and k.denominator == 1
+    if whole: return repeated(x if k >= 0 else inverse(x), k, Fraction(1))
+    return function("sqrt", x) if k == Fraction(1, 2) else function("exp", k * function("log", x))
 def power(base, exponent):
-    k = exponent.number()
-    if base.is_number():
-        return Matrix([[power_of_number(base.number(), k)]], flexible=base.flexible)
-    n = exponent.whole()
-    if base.rows != base.cols or abs(n) > 10_000: raise Unsupported("this power of a matrix")
-    factor, result = base if n >= 0 else invert(base), identity(base.rows)
-    for _ in range(abs(n)): result = result * factor
-    return result
+    if base.is_number(): return base.map(lambda x: power_of_number(x, exponent.number()))
+    k = exponent.whole()
+    return repeated(base if k >= 0 else invert(base), k, identity(base.rows))
 
 OPERATORS = {
-    "+": lambda a, b: a + b,
-    "-": lambda a, b: a - b,
-    "*": lambda a, b: a * b,
-    "/": lambda a, b: a.map(lambda x: x * inverse(b.number())),
-    "minus": lambda a: -a,
-    "'": lambda a: a.transposed(),
-    "^": power,
-    ".*": elementwise(lambda x, y: x * y),
-    "./": elementwise(lambda x, y: x * inverse(y)),
-    ".^": elementwise(power_of_number),
-}
+    "+": operator.add, "-": operator.sub, "*": operator.mul, "minus": operator.neg, "^": power,
+    "'": Matrix.transposed, "/": lambda a, b: a.map(lambda x, y=b.number(): x * inverse(y)),
+    ".*": elementwise(operator.mul), "./": elementwise(lambda x, y: x * inverse(y)),
+    ".^": elementwise(power_of_number)}
 
 def call(head, arguments, scope):
     """f(...), a member of a family, an element or part of a matrix, or a built-in function."""
     if head[0] == "name" and scope.find(head[1]) is None: return builtin(head[1], arguments, scope)
     if head[0] == "call" and head[1] == ("name", "derivative"):
         unknown = evaluate(head[2][0], scope)
-        if not isinstance(unknown, Function) or unknown.derivative is None:
-            raise Unsupported("the derivative of what is not an unknown function")
-        return unknown.derivative(matrix(arguments[0], scope))
+        if isinstance(unknown, Function) and unknown.derivative:
+            return unknown.derivative(matrix(arguments[0], scope))
+        raise Unsupported("the derivative of what is not an unknown function")
     value = evaluate(head, scope)
     if isinstance(value, Function): return value.apply(*[matrix(x, scope) for x in arguments])
-    if isinstance(value, Family):
-        last = Scope(scope, {"end": number(Fraction(max(k[0] for k in value)))})
-        key = tuple(matrix(x, last).whole() for x in arguments)
-        if key not in value: raise Unsupported("the member %s of a family" % (key,))
-        return value[key]
-    return part_of(value, arguments, scope)
+    if isinstance(value, Matrix): return part_of(value, arguments, scope)
+    last = with_end(scope, max(k[0] for k in value))
+    key = tuple(matrix(x, last).whole() for x in arguments)
+    if key not in value: raise Unsupported("the member %s of a family" % (key,))
+    return value[key]
 
+def with_end(scope, last): return Scope(scope, {"end": number(Fraction(last))})
 def part_of(value, arguments, scope):
     """M(i, j), v(i); an index is a number, lo:hi or : alone."""
     def places(tree, length):
-        if tree == ("all",): return list(range(length))
-        inner = Scope(scope, {"end": number(Fraction(length))})
-        ends = [matrix(x, inner).whole() for x in (tree[1:] if tree[0] == "span" else [tree])]
-        found = list(range(ends[0] - 1, ends[-1]))
-        if any(not 0 <= k < length for k in found):
-            raise Unsupported("an index beyond the size of a matrix")
-        return found
+        if tree == ("all",): return range(length)
+        ends = [matrix(x, with_end(scope, length)).whole()
+                for x in (tree[1:] if tree[0] == "span" else [tree])]
+        if ends[0] >= 1 and ends[-1] <= length: return range(ends[0] - 1, ends[-1])
+        raise Unsupported("an index beyond the size of a matrix")
 
     if len(arguments) == 1 and 1 in value.shape():
         arguments = arguments + [("all",)] if value.cols == 1 else [("all",)] + arguments
     if len(arguments) != 2: raise Unsupported("the number of indices")
-    rows, cols = places(arguments[0], value.rows), places(arguments[1], value.cols)
-    return Matrix([[value[i, j] for j in cols] for i in rows], len(rows), len(cols))
-
-# Conditions.
-
-def order(x, y):
-    """The sign of x - y."""
-    return (x > y) - (x < y) if is_exact(x) and is_exact(y) else sign(x - y)
-
-def relation(sign_, x, y):
-    s = order(x, y)
-    return {"<": s < 0, ">": s > 0, "<=": s <= 0, ">=": s >= 0, "==": s == 0, "!=": s != 0}[sign_]
-
+    return value.part(places(arguments[0], value.rows), places(arguments[1], value.cols))
+def relation(name): return elementwise(lambda x, y: RELATIONS[name](sign(x - y), 0))
 def holds(tree, scope):
     """Whether a condition holds for all elements."""
-    if tree[0] == "and": return holds(tree[1], scope) and holds(tree[2], scope)
-    if tree[0] == "or": return holds(tree[1], scope) or holds(tree[2], scope)
-    if tree[0] == "not": return not holds(tree[1], scope)
-    if tree[0] != "compare": raise Unsupported("a value where a condition is expected")
-    values = [matrix(x, scope) for x in tree[1][::2]]
-    return all(all(flat(elementwise(lambda x, y, s=s: relation(s, x, y))(a, b)))
-               for a, s, b in zip(values, tree[1][1::2], values[1:]))
-
+    kind, *parts = tree
+    if kind in ("and", "or"): return {"and": all, "or": any}[kind](holds(x, scope) for x in parts)
+    if kind == "not": return not holds(parts[0], scope)
+    if kind != "compare": raise Unsupported("a value where a condition is expected")
+    values = [matrix(x, scope) for x in parts[0][::2]]
+    return all(all(flat(relation(name)(a, b)))
+               for a, name, b in zip(values, parts[0][1::2], values[1:]))
 def choose(condition, yes, no, scope):
     """where(condition, yes, no), element by element."""
     if condition[0] == "compare" and len(condition[1]) == 3:
-        left, sign_, right = condition[1]
-        truths = elementwise(lambda x, y: relation(sign_, x, y))(matrix(left, scope),
-                                                                 matrix(right, scope))
+        left, name, right = condition[1]
+        truths = relation(name)(matrix(left, scope), matrix(right, scope))
         if not truths.is_number():
-            return Matrix([[(yes if truths[i, j] else no).spread(i, j)
-                            for j in range(truths.cols)] for i in range(truths.rows)])
-        return yes if truths.number() else no
+            return filled(*truths.shape(),
+                          lambda i, j: (yes if truths[i, j] else no).spread(i, j))
     return yes if holds(condition, scope) else no
 
-# Functions.
-
+# The matrix exponential.
 def matrix_exponential(a):
-    """expm(a) by scaling, Taylor series and squaring, or for affine arguments by parts.
-
-    After scaling the norm is at most q <= 1/4. The terms beyond the j-th are less than twice its
-    bound q^j/j!. Row sums bound the norm.
-    """
-    if all(is_exact(x) and x == 0 for x in flat(a)): return identity(a.rows)
+    """expm(a) by parts that commute, or by scaling, Taylor series and squaring."""
     if any(isinstance(x, (Affine, Dual)) for x in flat(a)):
         raise Unsupported("expm of unknowns, or its derivative")
-    models = [x for x in flat(a) if isinstance(x, Taylor)]
-    if models:
-        parts = affine_parts(a, models[0])
-        if parts: return exponential_of_affine(parts, models[0])
-    norm = max(sum(upper(x) for x in row) for row in a.elements)
-    halvings = 0 if models else 8
-    norm = norm / 2 ** halvings
-    while norm > Fraction(1, 4):
-        norm, halvings = norm / 2, halvings + 1
-        if halvings > 60: raise Undecided("expm of a large matrix")
-    scaled = a.map(lambda x: (ball(x) if is_exact(x) and x != 0 else x) *
-                   Fraction(1, 2 ** halvings))
-    total = term = identity(a.rows)
-    bound, j = Fraction(1), 0
-    while bound > Fraction(1, 2 ** (BITS - 20)):
-        j += 1
-        bound = bound * norm / j
-        term = (term * scaled).map(lambda x: x * Fraction(1, j))
-        total = total + term
-    error, coupled = ball(2 * bound).size() + 1, coupling(a)
-    total = Matrix([[widened(x, error, models) if coupled[i][j] else x for j, x in enumerate(row)]
-                    for i, row in enumerate(total.elements)])
+    model = next((x for x in flat(a) if isinstance(x, Taylor)), None)
+    parts = affine_parts(a, model) if model else None
+    if parts: return reduce(operator.mul, parts)
+    halvings, norm = 0 if model else 8, row_sum(a)
+    while norm > Fraction(2 ** halvings, 4): halvings += 1
+    if halvings > 60: raise Undecided("expm of a large matrix")
+    total = exponential_series(a.map(lambda x: x if is_zero(x) else
+                                     (ball(x) if is_exact(x) else x) * Fraction(1, 2 ** halvings)))
     for _ in range(halvings): total = total * total
     return total
-
-def coupling(a):
-    """Where a power a^k, k >= 1, can differ from 0: the paths in the graph of its elements."""
-    paths = [[not (is_exact(x) and x == 0) for x in row] for row in a.elements]
-    for k in range(a.rows):
-        for i in range(a.rows):
-            if paths[i][k]: paths[i] = [x or y for x, y in zip(paths[i], paths[k])]
-    return paths
-
-def widened(x, error, models):
-    """x with an additional error of `error`/2^320."""
-    if models:
-        x = models[0].lift(x) if not isinstance(x, Taylor) else x
-        return Taylor(x.terms, x.rest + error, x.space)
-    return Ball(ball(x).m, ball(x).r + error)
-
+def row_sum(a): return max(sum(upper(x) for x in row) for row in a.elements)
 def affine_parts(a, model):
-    """[(exponent, M_e)] of a = M_0 + sum M_e t^e if all M are exact and commute, else None."""
+    """The exponentials of M_0 and of all M_e t^e, where a = M_0 + sum M_e t^e, if all M are exact
+    and commute; else None. So the error of the one does not grow with the norm of the other."""
     elements = a.map(lambda x: x if isinstance(x, Taylor) else model.lift(x))
     exponents = sorted({e for x in flat(elements) for e in x.terms})
-    parts = [(e, elements.map(lambda x, e=e: x.terms.get(e, Fraction(0)))) for e in exponents]
+    parts = [elements.map(lambda x, e=e: x.terms.get(e, Fraction(0))) for e in exponents]
     if any(x.rest for x in flat(elements)) or any(sum(e) > 1 for e in exponents) or \
-            not all(is_exact(x) for _, m in parts for x in flat(m)):
-        return None
-    commute = all((m * n).elements == (n * m).elements for _, m in parts for _, n in parts)
-    return parts if commute else None
+            not all(map(exactly, parts)) or \
+            any((m * n).elements != (n * m).elements for m in parts for n in parts): return None
+    def in_time(e): return lambda x, j: model.like({tuple(j * k for k in e): ball(x)})
+    return [exponential_series(m, in_time(e), model.space[1]) if any(e) else matrix_exponential(m)
+            for m, e in zip(parts, exponents)]
 
-def exponential_of_affine(parts, model):
-    """expm(M_0 + sum M_e t^e) = expm(M_0) times the series of expm(M_e t^e) up to the order K.
+def exponential_series(a, embed=lambda x, j: x, last=None):
+    """The series of expm(a), up to the term a^j/j! with j = last or where it is tiny; the elements
+    x of this term are replaced by embed(x, j), such as x t^j for expm(a t). With n, the largest sum
+    of a row of |a|, the rest is at most n^(j+1)/(j+1)! exp(n). It does not touch an element (i, k)
+    if no power of a does: if there is no path from i to k."""
+    total, term, j = identity(a.rows), identity(a.rows), 0
+    norm, bound = row_sum(a), Fraction(1)
+    while j != last and bound > Fraction(1, 2 ** (BITS - 20)):
+        j += 1
+        bound = bound * norm / j
+        term = (term * a).map(lambda x: x * Fraction(1, j))
+        total = total + term.map(lambda x: x if is_zero(x) else embed(x, j))
+    error = (ball(bound * norm / (j + 1)) * function("exp", ball(norm))).size() + 1
+    paths = a.map(lambda x: not is_zero(x)).elements
+    for k, row in enumerate(paths):
+        for i in range(a.rows):
+            if paths[i][k]: paths[i] = [x or y for x, y in zip(paths[i], paths[k])]
+    return filled(a.rows, a.rows, lambda i, k: total[i, k] if not paths[i][k] else
+                  (ball(total[i, k]) if is_exact(total[i, k]) else total[i, k]).widened(error))
 
-    A series leaves at most s^(K+1)/(K+1)! exp(s), where s is the largest row sum of |M_e|.
-    """
-    result, order = None, model.space[1]
-    for e, m in parts:
-        if not any(e): factor = matrix_exponential(m)
-        else:
-            norm = max(sum(map(abs, row)) for row in m.elements)
-            terms = [[{} for _ in range(m.cols)] for _ in range(m.rows)]
-            term, bound = identity(m.rows), Fraction(1)
-            for k in range(order + 1):
-                if k:
-                    term = (term * m).map(lambda x: x * Fraction(1, k))
-                    bound = bound * norm / k
-                for i in range(m.rows):
-                    for j in range(m.cols):
-                        if term[i, j] != 0: terms[i][j][tuple(k * x for x in e)] = ball(term[i, j])
-            rest = (ball(bound * norm / (order + 1)) * ball_exp(ball(norm))).size() + 1
-            coupled = coupling(m)
-            factor = Matrix([[Taylor(x, rest if coupled[i][j] else 0, model.space)
-                              for j, x in enumerate(row)] for i, row in enumerate(terms)])
-        result = factor if result is None else result * factor
-    return result
-
-def hyperbolic(name):
-    def apply(x):
-        plus, minus = function("exp", x), function("exp", -x)
-        s, c = (plus - minus) * Fraction(1, 2), (plus + minus) * Fraction(1, 2)
-        return {"sinh": s, "cosh": c}[name] if name != "tanh" else s * inverse(c)
-    return apply
-
+# Functions.
 def determinant(a):
-    rows, result = [list(row) for row in a.elements], Fraction(1)
-    for k in range(a.rows):
-        p = max(range(k, a.rows), key=lambda i: typical(rows[i][k]))
-        if p != k: rows[k], rows[p], result = rows[p], rows[k], -result
-        if is_exact(rows[k][k]) and rows[k][k] == 0: return Fraction(0)
-        result = result * rows[k][k]
-        for i in range(k + 1, a.rows):
-            f = rows[i][k] * inverse(rows[k][k])
-            rows[i] = [x - f * y for x, y in zip(rows[i], rows[k])]
-    return result
-
+    """By the first row."""
+    def minor(j): return a.part(range(1, a.rows), [k for k in range(a.cols) if k != j])
+    return Fraction(1) if a.rows == 0 else sum(
+        ((-1) ** j * x * determinant(minor(j)) for j, x in enumerate(a.elements[0])
+         if not is_zero(x)), Fraction(0))
 def observability(a, c):
     blocks = [c]
     for _ in range(a.rows - 1): blocks.append(blocks[-1] * a)
-    return Matrix([row for b in blocks for row in b.elements], a.rows * c.rows, a.cols)
-
-def lyapunov(a, q, discrete):
-    """X of A X + X A' + Q = 0, or of A X A' - X + Q = 0: n^2 equations, X column by column."""
-    n = a.rows
-    system = [[Fraction(0)] * (n * n) for _ in range(n * n)]
-    for j in range(n):
-        for i in range(n):
-            row = system[j * n + i]
-            for k in range(n):
-                if discrete:
-                    for m in range(n):
-                        row[m * n + k] = row[m * n + k] + a[i, k] * a[j, m]
-                else:
-                    row[j * n + k] = row[j * n + k] + a[i, k]
-                    row[k * n + i] = row[k * n + i] + a[j, k]
-            if discrete: row[j * n + i] = row[j * n + i] - 1
-    right = column([-q[i, j] for j in range(n) for i in range(n)])
-    x = invert(Matrix(system)) * right
-    return Matrix([[x[j * n + i, 0] for j in range(n)] for i in range(n)])
-
+    return stacked(blocks)
+def solved(system, q):
+    """X of S vec X + vec Q = 0, where vec writes the columns one below the other."""
+    x = invert(system) * column([-y for y in flat(q.transposed())])
+    return filled(q.rows, q.rows, lambda i, j: x[j * q.rows + i, 0])
 def gramian(f, hc, j, hd, lengths, backward=False):
-    """Sum over flows and the jumps between them of the outputs' squares, x'W x, by the state at
-    the start (or at the end). expm([-F', H'H; 0, F] t) = [.., expm(-F't) W; 0, expm(F t)]."""
+    """Sum over flows and the jumps between them of the outputs' squares, x'W x, by the state at the
+    start (or at the end). expm([-F', H'H; 0, F] t) = [.., expm(-F't) W; 0, expm(F t)]."""
     n, total, moved, before = f.rows, zeros(f.rows, f.rows), identity(f.rows), None
     generator = join_blocks([[-f.transposed(), hc.transposed() * hc], [zeros(n, n), f]])
+    first, second = range(n), range(n, 2 * n)
     for k, t in enumerate(flat(lengths)):
-        if k:
-            seen = hd * moved
-            total, moved = total + seen.transposed() * seen, j * moved
+        if k: total, moved = total + squared(hd * moved), j * moved
         if t is not before:
-            both = matrix_exponential(generator.map(lambda x: x * t)).elements
-            flow = Matrix([row[n:] for row in both[n:]], n, n)
-            seen_in_flow = flow.transposed() * Matrix([row[n:] for row in both[:n]], n, n)
-        total, moved, before = total + moved.transposed() * seen_in_flow * moved, flow * moved, t
+            both, before = matrix_exponential(generator.map(lambda x: x * t)), t
+            flow = both.part(second, second)
+            seen = flow.transposed() * both.part(first, second)
+        total, moved = total + moved.transposed() * seen * moved, flow * moved
     back = invert(moved) if backward else identity(n)
     return back.transposed() * total * back
+def squared(a): return a.transposed() * a
 
-def orthonormal(basis, size):
-    """The basis of docs/language.md: pivoted Cholesky factor of the projector on the range."""
+def orthonormal(subspace, a, *tolerance):
+    """The basis of docs/language.md of the range or kernel of a matrix whose rank is checked: the
+    pivoted Cholesky factor of the projector."""
+    checked_rank(a, *tolerance)
+    basis, columns, e = subspace(a), [], function("exp", ball(1))
+    size = basis.rows
     if basis.cols in (0, size): return zeros(size, 0) if basis.cols == 0 else identity(size)
-    w = basis * invert(basis.transposed() * basis) * basis.transposed()
-    columns = []
+    w = basis * invert(squared(basis)) * basis.transposed()
     for _ in range(basis.cols):
         r = [w[i, i] for i in range(size)]
         largest = max(middle(x) + upper(x - middle(x)) for x in r)
-        p = next(i for i in range(size) if sign(ball_exp(ball(Fraction(1))) * r[i] - largest) >= 0)
+        p = next(i for i in range(size) if sign(e * r[i] - largest) >= 0)
         b = [w[i, p] * inverse(function("sqrt", r[p])) for i in range(size)]
-        columns.append(b)
-        w = Matrix([[w[i, j] - b[i] * b[j] if p not in (i, j) else Fraction(0)
-                     for j in range(size)] for i in range(size)])
-    return Matrix(columns, basis.cols, size).transposed()
+        columns.append(column(b))
+        w = filled(size, size, lambda i, j: w[i, j] - b[i] * b[j] if p not in (i, j) else
+                   Fraction(0))
+    return beside(columns)
 
-def checked_rank(a, tolerance=None):
+def checked_rank(a, tolerance=number(Fraction(1, 10 ** 12))):
     """The rank of a matrix of fractions, if all singular values but those that are 0 are above the
     tolerance times the largest one. By inertia: the positive pivots of a'a - s I count the
     eigenvalues of a'a above s; here s = (tolerance)^2 trace(a'a), and trace >= largest."""
     if not exactly(a): raise Unsupported("the rank of numbers that are not rational")
-    rank, g = len(row_echelon(a)[0]), a.transposed() * a
-    s = (tolerance.number() if tolerance else Fraction(1, 10 ** 12)) ** 2
-    g = g - identity(a.cols, s * sum((g[i, i] for i in range(a.cols)), Fraction(0)))
-    rows, above = [list(row) for row in g.elements], 0
-    for k in range(a.cols if rank else 0):
-        if rows[k][k] == 0: raise Undecided("a rank")
-        above += rows[k][k] > 0
-        for i in range(k + 1, a.cols):
-            f = rows[i][k] / rows[k][k]
-            rows[i] = [x - f * y for x, y in zip(rows[i], rows[k])]
-    if above != rank: raise Undecided("a rank that depends on the tolerance")
+    rank, s = len(reduced(a, a.cols)[0]), tolerance.number() ** 2 * sum(x * x for x in flat(a))
+    pivots = list(pivots_of((squared(a) - identity(a.cols, s)).elements)) if rank else []
+    if 0 in pivots or sum(p > 0 for p in pivots) != rank:
+        raise Undecided("a rank that depends on the tolerance")
     return rank
-
-def range_basis(a, *tolerance):
-    checked_rank(a, *tolerance)
-    pivots, _ = row_echelon(a)
-    return orthonormal(Matrix([[a[i, j] for j in pivots] for i in range(a.rows)],
-                              a.rows, len(pivots)), a.rows)
-
-def kernel_basis(a, *tolerance):
-    checked_rank(a, *tolerance)
-    return orthonormal(null_space(a), a.cols)
-
+def range_of(a): return a.part(range(a.rows), reduced(a, a.cols)[0])
 def floor(x):
     if not is_exact(x): raise Undecided("floor of a number that is not rational")
     return Fraction(x.numerator // x.denominator)
@@ -531,178 +365,135 @@ def floor(x):
 def units(a, c):
     """Powers of two S: least squares of log2 of the elements of inv(S)*A*S (beside the diagonal)
     and C*S. States that no output is connected with are measured from their first one."""
-    n, logs = a.rows, []
+    n, places = a.rows, range(a.rows)
     if not (exactly(a) and exactly(c)): raise Unsupported("units of irrational numbers")
-    for i in range(n):
-        logs += [(i, j, a[i, j]) for j in range(n) if i != j and a[i, j] != 0]
-    logs += [(None, j, c[i, j]) for i in range(c.rows) for j in range(n) if c[i, j] != 0]
-    normal, right = [[Fraction(0)] * n for _ in range(n)], [Fraction(0)] * n
+    logs = [(i, j, a[i, j]) for i in places for j in places if i != j and a[i, j] != 0]
+    logs += [(n, j, row[j]) for row in c.elements for j in places if row[j] != 0]
+    normal, right = zeros(n, n).elements, [Fraction(0)] * n
     group = list(range(n + 1))          # connected states; n stands for the outputs
     for i, j, x in logs:
         value = function("log", abs(x)) * inverse(function("log", Fraction(2)))
-        ends = [(j, 1)] if i is None else [(j, 1), (i, -1)]
+        ends = [(j, 1)] + ([(i, -1)] if i < n else [])
         for k, s in ends:
             right[k] = right[k] - s * value
             for m, t in ends: normal[k][m] += s * t
-        old, new = group[n if i is None else i], group[j]
-        group = [new if g == old else g for g in group]
-    for k in range(n):
+        group = [group[j] if g == group[i] else g for g in group]
+    for k in places:
         if group[k] != group[n] and group.index(group[k]) == k: normal[k][k] += 1
     exponents = invert(Matrix(normal)) * column(right)
     return diagonal([Fraction(2) ** nearest(x) for x in flat(exponents)])
 
 def nearest(x):
-    """The nearest whole number. A ball around k + 1/2 is undecided; around k it is k."""
-    k = (middle(x) + Fraction(1, 2)).__floor__()
+    """The nearest whole number. A ball around k + 1/2 is undecided."""
+    k = floor(middle(x) + Fraction(1, 2))
     if upper(x - k) >= Fraction(1, 2): raise Undecided("a rounding")
     return k
-
-def chebyshev(k, u):
-    """T_k(u) by T_k = 2 u T_(k-1) - T_(k-2)."""
-    before, now = u, Fraction(1)
-    for _ in range(k): before, now = now, 2 * (u * now) - before
-    return now
-
-def choose_element(name):
-    keep = (lambda s: s >= 0) if name == "max" else (lambda s: s <= 0)
-
-    def pick(x, y): return x if keep(order(x, y)) else y
-
+def basis_functions(t, span=None):
+    """(b_k(t), b_k'(t)) for k = 0, 1, ...: powers, or the Chebyshev polynomials on the span. b_k =
+    t b_(k-1), or b_k = 2 u b_(k-1) - b_(k-2) with u = (2 t - low - high)/(high - low)."""
+    b, d = Fraction(1), Fraction(0)
+    if span:
+        slope = 2 * inverse(span[1] - span[0])
+        u = (t - span[0]) * slope - 1
+        before = (u, slope)
+    while True:
+        yield b, d
+        if span: before, b, d = (b, d), 2 * (u * b) - before[0], 2 * (slope * b + u * d) - before[1]
+        else: b, d = t * b, b + t * d
+def chebyshev(k, t, low, high):
+    functions = basis_functions(t.number(), (low.number(), high.number()))
+    return number(next(islice(functions, k.whole(), None))[0])
+def extreme(name):
+    """The largest or smallest, element by element, or of the elements of one argument."""
     def apply(*values):
         if len(values) == 1: values = [number(x) for x in flat(values[0])]
-        result = values[0]
-        for value in values[1:]: result = elementwise(pick)(result, value)
-        return result
+        return reduce(elementwise(lambda x, y: x if RELATIONS[name](sign(x - y), 0) else y), values)
     return apply
-
-def norm(a):
-    if 1 in a.shape(): return function("sqrt", sum((x * x for x in flat(a)), Fraction(0)))
-    return spectral_norm(a)
-
 def pseudo_inverse(a):
     t = a.transposed()
     return invert(t * a) * t if a.rows >= a.cols else t * invert(a * t)
-
-def skew(v):
-    a, b, c = flat(v)
-    zero = Fraction(0)
-    return Matrix([[zero, -c, b], [c, zero, -a], [-b, a, zero]])
-
 def kronecker(a, b):
     return Matrix([[x * y for x in row for y in other] for row in a.elements
                    for other in b.elements], a.rows * b.rows, a.cols * b.cols)
-
 def discretized(a, b, t):
     n, m = a.rows, b.cols
-    joined = Matrix([list(a.elements[i]) + list(b.elements[i]) for i in range(n)] +
-                    [[Fraction(0)] * (n + m)] * m)
-    return Matrix(matrix_exponential(t * joined).elements[:n], n, n + m)
-
-def diagonal_or_its_matrix(a):
-    if 1 in a.shape(): return diagonal(flat(a))
-    return column([a[i, i] for i in range(a.rows)])
-
-def ones(n, m=None):
-    m = (m or n).whole()
-    return Matrix([[Fraction(1)] * m for _ in range(n.whole())], n.whole(), m)
-
+    joined = stacked([beside([a, b]), zeros(m, n + m)])
+    return matrix_exponential(t * joined).part(range(n), range(n + m))
 def each(operation): return lambda a: a.map(operation)
-
-def stacked(items):
-    if len({x.cols for x in items}) > 1: raise Unsupported("different widths in vertcat")
-    return Matrix([row for x in items for row in x.elements], sum(x.rows for x in items),
-                  items[0].cols)
-
+def shaped(x): return lambda n, m=None: filled(n.whole(), (m or n).whole(), lambda i, j: x)
+def diagonal_or_its_matrix(a):
+    return diagonal(flat(a)) if 1 in a.shape() else column([a[i, i] for i in range(a.rows)])
 def block_diagonal(items):
-    cols, rows, before = sum(x.cols for x in items), [], 0
-    for x in items:
-        for row in x.elements:
-            rows.append([Fraction(0)] * before + list(row) +
-                        [Fraction(0)] * (cols - before - x.cols))
-        before += x.cols
-    return Matrix(rows, len(rows), cols)
+    return stacked([beside([x if i == j else zeros(x.rows, y.cols) for j, y in enumerate(items)])
+                    for i, x in enumerate(items)])
 
-LISTS = {
-    "sum": lambda items: sum(items[1:], items[0]) if items else number(Fraction(0)),
-    "vertcat": stacked,
-    "horzcat": lambda items: stacked([x.transposed() for x in items]).transposed(),
-    "blkdiag": block_diagonal,
-}
+LISTS = {"sum": lambda items: reduce(operator.add, items or [number(Fraction(0))]),
+         "vertcat": stacked, "horzcat": beside, "blkdiag": block_diagonal}
 BUILTINS = {
-    "He": lambda a: a + a.transposed(),
-    "inv": invert, "pinv": pseudo_inverse, "expm": matrix_exponential,
-    "tan": each(lambda x: function("sin", x) * inverse(function("cos", x))),
-    "log10": each(lambda x: function("log", x) * inverse(function("log", Fraction(10)))),
-    "abs": each(lambda x: x if sign(x) >= 0 else -x),
-    "sign": each(lambda x: Fraction(sign(x))),
-    "floor": each(floor), "ceil": each(lambda x: -floor(-x)),
+    "inv": invert, "pinv": pseudo_inverse, "expm": matrix_exponential, "floor": each(floor),
+    **{name: each(lambda x, name=name: function(name, x))
+       for name in ("exp", "sin", "cos", "sqrt", "log")},
     "mod": elementwise(lambda x, y: x - y * floor(x * inverse(y))),
-    "min": choose_element("min"), "max": choose_element("max"),
+    "min": extreme("<="), "max": extreme(">="), "diag": diagonal_or_its_matrix,
     "trace": lambda a: number(sum((a[i, i] for i in range(a.rows)), Fraction(0))),
-    "det": lambda a: number(determinant(a)),
-    "norm": lambda a: number(norm(a)),
-    "eye": lambda n: identity(n.whole()),
-    "zeros": lambda n, m=None: zeros(n.whole(), (m or n).whole()),
-    "ones": ones, "diag": diagonal_or_its_matrix, "kron": kronecker, "skew": skew,
-    "orth": range_basis, "null": kernel_basis, "units": units,
-    "rank": lambda a, *tolerance: number(Fraction(checked_rank(a, *tolerance))),
-    "obsv": observability,
-    "ctrb": lambda a, b: observability(a.transposed(), b.transposed()).transposed(),
-    "c2d": discretized,
-    "gramian": gramian,
-    "backward_gramian": lambda f, hc, j, hd, t: gramian(f, hc, j, hd, t, True),
-    "lyap": lambda a, q: lyapunov(a, q, False),
-    "dlyap": lambda a, q: lyapunov(a, q, True),
-    "chebyshev": lambda k, s, low, high: number(chebyshev(
-        k.whole(), (2 * s.number() - low.number() - high.number()) *
-        inverse(high.number() - low.number()))),
-}
-BUILTINS.update({name: each(lambda x, name=name: function(name, x))
-                 for name in ("exp", "sin", "cos", "sqrt", "log")})
-BUILTINS.update({name: each(hyperbolic(name)) for name in ("sinh", "cosh", "tanh")})
+    "det": lambda a: number(determinant(a)), "norm": lambda a: number(spectral_norm(a)),
+    "eye": lambda n: identity(n.whole()), "zeros": shaped(Fraction(0)), "ones": shaped(Fraction(1)),
+    "kron": kronecker, "orth": partial(orthonormal, range_of),
+    "null": partial(orthonormal, null_space), "units": units,
+    "rank": lambda *arguments: number(Fraction(checked_rank(*arguments))),
+    "obsv": observability, "c2d": discretized, "gramian": gramian, "chebyshev": chebyshev,
+    "backward_gramian": partial(gramian, backward=True),
+    "lyap": lambda a, q: solved(kronecker(identity(a.rows), a) + kronecker(a, identity(a.rows)), q),
+    "dlyap": lambda a, q: solved(kronecker(a, a) - identity(a.rows ** 2), q)}
+# Functions that the language can define.
+DEFINITIONS = {name: defined(arguments.split(), text, Scope()) for name, arguments, text in (
+    ("He", "A", "A + A'"), ("ctrb", "A B", "obsv(A', B')'"), ("tan", "x", "sin(x)./cos(x)"),
+    ("sinh", "x", "(exp(x) - exp(-x))/2"), ("cosh", "x", "(exp(x) + exp(-x))/2"),
+    ("tanh", "x", "sinh(x)./cosh(x)"), ("log10", "x", "log(x)/log(10)"),
+    ("abs", "x", "where(x >= 0, x, -x)"), ("sign", "x", "where(x > 0, 1, where(x < 0, -1, 0))"),
+    ("ceil", "x", "-floor(-x)"),
+    ("skew", "v", "[0, -v(3), v(2); v(3), 0, -v(1); -v(2), v(1), 0]"))}
 
 def builtin(name, arguments, scope):
     if name == "where":
-        return choose(arguments[0], matrix(arguments[1], scope), matrix(arguments[2], scope), scope)
-    if name == "jacobian": return jacobian(arguments[0], arguments[1], scope)
+        return choose(arguments[0], *[matrix(x, scope) for x in arguments[1:]], scope)
+    if name == "jacobian": return jacobian(*arguments, scope)
     if name in LISTS:
         items = list_items(arguments, scope)
         if name == "sum" and len(arguments) == 1: return number(sum(flat(items[0]), Fraction(0)))
         return LISTS[name](items)
+    values = [matrix(x, scope) for x in arguments]
+    if name in DEFINITIONS: return DEFINITIONS[name].apply(*values)
     if name not in BUILTINS: raise Unsupported("the function " + name)
-    return BUILTINS[name](*[matrix(x, scope) for x in arguments])
-
+    return BUILTINS[name](*values)
 def list_items(arguments, scope):
     """The values of sum(i in 1..N, M) and the like; or those of the arguments."""
-    scopes = [scope]
-    while arguments[0][0] == "range":
-        _, name, low, high = arguments[0]
-        scopes = [Scope(s, {name: number(Fraction(k))}) for s in scopes
-                  for k in range(matrix(low, s).whole(), matrix(high, s).whole() + 1)]
-        arguments = arguments[1:]
-    return [matrix(x, s) for s in scopes for x in arguments]
+    ranges = [x for x in arguments if x[0] == "range"]
+    return [matrix(x, s) for _, s in members(ranges, scope) for x in arguments[len(ranges):]]
+def members(ranges, scope):
+    """[(indices, scope)] of several i in low..high."""
+    found = [((), scope)]
+    for _, name, low, high in ranges:
+        found = [(key + (k,), Scope(s, {name: number(Fraction(k))})) for key, s in found
+                 for k in range(matrix(low, s).whole(), matrix(high, s).whole() + 1)]
+    return found
 
 OPEN_JACOBIANS = []
 
 def jacobian(expression, variable, scope):
     """The derivatives of the expression by an argument or a variable of forall, by dual numbers.
-
     Definitions without arguments do not depend on such a variable. A jacobian within a jacobian
-    would mix the derivatives of both and is refused, and so is one by a datum.
-    """
-    name = variable[1] if variable[0] == "name" else ""
-    if not scope.is_local(name):
-        raise Unsupported("a jacobian by what is not a variable or an argument")
-    value = scope.find(name)
+    would mix the derivatives of both and is refused, and so is one by a datum."""
     if OPEN_JACOBIANS: raise Unsupported("a jacobian within a jacobian")
-    seeds = Matrix([[Dual(value[i, j], {i + j * value.rows: Fraction(1)})
-                     for j in range(value.cols)] for i in range(value.rows)])
-    OPEN_JACOBIANS.append(name)
+    if variable[0] != "name" or not scope.is_local(variable[1]):
+        raise Unsupported("a jacobian by what is not a variable or an argument")
+    value = scope.find(variable[1])
+    rows, cols = value.shape()
+    seeds = filled(rows, cols, lambda i, j: Dual({0: value[i, j], 1 + i + j * rows: Fraction(1)}))
+    OPEN_JACOBIANS.append(variable)
     try:
-        result = matrix(expression, Scope(scope, {name: seeds}))
+        result = flat(matrix(expression, Scope(scope, {variable[1]: seeds})).transposed())
     finally:
         OPEN_JACOBIANS.pop()
-    slopes = [x.slopes if isinstance(x, Dual) else {}
-              for j in range(result.cols) for x in [result[i, j] for i in range(result.rows)]]
-    size = value.rows * value.cols
-    return Matrix([[s.get(k, Fraction(0)) for k in range(size)] for s in slopes], len(slopes), size)
+    slopes = [x.terms if isinstance(x, Dual) else {} for x in result]
+    return filled(len(slopes), rows * cols, lambda i, k: slopes[i].get(k + 1, Fraction(0)))

@@ -1,75 +1,69 @@
-"""Matrices whose elements are numbers of any kind, and elimination."""
+"""Matrices whose elements are numbers of any kind; elimination; what is positive definite."""
 
 from fractions import Fraction
+from functools import cache
+from itertools import product
+from math import comb, prod
 
-from arithmetic import Ball, Unsupported, ball, inverse, is_exact, sum_of_balls, typical
+from arithmetic import (Ball, Undecided, Unsupported, ball, function, inverse, is_exact, is_zero,
+                        level, middle, sign, sum_of_balls, typical, upper)
 
 LONGEST_FRACTION = 3000     # bits; longer inverses become balls
 
 class Matrix:
     """rows x cols elements. `flexible`: a multiple of I, whose size the context gives."""
-
     def __init__(self, elements, rows=None, cols=None, flexible=False):
         self.elements, self.flexible = elements, flexible
         self.rows = len(elements) if rows is None else rows
-        self.cols = (len(elements[0]) if elements else 0) if cols is None else cols
-        if self.rows != len(elements) or any(len(row) != self.cols for row in elements):
+        self.cols = len((elements or [[]])[0]) if cols is None else cols
+        if any(len(row) != self.cols for row in elements):
             raise Unsupported("rows of different lengths")
-
     def __getitem__(self, place): return self.elements[place[0]][place[1]]
     def shape(self): return (self.rows, self.cols)
     def is_number(self): return self.shape() == (1, 1)
-
     def number(self):
-        if not self.is_number():
-            raise Unsupported("a number is expected, not %d x %d" % self.shape())
-        return self.elements[0][0]
-
+        if self.is_number(): return self.elements[0][0]
+        raise Unsupported("a number is expected, not %d x %d" % self.shape())
     def whole(self):
         x = self.number()
         if not is_exact(x) or x.denominator != 1 or abs(x) > 10 ** 6:
             raise Unsupported("a whole number is expected")
         return int(x)
-
     def is_zero(self):
         """Whether this is the number 0, which takes any size."""
-        return self.is_number() and is_exact(self.elements[0][0]) and self.elements[0][0] == 0
-
+        return self.is_number() and is_zero(self.elements[0][0])
     def spread(self, i, j):
         """Element (i, j), where a number stands for all elements."""
         return self.elements[0][0] if self.is_number() else self.elements[i][j]
-
     def map(self, f):
-        return Matrix([[f(x) for x in row] for row in self.elements], self.rows, self.cols,
-                      self.flexible)
-
+        return Matrix([[f(x) for x in row] for row in self.elements], *self.shape(), self.flexible)
     def transposed(self):
-        return Matrix([[self.elements[i][j] for i in range(self.rows)] for j in range(self.cols)],
+        return Matrix([[row[j] for row in self.elements] for j in range(self.cols)],
                       self.cols, self.rows, self.flexible)
-
+    def part(self, rows, cols):
+        return filled(len(rows), len(cols), lambda i, j: self.elements[rows[i]][cols[j]])
     def __neg__(self): return self.map(lambda x: -x)
     def __sub__(self, other): return self + (-other)
-
     def __add__(self, other):
         a, b = (other, self) if self.flexible and not other.flexible else (self, other)
-        if a.is_zero() and not b.flexible or b.is_zero():
-            return b if a.is_zero() and not b.is_zero() else a
-        if b.flexible and not a.flexible:
-            if a.rows != a.cols: raise Unsupported("I beside a matrix that is not square")
-            b = identity(a.rows, b.number())
-        if a.shape() != b.shape():
-            a, b = (b, a) if a.is_number() else (a, b)
-            if not (b.is_number() and 1 in a.shape()):
-                raise Unsupported("a sum of %d x %d and %d x %d" % (a.shape() + b.shape()))
+        if b.is_zero(): return a
+        if a.is_zero() and not b.flexible: return b
+        if b.flexible and not a.flexible: b = b.sized(*a.shape())
+        if a.is_number(): a, b = b, a
+        if a.shape() != b.shape() and not (b.is_number() and 1 in a.shape()):
+            raise Unsupported("a sum of %d x %d and %d x %d" % (a.shape() + b.shape()))
         return Matrix([[x + b.spread(i, j) for j, x in enumerate(row)]
-                       for i, row in enumerate(a.elements)], a.rows, a.cols,
-                      a.flexible and b.flexible)
-
+                       for i, row in enumerate(a.elements)], *a.shape(), a.flexible and b.flexible)
+    def sized(self, rows, cols):
+        """This matrix at a place of a given size: I and 0 take it, others must have it."""
+        if self.is_zero(): return zeros(rows, cols)
+        if self.flexible and rows == cols: return identity(rows, self.number())
+        if not self.flexible and self.shape() == (rows, cols): return self
+        raise Unsupported("%d x %d at a place of %d x %d" % (self.shape() + (rows, cols)))
     def __mul__(self, other):
         for a, b in ((self, other), (other, self)):
             if a.is_number() and (a.flexible or not b.flexible or b.is_number()):
-                x = a.number()
-                scaled = b.map(lambda y: x * y)
+                scaled = b.map(lambda y, x=a.number(): x * y)
                 scaled.flexible = b.flexible or (a.flexible and b.is_number())
                 return scaled
         if self.cols != other.rows:
@@ -79,128 +73,200 @@ class Matrix:
                       self.rows, other.cols)
 
 def dot(a, b):
-    pairs = [(x, y) for x, y in zip(a, b)
-             if not (is_exact(x) and x == 0 or is_exact(y) and y == 0)]
+    pairs = [(x, y) for x, y in zip(a, b) if not is_zero(x) and not is_zero(y)]
     if pairs and all(isinstance(z, Ball) for pair in pairs for z in pair):
         return sum_of_balls(pairs)
     return sum((x * y for x, y in pairs), Fraction(0))
-
+def form(v, a, w):
+    """v'aw of lists v, w."""
+    return dot(v, [dot(row, w) for row in a.elements])
+def filled(rows, cols, element):
+    """The matrix of element(i, j)."""
+    return Matrix([[element(i, j) for j in range(cols)] for i in range(rows)], rows, cols)
 def number(x): return Matrix([[x]])
-def column(values): return Matrix([[x] for x in values], len(values), 1)
-def zeros(rows, cols): return Matrix([[Fraction(0)] * cols for _ in range(rows)], rows, cols)
-
+def column(values): return filled(len(values), 1, lambda i, j: values[i])
+def zeros(rows, cols): return filled(rows, cols, lambda i, j: Fraction(0))
+def identity(n, x=Fraction(1)): return diagonal([x] * n)
 def diagonal(values):
     n = len(values)
-    return Matrix([[values[i] if i == j else Fraction(0) for j in range(n)] for i in range(n)],
-                  n, n)
-
-def identity(n, x=Fraction(1)): return diagonal([x] * n)
+    return filled(n, n, lambda i, j: values[i] if i == j else Fraction(0))
 def flat(a): return [x for row in a.elements for x in row]
+def exactly(a): return all(is_exact(x) for x in flat(a))        # all elements are fractions
+def stacked(items):
+    if len({x.cols for x in items}) > 1: raise Unsupported("different widths of stacked matrices")
+    return Matrix([row for x in items for row in x.elements], sum(x.rows for x in items),
+                  items[0].cols)
+def beside(items): return stacked([x.transposed() for x in items]).transposed()
+def join_blocks(blocks):
+    """[a, b; c, d]. None stands for `*`, the transpose of the mirrored block. Zeros and multiples
+    of I take their size from their block row and block column."""
+    if any(len(row) != len(blocks[0]) for row in blocks):
+        return stacked([join_blocks([row]) for row in blocks])     # each row has its own columns
+    heights, widths = block_sizes(blocks)
+    full = [[x and x.sized(heights[i], widths[j]) for j, x in enumerate(row)]
+            for i, row in enumerate(blocks)]
+    for i, j in product(range(len(blocks)), range(len(blocks[0]))):
+        if blocks[i][j] is None:
+            if len(blocks) != len(blocks[0]) or blocks[j][i] is None:
+                raise Unsupported("a * without a mirrored block")
+            full[i][j] = full[j][i].transposed()
+    return stacked([beside(row) for row in full])
 
-def exactly(a):
-    """Whether all elements are fractions."""
-    return all(is_exact(x) for x in flat(a))
+def block_sizes(blocks):
+    """Heights of block rows and widths of block columns; sizes that nothing gives are 1."""
+    count, known, equal = len(blocks), {}, []       # block column j has the name count + j
+    for i, row in enumerate(blocks):
+        for j, x in enumerate(row):
+            if x is None: equal += [(k, count + k) for k in range(count)]
+            elif x.flexible and not x.is_zero(): equal.append((i, count + j))
+            elif not x.is_zero():
+                known.setdefault(i, x.rows)
+                known.setdefault(count + j, x.cols)
+    for _ in range(count + len(blocks[0])):
+        for a, b in equal:
+            size = known.get(a, known.get(b))
+            if size is not None: known.update({a: size, b: known.get(b, size)})
+    sizes = [known.get(k, 1) for k in range(count + len(blocks[0]))]
+    return sizes[:count], sizes[count:]
 
-def invert(a):
-    """The inverse by Gauss-Jordan elimination; the largest pivot of each column."""
-    if a.flexible: return a.map(inverse)
-    if a.rows != a.cols: raise Unsupported("the inverse of a matrix that is not square")
-    n = a.rows
-    rows = [list(a.elements[i]) + [Fraction(int(i == j)) for j in range(n)] for i in range(n)]
-    for k in range(n):
-        p = max(range(k, n), key=lambda i: typical(rows[i][k]))
-        rows[k], rows[p] = rows[p], rows[k]
-        factor = inverse(rows[k][k])
-        rows[k] = [x * factor for x in rows[k]]
-        for i in range(n):
-            f = rows[i][k]
-            if i != k and not (is_exact(f) and f == 0):
-                rows[i] = [x - f * y for x, y in zip(rows[i], rows[k])]
-    result = Matrix([row[n:] for row in rows], n, n)
-    if exactly(result) and any(x.denominator.bit_length() > LONGEST_FRACTION
-                               for x in flat(result)):
-        return result.map(ball)
-    return result
-
-def row_echelon(a):
-    """(pivot columns, reduced rows) of a matrix of fractions."""
+# Elimination.
+def reduced(a, cols):
+    """(pivot columns, rows) of the Gauss-Jordan elimination in the first columns of a; the pivot is
+    the largest of its column. A column without a pivot is all zeros below, as fractions."""
     rows, pivots = [list(row) for row in a.elements], []
-    for j in range(a.cols):
+    for j in range(cols):
         i = len(pivots)
-        p = next((k for k in range(i, a.rows) if rows[k][j] != 0), None)
-        if p is None: continue
+        if all(is_zero(row[j]) for row in rows[i:]): continue
+        p = max(range(i, a.rows), key=lambda k: typical(rows[k][j]))
         rows[i], rows[p] = rows[p], rows[i]
-        rows[i] = [x / rows[i][j] for x in rows[i]]
+        factor = inverse(rows[i][j])
+        rows[i] = [x * factor for x in rows[i]]
         for k in range(a.rows):
-            if k != i and rows[k][j] != 0:
-                rows[k] = [x - rows[k][j] * y for x, y in zip(rows[k], rows[i])]
+            f = rows[k][j]
+            if k != i and not is_zero(f): rows[k] = [x - f * y for x, y in zip(rows[k], rows[i])]
         pivots.append(j)
     return pivots, rows
 
+def invert(a):
+    if a.flexible: return a.map(inverse)
+    if a.rows != a.cols: raise Unsupported("the inverse of a matrix that is not square")
+    pivots, rows = reduced(beside([a, identity(a.rows)]), a.cols)
+    if len(pivots) < a.rows: raise Undecided("the inverse of a singular matrix")
+    result = Matrix([row[a.cols:] for row in rows], a.rows, a.rows)
+    bits = max((x.denominator.bit_length() for x in flat(result) if is_exact(x)), default=0)
+    return result.map(ball) if bits > LONGEST_FRACTION else result
 def null_space(a):
-    """A matrix whose columns are a basis of {x: a x = 0}; fractions."""
-    pivots, rows = row_echelon(a)
+    """A matrix whose columns are a basis of {x: a x = 0}; fractions. Each has one 1 and, beside it,
+    zeros at the other columns of a without a pivot."""
+    pivots, rows = reduced(a, a.cols)
     free = [j for j in range(a.cols) if j not in pivots]
     basis = [[Fraction(int(i == j)) for j in free] for i in range(a.cols)]
     for i, p in enumerate(pivots): basis[p] = [-rows[i][j] for j in free]
     return Matrix(basis, a.cols, len(free))
+def pivots_of(rows):
+    """The pivots of the L D L' elimination of a symmetric matrix, whose rows are changed. A pivot
+    is left out of the elimination if it is 0. The caller must stop before a pivot that may be 0
+    with other elements in its column."""
+    for k, row in enumerate(rows):
+        yield row[k]
+        if is_zero(row[k]): continue
+        factor = inverse(row[k])
+        for i in range(k + 1, len(rows)):
+            if not is_zero(rows[i][k]):
+                f = rows[i][k] * factor
+                for j in range(k + 1, i + 1): rows[i][j] = rows[i][j] - f * rows[j][k]
 
-def join_blocks(blocks):
-    """[a, b; c, d]. None stands for `*`, the transpose of the mirrored block.
+# Definite matrices.
+POSITIVE, SEMIDEFINITE, UNKNOWN, NEGATIVE = "positive", "semidefinite", "unknown", "negative"
 
-    Zeros and multiples of I take their size from their block row and block column.
-    """
-    count = len(blocks[0])
-    if any(len(row) != count for row in blocks): return stack_rows(blocks)
-    heights, widths = block_sizes(blocks)
-    full = [[None] * count for _ in blocks]
-    for i, row in enumerate(blocks):
-        for j, x in enumerate(row):
-            if x is not None: full[i][j] = sized(x, heights[i], widths[j])
-    for i, row in enumerate(blocks):
-        for j, x in enumerate(row):
-            if x is None:
-                if len(blocks) != count or full[j][i] is None:
-                    raise Unsupported("a * without a mirrored block")
-                full[i][j] = full[j][i].transposed()
-    return Matrix([[x for part in row for x in part.elements[k]]
-                   for row, height in zip(full, heights) for k in range(height)],
-                  sum(heights), sum(widths))
+def classify(a):
+    """What is proved of the symmetric matrix a: POSITIVE (definite), SEMIDEFINITE and singular,
+    NEGATIVE (v'av < 0 for some v), or UNKNOWN. Fractions decide always: a pivot 0 needs a zero
+    column, else v'av < 0 for some v."""
+    if not exactly(a): return POSITIVE if is_positive(a) else UNKNOWN
+    rows, result = [list(row) for row in a.elements], POSITIVE
+    for k, pivot in enumerate(pivots_of(rows)):
+        if pivot < 0 or pivot == 0 and any(row[k] != 0 for row in rows[k + 1:]): return NEGATIVE
+        if pivot == 0: result = SEMIDEFINITE
+    return result
+def is_positive(a):
+    """Whether every symmetric matrix in the matrix of balls a is proved positive definite. If the
+    balls are m_ij +- r_ij, then a >= m - diag(sums of the rows of r). This matrix has one number at
+    each place, so that the balls of its L D L' elimination stay small."""
+    balls = a.map(ball)
+    rows = [[Ball(x.m) for x in row] for row in balls.elements]
+    for i in range(a.rows):
+        rows[i][i].m -= sum(max(balls[i, j].r, balls[j, i].r) for j in range(a.rows))
+    return all(pivot.m > pivot.r for pivot in pivots_of(rows))
+def witness(a, strict):
+    """A vector v of fractions with v'av < 0 (if strict: <= 0 and v not 0), or None."""
+    found = None
+    for v in directions(a.map(middle)):
+        try:
+            s = sign(form(v, a, v))
+        except Undecided:
+            continue
+        if s < 0: return v
+        if s == 0 and strict and any(v): found = v
+    return found
 
-def stack_rows(blocks):
-    """Block rows with other numbers of entries: each is joined alone."""
-    rows = [join_blocks([row]) for row in blocks]
-    return Matrix([line for r in rows for line in r.elements])
+def directions(a):
+    """Vectors v with v'av <= 0, up to rounding. The elimination of a meets a pivot d <= 0 at k. The
+    solutions of the first k rows have a basis z_k, z_(k+1), ... with z_k'a z_k = d; beside d = 0
+    and b = z_k'a z_i, there is a combination of z_k and z_i with v'av < 0."""
+    rows = [list(row) for row in a.elements]
+    k = next((k for k, pivot in enumerate(pivots_of(rows)) if pivot <= 0), None)
+    if k is None: return
+    solutions = null_space(a.part(range(k), range(a.cols))).map(rounded).transposed().elements
+    first = solutions[0]
+    yield first
+    for z in solutions[1:]:
+        yield z
+        b, c = form(first, a, z), form(z, a, z)
+        if b != 0:
+            step = -(abs(c) + 1) / b        # (step z_k + z)'a (step z_k + z) = 2 step b + c
+            yield [rounded(step * x + y) for x, y in zip(first, z)]
 
-def takes_size(x): return x.flexible or x.is_zero()
+def rounded(x):
+    """x if it is short, else a fraction near it."""
+    if x.denominator.bit_length() < 400: return x
+    shift = 400 + max(0, x.denominator.bit_length() - x.numerator.bit_length())
+    return Fraction((x.numerator << shift) // x.denominator, 1 << shift)
+@cache
+def bernstein_weights(degree):
+    """w[i][j] with b_i = sum_j w[i][j] c_j: Bernstein coefficients of sum_j c_j t^j on [-1, 1].
+    With t = 2s - 1, t^j = sum_k p_jk s^k and b_i = sum_k C(i, k)/C(K, k) (coefficient of s^k)."""
+    def power(j, k): return comb(j, k) * 2 ** k * (-1) ** (j - k)
+    places = range(degree + 1)
+    return [[sum(Fraction(comb(i, k), comb(degree, k)) * power(j, k)
+                 for k in range(min(i, j) + 1)) for j in places] for i in places]
+def is_positive_on_box(a):
+    """Whether a matrix of Taylor models is proved positive definite for all t in [-1, 1]^k. The
+    value at any t is a convex combination of the Bernstein coefficients, plus the rest. So it is
+    enough that each coefficient is positive definite with the rest as additional radius."""
+    exponents = {e for x in flat(a) for e in x.terms}
+    weights = [bernstein_weights(max(e)) for e in zip(*exponents)]
+    for rows in product(*weights):
+        factor = {e: prod(w[j] for w, j in zip(rows, e)) for e in exponents}
 
-def sized(x, rows, cols):
-    if not takes_size(x):
-        if x.shape() != (rows, cols):
-            raise Unsupported("a block of %d x %d at a place of %d x %d" %
-                              (x.shape() + (rows, cols)))
-        return x
-    if x.is_zero(): return zeros(rows, cols)
-    if rows != cols: raise Unsupported("I at a place that is not square")
-    return identity(rows, x.number())
-
-def block_sizes(blocks):
-    """Heights of block rows and widths of block columns; sizes that nothing gives are 1."""
-    mirrored = any(x is None for row in blocks for x in row)
-    places = [(("row", i), ("col", j), x) for i, row in enumerate(blocks)
-              for j, x in enumerate(row) if x is not None]
-    known = {}
-    for row, col, x in places:
-        if not takes_size(x):
-            known.setdefault(row, x.rows)
-            known.setdefault(col, x.cols)
-    equal = [(row, col) for row, col, x in places if x.flexible and not x.is_zero()]
-    if mirrored: equal += [(("row", k), ("col", k)) for k in range(len(blocks))]
-    for _ in range(len(blocks) + len(blocks[0])):
-        for a, b in equal:
-            if a in known or b in known:
-                size = known.get(a, known.get(b))
-                known.setdefault(a, size)
-                known.setdefault(b, size)
-    return ([known.get(("row", i), 1) for i in range(len(blocks))],
-            [known.get(("col", j), 1) for j in range(len(blocks[0]))])
+        def coefficient(x):
+            total = sum((c * factor[e] for e, c in x.terms.items()), Fraction(0))
+            return total if x.rest == 0 else ball(total).widened(x.rest)
+        if classify(a.map(coefficient)) != POSITIVE: return False
+    return True
+def spectral_norm(a):
+    """A ball around the largest singular value of a matrix of fractions and balls. It is below h if
+    and only if [h I, a; a', h I] > 0. The interval [low, high] is halved."""
+    if 1 in a.shape(): return function("sqrt", sum((x * x for x in flat(a)), Fraction(0)))
+    if any(level(x) > 1 for x in flat(a)): raise Undecided("a norm that depends on a variable")
+    low, high = Fraction(0), sum(upper(x) for x in flat(a))
+    while high - low > high / 10 ** 30:
+        half = (low + high) / 2
+        if classify(norm_block(a, number(half))) == POSITIVE: high = half
+        elif witness(norm_block(a, number(half)), strict=True): low = half
+        else: break
+    return ball((low + high) / 2).widened(ball((high - low) / 2).size() + 1)
+def norm_block(m, bound):
+    """[g I, M; M', g I], which is >= 0 if and only if norm(M) <= g."""
+    g = bound.number()
+    return join_blocks([[identity(m.rows, g), m], [m.transposed(), identity(m.cols, g)]])

@@ -10,20 +10,22 @@ The matrices Y_k of the file are rounded and satisfy no equation. Two rules find
 prove_inside shows that there are some near those of the file; algebraic.py builds some.
 """
 
+import math
 from collections import namedtuple
 from fractions import Fraction
-from math import isqrt
+from itertools import product
 
 from algebraic import prove_algebraic
-from arithmetic import (ONE, Ball, Undecided, Unsupported, affine_terms, ball, inverse, is_exact,
-                        middle, sign, upper)
-from definite import rounded
+from arithmetic import (Ball, Undecided, Unsupported, affine_terms, ball, is_exact, middle, sign,
+                        upper)
 from language import decimal, matrix, parse
-from statement import NOT_EVALUATED, Damaged, Numeral, Statement, Symbols, inequality
-from yes import claim, outward, reason, scope_at, title
+from matrices import Matrix, is_positive
+from statement import NOT_EVALUATED, Statement, Symbols, expect, inequality, matrix_of_json
+from yes import Claim, outward, reason, scope_at
 
-# One inequality at one point: a matrix of Affine elements, and the rows of its multiplier.
-Block = namedtuple("Block", "name sign matrix multiplier factor")
+# One inequality at one point: its matrix as {i: {(row, column): coefficient of x_i}}, x_0 = 1, its
+# shape, and the rows of its multiplier, or of a factor of it.
+Block = namedtuple("Block", "sign terms shape multiplier factor")
 
 # (smallest pivot kept, smallest multiplier kept), relative to the largest
 CHOICES = [(1e-13, 0), (1e-9, 0), (1e-13, 1e-14), (1e-13, 1e-9), (1e-9, 1e-9), (1e-6, 0),
@@ -32,54 +34,36 @@ CHOICES = [(1e-13, 0), (1e-9, 0), (1e-13, 1e-14), (1e-13, 1e-9), (1e-9, 1e-9), (
 def prove_no(gain, certificate, name="no solution"):
     """The claim that the inequalities of the file have no solution."""
     try:
-        symbols = Symbols()
-        statement = Statement(gain, symbols)
+        statement = Statement(gain, Symbols())
         blocks = blocks_of(statement, certificate)
-        why = "no multipliers"
         for tiny, small in CHOICES:
             try:
                 why = prove_inside(blocks, Fraction(tiny), Fraction(small))
             except Undecided as error:
                 why = str(error)
-            if why is None: return claim(name, "proved", "multipliers near those of the file")
+            if why is None: return Claim(name, "proved", "multipliers near those of the file")
         found = prove_algebraic(statement, blocks)
-        if found: return claim(name, "proved", found)
-        return claim(name, "open", why)
+        return Claim(name, "proved", found) if found else Claim(name, "open", why)
     except NOT_EVALUATED as error:
-        return claim(name, "open", reason(error))
+        return Claim(name, "open", reason(error))
 
 # The blocks of a certificate.
-
 def blocks_of(statement, certificate):
     """The inequalities that have multipliers, at their points."""
     comparisons = dict(statement.comparisons())
     if "blocks" in certificate:
         return [block_of_record(comparisons, entry) for entry in certificate["blocks"]]
-    multipliers = certificate.get("multipliers")
-    if not isinstance(multipliers, dict):
-        raise Damaged("expected certificate.multipliers: an object")
-    return [block_of_label(comparisons, label, rows_of(rows))
-            for label, rows in multipliers.items()]
-
-def rows_of(rows):
-    rows = rows if isinstance(rows, list) else [[rows]]
-    if not all(isinstance(row, list) and all(isinstance(x, Numeral) for x in row)
-               for row in rows):
-        raise Damaged("expected multipliers: matrices")
-    return [[decimal(x) for x in row] for row in rows]
-
+    expect(isinstance(certificate.get("multipliers"), dict), "certificate.multipliers: an object")
+    return [block_of_label(comparisons, label, matrix_of_json(rows, "multipliers").elements)
+            for label, rows in certificate["multipliers"].items()]
 def block_of_label(comparisons, label, multiplier):
-    """The block of a label such as `flow at i = 1, tau = 0.768359`, whose values have 6 digits.
-
-    A value near an end of its interval is that end. Any point of the interval would serve.
-    """
+    """The block of a label such as `flow at i = 1, tau = 0.768359`, whose values have 6 digits. A
+    value near an end of its interval is that end. Any point of the interval would serve."""
     names = [n for n in comparisons if label == n or label.startswith(n + " at ")]
-    if not names: raise Unsupported("the block " + label)
-    name = max(names, key=len)
+    name = max(names, key=len, default="")
     at = dict(part.partition(" = ")[::2] for part in label[len(name) + 4:].split(", ") if part)
-    return block_at(comparisons[name], label, multiplier, None,
-                    {key: decimal(value) for key, value in at.items()})
-
+    return block_at(comparisons.get(name), label, {key: decimal(x) for key, x in at.items()},
+                    multiplier, None)
 def block_of_record(comparisons, entry):
     """The block of {requirement, comparison, at: {variable: text}, factor: rows of texts}."""
     name = entry["requirement"]
@@ -87,57 +71,50 @@ def block_of_record(comparisons, entry):
     factor = [[decimal(str(x)) for x in row] for row in entry["factor"]]
     at = {key: matrix(parse(str(text)), comparisons[name].domains[0].scope).number()
           for key, text in entry.get("at", {}).items()}
-    return block_at(comparisons[name], name, None, factor, at)
-
-def block_at(comparison, label, multiplier, factor, at):
+    return block_at(comparisons[name], name, at, None, factor)
+def block_at(comparison, label, at, multiplier, factor):
     if isinstance(comparison, Exception): raise comparison
-    for domain in comparison.domains:
+    for domain in comparison.domains if comparison else ():
         if all(is_near(value, at.get(name)) for name, _, value in domain.choices):
-            point = [place(i, at.get(title(i))) for i in domain.intervals]
-            scope = scope_at(domain, point)
+            scope = scope_at(domain, [place(i, at.get(i.title)) for i in domain.intervals])
             if comparison.sign == "==":
                 found = matrix(comparison.left, scope) - matrix(comparison.right, scope)
             else: found = inequality(comparison, scope)
-            return Block(label, comparison.sign, found, multiplier, factor)
+            terms = {}
+            for a, b in product(range(found.rows), range(found.cols)):
+                for i, c in affine_terms(found[a, b]).items(): terms.setdefault(i, {})[a, b] = c
+            return Block(comparison.sign, terms, found.shape(), multiplier, factor)
     raise Unsupported("the block " + label)
-
 def is_near(value, given):
     if not value.is_number() or given is None: raise Unsupported("the value of an element of a set")
     x = middle(value.number())
     return abs(x - middle(given)) <= (1 + abs(x)) / 10 ** 5
-
 def place(interval, value):
     """The point of the interval that a value of 6 digits means; it is shown to be inside."""
-    ends = (interval.low, interval.high)
-    value = ends[0] if value is None else value
-    for end in ends:
+    outward(interval)       # not empty
+    value = interval.low if value is None else value
+    for end in (interval.low, interval.high):
         if upper(end - value) <= upper(end) * 6 / 10 ** 6: return end
-    low, high = outward(interval)
-    if not (sign(value - ends[0]) >= 0 and sign(ends[1] - value) >= 0 and low <= high):
+    if sign(value - interval.low) < 0 or sign(interval.high - value) < 0:
         raise Unsupported("a point outside of its interval")
     return value
 
 # Multipliers near those of the file.
-
 def prove_inside(blocks, tiny, small):
-    """None if exact multipliers are shown to exist near those of the file, else why not.
-
-    Let L_k be any matrices, such as factors of the multipliers of the file, G_ki = L_k' B_ki L_k,
-    r_i = sum_k trace G_ki, and H_ij = sum_k <G_ki, G_kj>. With u = inv(H) r and
-    S_k = sum_j u_j G_kj, the multipliers Y_k = L_k (I - S_k) L_k' satisfy all equations
-    sum_k <B_ki, Y_k> = r_i - (H u)_i = 0. If r' inv(H) r = sum_k |S_k|^2 < 1, then I - S_k > 0.
-    So Y_k >= 0, and Y_k is not 0 if L_k is not 0.
-
-    The constant parts are the coefficients of x_0 = 1 > 0, with v = -sum_k trace G_k0 > 0 as its
-    multiplier: another block, of one row, with G = v. Equations E(x) = 0 have multipliers of any
-    sign: their coefficients enter H with the weight 2^40, and r as they are.
-    """
+    """None if exact multipliers are shown to exist near those of the file, else why not. Let L_k be
+    any matrices, such as factors of the multipliers of the file, G_ki = L_k' B_ki L_k, r_i = sum_k
+    trace G_ki, and H_ij = sum_k <G_ki, G_kj>. With u = inv(H) r and S_k = sum_j u_j G_kj, the
+    multipliers Y_k = L_k (I - S_k) L_k' satisfy all equations sum_k <B_ki, Y_k> = r_i - (H u)_i =
+    0. If r' inv(H) r = sum_k |S_k|^2 < 1, then I - S_k > 0. So Y_k >= 0, and Y_k is not 0 if L_k is
+    not 0. Both H > 0 and this hold if [H, r; r', 1] > 0. The constant parts are the coefficients of
+    x_0 = 1 > 0, with v = -sum_k trace G_k0 > 0 as its multiplier: another block, of one row, with G
+    = v. Equations E(x) = 0 have multipliers of any sign: their coefficients enter H with the weight
+    2^40, and r as they are."""
     scale = max((abs(x) for b in blocks for row in b.multiplier or b.factor for x in row),
-                default=Fraction(0))
+                default=0)
     if scale == 0: return "all multipliers are 0"
     rows, residual = {}, {}         # rows[i]: G_ki, by (k, row, column); residual[i]: r_i
-    strict = False
-    factors = factors_of(blocks, scale, tiny, small)
+    strict, factors = False, factors_of(blocks, scale, tiny, small)
     for k, block in enumerate(blocks):
         if block.sign == "==": add_equation(k, block, scale, rows, residual)
         elif k in factors:
@@ -148,135 +125,86 @@ def prove_inside(blocks, tiny, small):
         if v.m <= v.r: return "the constant part has no sign"
         rows[0]["x0"], residual[0] = v, Ball(0)
     elif not strict: return "no strict inequality has a multiplier"
-    return small_correction(rows, residual)
-
-def small_correction(rows, residual):
-    """None if r' inv(H) r < 1, by L D L' elimination in balls of H beside r."""
     unknowns = sorted(rows)
     for i in unknowns:      # rows of size 1: this changes H and r together
         size = sum(upper(x) ** 2 for x in rows[i].values())
         power = (size.numerator.bit_length() - size.denominator.bit_length()) // 2
-        factor = Fraction(2) ** -power
-        rows[i] = {key: x * factor for key, x in rows[i].items()}
-        residual[i] = residual[i] * factor
-    h = [[inner(rows[i], rows[j]) for j in unknowns] for i in unknowns]
-    r = [residual[i] for i in unknowns]
-    value = Ball(0)
-    for k in range(len(r)):
-        if h[k][k].m <= h[k][k].r: return "the equations of the multipliers may be dependent"
-        factor = inverse(h[k][k])
-        value = value + r[k] * r[k] * factor
-        for i in range(k + 1, len(r)):
-            f = h[i][k] * factor
-            if f.m or f.r:
-                r[i] = r[i] - f * r[k]
-                for j in range(k + 1, i + 1): h[i][j] = h[i][j] - f * h[j][k]
-    if value.m + value.r < ONE: return None
-    return "the multipliers of the file are too far from exact ones"
+        rows[i] = {key: x * Fraction(2) ** -power for key, x in rows[i].items()}
+        residual[i] = residual[i] * Fraction(2) ** -power
+    bordered = [[inner(rows[i], rows[j]) for j in unknowns] + [residual[i]] for i in unknowns]
+    bordered.append([residual[i] for i in unknowns] + [Fraction(1)])
+    if is_positive(Matrix(bordered)): return None
+    return "the multipliers of the file are too far from exact ones, or dependent"
 
 def inner(a, b):
     a, b = (a, b) if len(a) <= len(b) else (b, a)
-    total = Ball(0)
-    for key, x in a.items():
-        if key in b: total = total + x * b[key]
-    return total
-
-def coefficients(block):
-    """{i: {(row, column): coefficient}} of the matrix B_0 + sum x_i B_i of a block."""
-    result = {}
-    for a in range(block.matrix.rows):
-        for b in range(block.matrix.cols):
-            for i, c in affine_terms(block.matrix[a, b]).items():
-                result.setdefault(i, {})[a, b] = c
-    return result
-
+    return sum((x * b[key] for key, x in a.items() if key in b), Ball(0))
 def add_equation(k, block, scale, rows, residual):
     """E(x) = 0 with the multiplier M of [0, E; E', 0], of which 2 M_12 counts."""
-    height, width = block.matrix.shape()
-    given = block.multiplier or []
-    for i, entries in coefficients(block).items():
+    (height, width), given = block.shape, block.multiplier or []
+    for i, entries in block.terms.items():
         for (a, b), c in entries.items():
             m = 2 * given[a][height + b] if len(given) == height + width else given[a][b]
             residual[i] = residual.get(i, Ball(0)) + ball(c) * (m / scale)
             rows.setdefault(i, {})[k, a, b] = ball(c) * Fraction(2 ** 40)
-
 def add_block(k, block, factor, rows, residual):
     """G_ki = L' B_i L for all i."""
     columns = range(len(factor[0]))
-    for i, entries in coefficients(block).items():
-        product = {}                # B_i L, by rows
+    for i, entries in block.terms.items():
+        moved = {}                  # B_i L, by rows
         for (a, b), c in entries.items():
             if any(factor[a]) and any(factor[b]):
-                row = product.setdefault(a, [Ball(0)] * len(columns))
-                product[a] = [x + ball(c) * y for x, y in zip(row, factor[b])]
-        for p in columns if product else ():
-            for q in columns:
-                g = sum((row[q] * factor[a][p] for a, row in product.items()), Ball(0))
-                rows.setdefault(i, {})[k, p, q] = g
-                if p == q: residual[i] = residual.get(i, Ball(0)) + g
+                row = moved.get(a, [Ball(0)] * len(columns))
+                moved[a] = [x + ball(c) * y for x, y in zip(row, factor[b])]
+        for p, q in product(columns, columns) if moved else ():
+            g = sum((row[q] * factor[a][p] for a, row in moved.items()), Ball(0))
+            rows.setdefault(i, {})[k, p, q] = g
+            if p == q: residual[i] = residual.get(i, Ball(0)) + g
 
 def factors_of(blocks, scale, tiny, small):
-    """{k: L_k} with zero rows where an unknown only relaxes the inequalities.
-
-    An unknown whose coefficients in the remaining rows are diagonal and of one sign makes these
-    rows hold. No multiplier can use them, so they become zero; this is repeated.
-    """
-    size = {k: max(abs(x) for row in b.multiplier or b.factor for x in row)
-            for k, b in enumerate(blocks) if b.sign != "=="}
-    used = {k for k, x in size.items() if x >= small * scale and x > 0}
+    """{k: L_k} with zero rows where an unknown only relaxes the inequalities. An unknown whose
+    coefficients in the remaining rows are diagonal and of one sign makes these rows hold. No
+    multiplier can use them, so they become zero; this is repeated."""
     found, dead = {}, relaxed_rows(blocks)
-    for k in used:
-        block = blocks[k]
-        live = [a for a in range(block.matrix.rows) if (k, a) not in dead]
-        if not live: continue
+    for k, block in enumerate(blocks):
+        size = max(abs(x) for row in block.multiplier or block.factor for x in row)
+        live = [a for a in range(block.shape[0]) if (k, a) not in dead]
+        if block.sign == "==" or size == 0 or size < small * scale or not live: continue
         if block.factor: part = [block.factor[a] for a in live]
         else: part = cholesky([[block.multiplier[a][b] / scale for b in live] for a in live], tiny)
+        rows = dict(zip(live, part))
         if any(any(row) for row in part):      # L_k is not 0
-            rows = dict(zip(live, part))
-            found[k] = [rows.get(a, [Fraction(0)] * len(part[0]))
-                        for a in range(block.matrix.rows)]
+            found[k] = [rows.get(a, [Fraction(0)] * len(part[0])) for a in range(block.shape[0])]
     return found
 
 def relaxed_rows(blocks):
     """The rows (block, row) that an unknown alone can make positive."""
     entries = {}
     for k, block in enumerate(blocks):
-        for i, found in coefficients(block).items():
-            for (a, b), c in found.items():
-                entries.setdefault(i, {})[k, a, b] = (c, block.sign == "==")
-    dead, again = set(), True
-    while again:
-        again = False
-        for i in entries:
-            live = [(k, a, b, c, equation) for (k, a, b), (c, equation) in entries[i].items()
-                    if (k, a) not in dead and (k, b) not in dead]
-            signs = {c > 0 if is_exact(c) else None for _, _, _, c, _ in live}
-            if i and live and len(signs) == 1 and None not in signs and \
-                    all(a == b and not equation for _, a, b, _, equation in live):
-                dead |= {(k, a) for k, a, _, _, _ in live}
-                again = True
+        for i, found in block.terms.items():
+            entries.setdefault(i, []).extend((k, a, b, c) for (a, b), c in found.items())
+    entries.pop(0, None)
+    dead, before = set(), None
+    while before != len(dead):
+        before = len(dead)
+        for found in entries.values():
+            live = [e for e in found if (e[0], e[1]) not in dead and (e[0], e[2]) not in dead]
+            if all(a == b and is_exact(c) and blocks[k].sign != "==" and (c > 0) == (live[0][3] > 0)
+                   for k, a, b, c in live):
+                dead |= {(k, a) for k, a, _, _ in live}
     return dead
 
 def cholesky(y, tiny):
-    """Rows of L with y near L L'; pivots below `tiny`, for a diagonal near 1, are dropped.
-
-    Nothing is concluded from L: whatever it is, L L' >= 0.
-    """
-    n = len(y)
-    scale = [root(y[a][a]) if y[a][a] > 0 else Fraction(1) for a in range(n)]
-    rest = [[rounded(y[a][b] / (scale[a] * scale[b]), 200) for b in range(n)] for a in range(n)]
+    """Rows of L with y near L L', in floating point; pivots below `tiny`, for a diagonal near 1,
+    are dropped. Nothing is concluded from L: whatever it is, L L' >= 0."""
+    places = range(len(y))
+    scale = [math.sqrt(max(y[a][a], 0)) or 1.0 for a in places]
+    rest = [[float(y[a][b]) / scale[a] / scale[b] for b in places] for a in places]
     columns = []
-    for _ in range(n):
-        p = max(range(n), key=lambda a: rest[a][a])
-        if rest[p][p] <= tiny or y[p][p] <= 0: break
-        column = [rounded(rest[a][p] / root(rest[p][p]), 200) for a in range(n)]
-        columns.append(column)
-        rest = [[rounded(x - column[a] * column[b], 200) for b, x in enumerate(row)]
-                for a, row in enumerate(rest)]
-    return [[rounded(c[a] * scale[a], 200) for c in columns] for a in range(n)]
-
-def root(x):
-    """A fraction near the root of x > 0."""
-    shift = max(0, 200 + x.denominator.bit_length() - x.numerator.bit_length())
-    shift += shift % 2
-    return Fraction(isqrt((x.numerator << shift) // x.denominator) or 1, 1 << (shift // 2))
+    for _ in places:
+        p = max(places, key=lambda a: rest[a][a])
+        if rest[p][p] <= tiny: break
+        c = [rest[a][p] / math.sqrt(rest[p][p]) for a in places]
+        columns.append(c)
+        rest = [[rest[a][b] - c[a] * c[b] for b in places] for a in places]
+    return [[Fraction(c[a] * scale[a]) for c in columns] for a in places]

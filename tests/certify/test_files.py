@@ -78,6 +78,7 @@ class Yes(unittest.TestCase):
                 ("norm([x; 0]) < 1", "1", "refuted"), ("abs(x) <= 1", "-1", "proved"),
                 ("abs(x) < 1", "-1", "refuted"), ("max(x, 2*x) <= 2", "1", "proved"),
                 ("max(x, 2*x) < 2", "1", "refuted"), ("max(x, 0) <= [3; 0.5]", "1", "refuted"),
+                ("max([3; x]) <= [4; 1]", "0", "refuted"), ("max([3; x]) <= 3", "3", "proved"),
                 ("abs(x) <= [3; 0.5]", "1", "refuted"), ("abs(x) <= [3; 1]", "-1", "proved"), ("min(x, 2*x) >= 1", "1", "proved"),
                 ("min(x, 2*x) > 1", "1", "refuted"), ("[x; 2; -1] > 0", "1", "refuted"),
                 ("[x; 2; 1] > 0", "1", "proved"), ("[x, 2, -1] > 0", "1", "refuted"),
@@ -135,6 +136,19 @@ class Yes(unittest.TestCase):
                 found = result("t in [0, 2]", text)
                 self.assertIn(found, (expected, "open"), (k, text))
                 if side < 0: self.assertEqual(found, "proved", (k, text))
+
+    def test_a_piece_with_a_constant_matrix_does_not_prove_the_others(self):
+        text = "where(t < 1.2, 1, where(t > 1.4, 1, -1)) > 0"
+        self.assertEqual(result("t in [0, 2]", text), "refuted")
+
+    def test_entries_of_forall_that_depend_on_intervals_or_vertices(self):
+        text = ("problem: p\nmethod:\n  unknowns: {x: scalar}\n  require: {c: {forall: %s,"
+                " that: t < 0.6}}\ndata: {t: 1}\n")
+        for forall in ('["t in conv{0, 1}", "t < 0.5"]', '["t in [0, 1]", "t > 2"]',
+                       '["t in [0, 1]", "t in {0.5}"]', '["t in {0.5}", "t in [0, 1]"]',
+                       '["t in [0, 0.5]", "s in [0, t]"]'):
+            found = results(problem(text % forall, {"x": "0"}))
+            self.assertEqual(set(found.values()), {"open"}, forall)
 
     def test_boxes_and_columns(self):
         for that, expected in (("v(1)^2 + v(2)^2 < 5.0001", "proved"),
@@ -197,6 +211,15 @@ class Yes(unittest.TestCase):
         self.assertGreater(ulps["F"], 10 ** 9)
         self.assertGreater(ulps["K_2"], 10 ** 6)
 
+    def test_files_of_one_name_in_two_folders(self):
+        text = ("problem: p\nmethod:\n  data: {a: scalar}\n  unknowns: {x: scalar}\n"
+                "  require: {c: x < a}\ndata: {a: {csv: %s/m.csv}}\n")
+        for folder, expected in (("one", "proved"), ("two", "refuted")):
+            found = problem(text % folder, {"x": "0"})
+            found["statement"]["files"] = [{"file": k + "/m.csv", "matrix": [[helper.Numeral(v)]]}
+                                           for k, v in (("one", "1"), ("two", "-1"))]
+            self.assertEqual(results(found), {"c": expected})
+
     def test_variants(self):
         found = gain("lyapunov")
         base = found["statement"]["problem_text"]
@@ -244,6 +267,30 @@ class No(unittest.TestCase):
         found = problem(text.replace(">=", ">") % ("1", "1"), {})
         self.assertEqual(prove_no(found, certificate).result, "open")   # the rule needs v > 0
 
+    def test_the_formula_of_vertex_gains_does_not_limit_them(self):
+        found = problem("problem: p\nsynthesis: {forall: vertex_gains}\nmethod:\n"
+                        "  unknowns: {L: {shape: scalar, of: t}}\n  require: {a: L(0) >= 1}\n", {})
+        found["functions"] = {"L(t)": "0*L_1"}
+        claim = prove_no(found, {"multipliers": {"a": helper.Numeral("1")}})
+        self.assertEqual((claim.result, "vertex gains" in claim.how), ("open", True))
+
+    def test_derivatives_of_terms_with_unknowns(self):
+        text = ("problem: p\nmethod:\n  unknowns: {x: scalar}\n  let: {f(v): x*v^2}\n  require:\n"
+                "    a: {forall: \"t in {1}\", that: \"jacobian(f(t), t) >= 2\"}\n    b: x <= %s\n")
+        certificate = {"multipliers": {"a at t = 1": helper.Numeral("1"),
+                                       "b": helper.Numeral("2")}}
+        for high, expected in (("0.5", "proved"), ("1", "open"), ("2", "open")):
+            claim = prove_no(problem(text % high, {}), certificate)
+            self.assertEqual(claim.result, expected, high)
+
+    def test_a_polytope_needs_derivatives_that_are_affine(self):
+        text = ("problem: p\nmethod:\n  unknowns: {x: scalar}\n"
+                "  let: {\"g(v, a)\": \"jacobian(a*v, v)\"}\n"
+                "  require: {c: {forall: \"a in conv{-1, 1}\", that: \"%s > 0.5\"}}\n")
+        for that, expected in (("g(1, a)*a", "open"), ("g(1, a) + 2", "proved")):
+            found = results(problem(text % that, {"x": "0"}))
+            self.assertEqual(set(found.values()), {expected}, that)
+
     def test_factors(self):
         """A certificate with factors of its multipliers, at points in full decimals."""
         text = ("problem: p\nmethod:\n  unknowns: {x: scalar, y: scalar}\n"
@@ -267,10 +314,12 @@ class No(unittest.TestCase):
     def test_points_outside_of_their_interval_are_refused(self):
         text = ("problem: p\nmethod:\n  unknowns: {x: scalar}\n"
                 "  require: {a: {forall: \"t in [0, 1]\", that: x >= t}, b: x <= 1.5}\n")
-        for at, expected in (("1", "open"), ("2", "open")):
+        for at, interval, expected in (("1", "[0, 1]", "open"), ("2", "[0, 1]", "open"),
+                                       ("2", "[0, 2]", "proved"), ("2", "[2, 1]", "open")):
             certificate = {"multipliers": {"a at t = " + at: helper.Numeral("1"),
                                            "b": helper.Numeral("1")}}
-            self.assertEqual(prove_no(problem(text, {}), certificate).result, expected)
+            found = problem(text.replace("[0, 1]", interval), {})
+            self.assertEqual(prove_no(found, certificate).result, expected)
 
 class Program(unittest.TestCase):
     def run_program(self, *arguments):
