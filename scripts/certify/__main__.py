@@ -22,7 +22,7 @@ except ImportError:
     print("certify: PyYAML is not installed (package python3-yaml in Debian)", file=sys.stderr)
     sys.exit(2)
 
-from no import prove_no
+from no import prove_no, prove_optimum
 from statement import Damaged, expect, read_gain_file
 from yes import Claim, prove_yes
 
@@ -82,7 +82,10 @@ def check_verdict(gain, found):
         found.update(verdict="open", message="far from their formulas: " + ", ".join(far))
 
 def check_search(gain, found, seconds):
-    """The certificate at the value beyond the best one. It does not change the verdict."""
+    """The bound of the objective, and the certificate at the value beyond the best one. They do not
+    change the verdict."""
+    if gain["verdict"] == "yes" and gain["optimum"] and "objective_lower_bound" in gain:
+        found["search"] = [within(seconds, lambda: prove_optimum(gain))]
     search = gain.get("search", {})
     certificate, figure = search.get("certificate"), search.get("figure")
     if not isinstance(certificate, dict) or certificate.get("about") != "problem" or \
@@ -90,12 +93,12 @@ def check_search(gain, found, seconds):
     name = figure.split()[-1]
     beyond = dict(gain, searched={**gain.get("searched", {}), name: search["beyond"]})
     label = "no solution at %s = %s" % (name, search["beyond"])
-    found["search"] = [Claim(label, "open", "not decided in %d s" % SECONDS_OF_SEARCH)]
     try:
-        found["search"] = [within(min(SECONDS_OF_SEARCH, seconds),
-                                  lambda: prove_no(beyond, certificate, label))]
+        claim = within(min(SECONDS_OF_SEARCH, seconds),
+                       lambda: prove_no(beyond, certificate, label))
     except OutOfTime:
-        pass
+        claim = Claim(label, "open", "not decided in %d s" % SECONDS_OF_SEARCH)
+    found["search"].append(claim)
 
 # Reports.
 def summary(found):

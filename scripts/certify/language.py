@@ -384,7 +384,8 @@ def units(a, c):
     return diagonal([Fraction(2) ** nearest(x) for x in flat(exponents)])
 
 def nearest(x):
-    """The nearest whole number. A ball around k + 1/2 is undecided."""
+    """The nearest whole number, upward from 0.4863 on. A ball around such a limit is undecided."""
+    x = x + Fraction(137, 10000)
     k = floor(middle(x) + Fraction(1, 2))
     if upper(x - k) >= Fraction(1, 2): raise Undecided("a rounding")
     return k

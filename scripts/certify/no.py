@@ -1,4 +1,4 @@
-"""The proof of a no: multipliers that show that the inequalities have no common solution.
+"""What multipliers show: that inequalities have no common solution, or a bound of an objective.
 
 Let B_k(x) = B_k0 + sum_i x_i B_ki > 0 (or >= 0) be inequalities of the text, some of them at
 points of their intervals, and Y_k >= 0. If sum_k <B_ki, Y_k> = 0 for each i >= 1, then
@@ -8,6 +8,7 @@ if it is 0 and a strict inequality has such a Y_k.
 
 The matrices Y_k of the file are rounded and satisfy no equation. Two rules find others:
 prove_inside shows that there are some near those of the file; algebraic.py builds some.
+With sum_k <B_ki, Y_k> = c_i instead, c_0 + c'x >= c_0 - sum_k <B_k0, Y_k> at each solution.
 """
 
 import math
@@ -16,11 +17,12 @@ from fractions import Fraction
 from itertools import product
 
 from algebraic import prove_algebraic
-from arithmetic import (Ball, Undecided, Unsupported, affine_terms, ball, is_exact, middle, sign,
-                        upper)
+from arithmetic import (Ball, Undecided, Unsupported, affine_terms, ball, function, is_exact,
+                        middle, sign, sum_of_balls, upper)
 from language import decimal, matrix, parse
 from matrices import Matrix, is_positive
-from statement import NOT_EVALUATED, Statement, Symbols, expect, inequality, matrix_of_json
+from statement import (NOT_EVALUATED, Statement, Symbols, expect, inequality, matrix_of_json,
+                       refuse)
 from yes import Claim, outward, reason, scope_at
 
 # One inequality at one point: its matrix as {i: {(row, column): coefficient of x_i}}, x_0 = 1, its
@@ -30,6 +32,7 @@ Block = namedtuple("Block", "sign terms shape multiplier factor")
 # (smallest pivot kept, smallest multiplier kept), relative to the largest
 CHOICES = [(1e-13, 0), (1e-9, 0), (1e-13, 1e-14), (1e-13, 1e-9), (1e-9, 1e-9), (1e-6, 0),
            (1e-6, 1e-6)]
+LIMITS = [Fraction(1, 10 ** k) for k in (28, 24, 20, 16, 12, 8)]    # of prove_optimum
 
 def prove_no(gain, certificate, name="no solution"):
     """The claim that the inequalities of the file have no solution."""
@@ -110,35 +113,79 @@ def prove_inside(blocks, tiny, small):
     x_0 = 1 > 0, with v = -sum_k trace G_k0 > 0 as its multiplier: another block, of one row, with G
     = v. Equations E(x) = 0 have multipliers of any sign: their coefficients enter H with the weight
     2^40, and r as they are."""
-    scale = max((abs(x) for b in blocks for row in b.multiplier or b.factor for x in row),
-                default=0)
+    scale = scale_of(blocks)
     if scale == 0: return "all multipliers are 0"
-    rows, residual = {}, {}         # rows[i]: G_ki, by (k, row, column); residual[i]: r_i
-    strict, factors = False, factors_of(blocks, scale, tiny, small)
-    for k, block in enumerate(blocks):
-        if block.sign == "==": add_equation(k, block, scale, rows, residual)
-        elif k in factors:
-            add_block(k, block, factors[k], rows, residual)
-            strict = strict or block.sign in ("<", ">")
+    factors = factors_of(blocks, scale, tiny, small, relaxed_rows(blocks))
+    rows, residual = gathered(blocks, scale, factors)
+    strict = any(blocks[k].sign in ("<", ">") for k in factors)
     if 0 in rows:
         v = -residual[0]
         if v.m <= v.r: return "the constant part has no sign"
         rows[0]["x0"], residual[0] = v, Ball(0)
     elif not strict: return "no strict inequality has a multiplier"
-    unknowns = sorted(rows)
-    for i in unknowns:      # rows of size 1: this changes H and r together
-        size = sum(upper(x) ** 2 for x in rows[i].values())
-        power = (size.numerator.bit_length() - size.denominator.bit_length()) // 2
-        rows[i] = {key: x * Fraction(2) ** -power for key, x in rows[i].items()}
-        residual[i] = residual[i] * Fraction(2) ** -power
-    bordered = [[inner(rows[i], rows[j]) for j in unknowns] + [residual[i]] for i in unknowns]
-    bordered.append([residual[i] for i in unknowns] + [Fraction(1)])
-    if is_positive(Matrix(bordered)): return None
+    if first_above(rows, residual, [1]): return None
     return "the multipliers of the file are too far from exact ones, or dependent"
+
+def scale_of(blocks):
+    return max((abs(x) for b in blocks for row in b.multiplier or b.factor for x in row), default=0)
+def gathered(blocks, scale, factors):
+    """({i: G_ki, by (k, row, column)}, {i: r_i})."""
+    rows, residual = {}, {}
+    for k, block in enumerate(blocks):
+        if block.sign == "==": add_equation(k, block, scale, rows, residual)
+        elif k in factors: add_block(k, block, factors[k], rows, residual)
+    return rows, residual
+def first_above(rows, residual, limits):
+    """The first of the limits with H > 0 and r' inv(H) r < limit, or None."""
+    rows, residual = dict(rows), dict(residual)
+    for i, row in rows.items():      # rows of size 1: this changes H and r together
+        size = sum(upper(x) ** 2 for x in row.values())
+        power = (size.numerator.bit_length() - size.denominator.bit_length()) // 2
+        rows[i] = {key: x * Fraction(2) ** -power for key, x in row.items()}
+        residual[i] = residual[i] * Fraction(2) ** -power
+    h, places = {}, list(rows)
+    for n, i in enumerate(places):
+        for j in places[:n + 1]: h[i, j] = h[j, i] = inner(rows[i], rows[j])
+    bordered = [[h[i, j] for j in rows] + [residual[i]] for i in rows]
+    last = [residual[i] for i in rows]
+    return next((x for x in limits if is_positive(Matrix(bordered + [last + [Fraction(x)]]))), None)
+
+# The bound of an objective.
+def prove_optimum(gain):
+    """The claim that the objective is nowhere below objective_lower_bound, or hardly. With G_ki,
+    r_i = c_i - sum_k trace G_ki and H as in prove_inside, and r' inv(H) r <= s <= 1, the
+    multipliers L_k (I + S_k) L_k' >= 0 satisfy all equations. They bound the objective by r_0 -
+    sum_k <S_k, G_k0> >= r_0 - sqrt(s) |G_0|. Bounds on gains that the text does not state have no
+    multipliers here."""
+    stated = decimal(str(gain["objective_lower_bound"]))
+    name = "objective >= %.10g" % stated
+    try:
+        statement = Statement(gain, Symbols())
+        text = statement.method.get("minimize") or refuse("the objective of another problem")
+        costs = affine_terms(matrix(parse(text), statement.scope).number())
+        comparisons = dict(statement.comparisons())
+        blocks = [block_of_label(comparisons, label, matrix_of_json(rows, "optimum").elements)
+                  for label, rows in gain["optimum"].items() if not label.startswith("bound ")]
+        scale = scale_of(blocks)
+        if scale == 0: raise Undecided("all multipliers are 0")
+        factors = factors_of(blocks, scale, Fraction(0), 0, set())
+        rows, residual = gathered(blocks, scale, factors)
+        left = {i: ball(costs.get(i, 0)) * (1 / scale) - residual.get(i, Ball(0))
+                for i in {0, *costs, *rows}}
+        first, constant = left.pop(0), rows.pop(0, {})
+        if not set(left) <= set(rows): raise Undecided("an unknown of the objective alone")
+        s = first_above(rows, left, LIMITS)
+        if s is None: raise Undecided("the multipliers of the file are too far from exact ones")
+        shown = (first - function("sqrt", s * inner(constant, constant))) * scale
+        low = middle(shown) - upper(shown - middle(shown))
+        enough = low >= stated - abs(stated) / 10 ** 6
+        return Claim(name, "proved" if enough else "open", "multipliers: at least %.12g" % low)
+    except NOT_EVALUATED as error:
+        return Claim(name, "open", reason(error))
 
 def inner(a, b):
     a, b = (a, b) if len(a) <= len(b) else (b, a)
-    return sum((x * b[key] for key, x in a.items() if key in b), Ball(0))
+    return sum_of_balls([(x, b[key]) for key, x in a.items() if key in b])
 def add_equation(k, block, scale, rows, residual):
     """E(x) = 0 with the multiplier M of [0, E; E', 0], of which 2 M_12 counts."""
     (height, width), given = block.shape, block.multiplier or []
@@ -161,11 +208,11 @@ def add_block(k, block, factor, rows, residual):
             rows.setdefault(i, {})[k, p, q] = g
             if p == q: residual[i] = residual.get(i, Ball(0)) + g
 
-def factors_of(blocks, scale, tiny, small):
-    """{k: L_k} with zero rows where an unknown only relaxes the inequalities. An unknown whose
-    coefficients in the remaining rows are diagonal and of one sign makes these rows hold. No
+def factors_of(blocks, scale, tiny, small, dead):
+    """{k: L_k} with zero rows where an unknown only relaxes the inequalities (dead). An unknown
+    whose coefficients in the remaining rows are diagonal and of one sign makes these rows hold. No
     multiplier can use them, so they become zero; this is repeated."""
-    found, dead = {}, relaxed_rows(blocks)
+    found = {}
     for k, block in enumerate(blocks):
         size = max(abs(x) for row in block.multiplier or block.factor for x in row)
         live = [a for a in range(block.shape[0]) if (k, a) not in dead]

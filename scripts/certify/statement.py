@@ -23,7 +23,7 @@ from matrices import Matrix, diagonal, flat, identity, norm_block, number, zeros
 
 LARGEST_FILE = 64_000_000
 OBJECTS = ("gains", "unknowns", "statement")
-OPTIONAL = ("searched", "parameters", "bases", "functions", "search", "gain_functions")
+OPTIONAL = ("searched", "parameters", "bases", "functions", "search", "gain_functions", "optimum")
 NOT_EVALUATED = (Undecided, Unsupported, ArithmeticError, LookupError, TypeError, ValueError,
                  AttributeError, RecursionError)
 
@@ -55,6 +55,7 @@ def read_gain_file(path):
     for key in ("gains", "unknowns", "bases"):
         for name, value in gain[key].items(): matrix_of_json(value, "%s.%s" % (key, name))
     check_statement(gain["statement"])
+    if "proof" in gain: check_results(gain)
     return gain
 
 def unique_keys(pairs):
@@ -80,6 +81,24 @@ def check_statement(statement):
             parts += [str(x) for row in rows for x in listed(row)]
     found = hashlib.sha256("\0".join(parts).encode()).hexdigest()
     expect(found == statement["sha256"], "a statement with the sha256 that it names: it was edited")
+
+def check_results(gain):
+    """The sha256 of what is proved is right (docs/gain-file.md says of which bytes)."""
+    matrices = {"gains." + name: x for name, x in gain["gains"].items()}
+    for name, entry in gain["gain_functions"].items():
+        for k, x in enumerate(entry.get("coefficients", [])):
+            matrices["gain_functions.%s.coefficients[%d]" % (name, k)] = x
+    for key, part in [(key, gain[key]) for key in ("unknowns", "parameters", "bases", "searched",
+                                                   "optimum")] + \
+            [(key + "certificate.multipliers", part.get("certificate", {}).get("multipliers", {}))
+             for key, part in (("", gain), ("search.", gain["search"]))]:
+        matrices.update((key + "." + name, x) for name, x in part.items())
+    parts = [gain["statement"]["sha256"]]
+    for key, x in matrices.items():
+        parts += [key] + [str(y) for row in listed(x) for y in listed(row)]
+    found = hashlib.sha256("\0".join(parts).encode()).hexdigest()
+    expect(isinstance(gain["proof"], dict) and found == gain["proof"].get("sha256"),
+           "results with the sha256 that proof names: they were edited")
 
 def matrix_of_json(value, where):
     """The matrix of a number, a list of numbers (a column) or a list of rows."""
