@@ -98,7 +98,8 @@ def check_results(gain):
         parts += [key] + [str(y) for row in listed(x) for y in listed(row)]
     found = hashlib.sha256("\0".join(parts).encode()).hexdigest()
     expect(isinstance(gain["proof"], dict) and found == gain["proof"].get("sha256"),
-           "results with the sha256 that proof names: they were edited")
+           "results with the sha256 that proof names: they were edited (without the key proof the "
+           "file is taken as it is)")
 
 def matrix_of_json(value, where):
     """The matrix of a number, a list of numbers (a column) or a list of rows."""

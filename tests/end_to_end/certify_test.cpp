@@ -23,8 +23,15 @@ TEST(Certify, SaysYesNoAndUndecidedByItsExitCode) {
   EXPECT_TRUE(has(proved.out, "proved")) << proved.out;
   EXPECT_TRUE(has(proved.out, "decreases")) << proved.out;
 
+  // Its multipliers and unknowns are those that were written, as long as the file says so.
   const std::string first = "\"P\": [\n      [";
-  const std::string negative = folder.file("f.json", with(text_of(gains), first, first + "-"));
+  std::string negative = with(text_of(gains), first, first + "-");
+  const Outcome changed = gainsmith({"certify", folder.file("f.json", negative)});
+  EXPECT_EQ(changed.exit, 2) << changed.out;
+  EXPECT_TRUE(has(changed.out, "edited")) << changed.out;
+  const Outcome checked = gainsmith({"check", folder.path("f.json")});
+  EXPECT_TRUE(has(checked.out, "proof.sha256")) << checked.out;
+  negative = folder.file("f.json", with(negative, "\"proof\"", "\"no proof\""));
   const Outcome refuted = gainsmith({"certify", negative, "--claims"});
   EXPECT_EQ(refuted.exit, 1) << refuted.out << refuted.err;
   EXPECT_TRUE(has(refuted.out, "refuted")) << refuted.out;
