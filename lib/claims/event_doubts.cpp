@@ -209,6 +209,18 @@ bool EventDoubts::stays_at_zero(EventFunction& crossing, std::size_t jump) {
   return true;
 }
 
+/// Whether errors of the values before a jump leave an element that is 0 behind it there, so that no
+/// rounding has made it 0.
+bool EventDoubts::leads_exactly_to_zero(EventFunction& guard, Index e, const TwinJump& own) {
+  const VectorXd before = whole(own.jump->before);
+  const VectorXd errors = errors_of(before, whole(own.twin_before), error_factor(*system_));
+  try {
+    return element(guard, maps_(own.jump->event, own.jump->lost, before + 64 * errors), e) == 0;
+  } catch (const std::exception&) {
+    return true;
+  }
+}
+
 bool EventDoubts::leads_to_a_tie(EventCondition& condition, std::size_t jump) {
   const auto& own = std::get<TwinJump>(twins_->parts[jump]);
   const VectorXd before = whole(own.jump->before), after = whole(own.jump->after),
@@ -219,13 +231,23 @@ bool EventDoubts::leads_to_a_tie(EventCondition& condition, std::size_t jump) {
       const double value = element(difference, after, e);
       const double apart = std::abs(value - element(difference, twin, e));
       const double error = error_factor(*system_) * apart + noise_of(difference, after, e);
-      if ((value == 0 && apart == 0) || !(std::abs(value) <= error) ||
-          std::abs(element(difference, before, e)) <= error)
+      if (!(std::abs(value) <= error) || std::abs(element(difference, before, e)) <= error)
         continue;
+      if (value == 0 && apart == 0 && leads_exactly_to_zero(difference, e, own)) continue;
       if (condition.if_changed(after, k) != condition(after)) return true;
     }
   }
   return false;
+}
+
+/// Whether a jump leads over what the event is a crossing of, or makes its condition true.
+bool EventDoubts::becomes_due(std::size_t event, std::size_t jump) {
+  const hybrid::JumpPoint& own = *std::get<TwinJump>(twins_->parts[jump]).jump;
+  const VectorXd before = whole(own.before), after = whole(own.after);
+  if (auto& crossing = watch_.crossing[event])
+    return element(*crossing, before, 0) * element(*crossing, after, 0) < 0;
+  auto& when = watch_.when[event];
+  return when && !(*when)(before) && (*when)(after);
 }
 
 /// Those that a flow changes, of a condition all its elements.
@@ -378,6 +400,12 @@ std::optional<std::string> EventDoubts::of_jump(std::size_t jump) {
           "t = {}: the jump of {} leads the condition of {} to a tie, up to its error",
           brief(std::get<TwinJump>(twins_->parts[jump]).jump->t, 12), events[own].name,
           events[other].name);
+    else if (watch_.only_if[other] && becomes_due(other, jump) &&
+             leads_to_a_tie(*watch_.only_if[other], jump))
+      return fmt::format(
+          "t = {}: the jump of {} leads the 'if' of {} to a tie, up to its error, and {} is due",
+          brief(std::get<TwinJump>(twins_->parts[jump]).jump->t, 12), events[own].name,
+          events[other].name, events[other].name);
     else if (watch_.crossing[other] && leads_to_zero(*watch_.crossing[other], jump))
       return fmt::format(
           "t = {}: the jump of {} leads that of which {} is a crossing to 0, up to its error",

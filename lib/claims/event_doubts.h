@@ -78,8 +78,10 @@ class EventDoubts {
   /// Whether a crossing was never farther from 0 than its rounding, on the flow just
   /// before.
   bool stays_at_zero(hybrid::EventFunction& crossing, std::size_t jump);
+  bool leads_exactly_to_zero(hybrid::EventFunction& guard, Eigen::Index e, const TwinJump& own);
   /// Whether a jump leads values to where the condition is another one within their error.
   bool leads_to_a_tie(hybrid::EventCondition& condition, std::size_t jump);
+  bool becomes_due(std::size_t event, std::size_t jump);
   std::optional<std::string> clocks_after(std::size_t jump, const Instant& at);
   bool fires(std::size_t event, const std::vector<Guard>& guards, const Instant& at,
              const Eigen::VectorXd& values);

@@ -113,6 +113,24 @@ TEST(EventDoubts, AJumpToATieOfAConditionIsUncertain) {
   EXPECT_FALSE(with("p + 0.7"));
 }
 
+/// The same of the `if` of an event that this jump makes due.
+TEST(EventDoubts, AJumpToATieOfAnIfIsUncertain) {
+  const auto with = [](const std::string& to) {
+    EventProblem problem;
+    problem.state("x", {}, "0.7").flow("x", "1").state("p", {}, "0.3").state("n", {}, "0");
+    problem.crossing(EventKind::rises, "first", "x - 1").jump("first", {{"p", to}});
+    problem.crossing(EventKind::rises, "second", "p - 0.5").jump("second", {{"n", "1"}});
+    problem.only_if("p >= 0.9");
+    return Runs(problem).doubt();
+  };
+  const auto doubt = with("p + p + 0.3");
+  ASSERT_TRUE(doubt);
+  EXPECT_NE(doubt->find("'if' of second to a tie"), std::string::npos) << *doubt;
+  EXPECT_FALSE(with("0.9"));
+  EXPECT_FALSE(with("p + 0.7"));
+  EXPECT_FALSE(with("p - 0.2"));
+}
+
 /// Its own jump takes its speed where it has crossed: whether it crosses again is rounding.
 TEST(EventDoubts, ACrossingWithinItsRoundingIsUncertain) {
   EventProblem problem;
