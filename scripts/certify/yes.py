@@ -171,7 +171,6 @@ def gains_of(statement):
         for key, scope in members:
             yield ("_".join(map(str, (name,) + key)), text, scope,
                    arguments[0] if arguments else None)
-
 def compare_gains(statement):
     """|formula - printed| in units of the last place of the largest element of each gain. A gain
     that is a polynomial with d + 1 coefficients is compared at the points 0, ..., d. One that is
@@ -191,7 +190,6 @@ def compare_gains(statement):
             if parts: yield Gain(name, worst, "")
         except NOT_EVALUATED as error:
             yield Gain(name, None, reason(error))
-
 def distance(value, decimals):
     """The largest difference of two matrices in units of the last place of the second."""
     if value.flexible: raise Unsupported("a gain without a size")
@@ -230,7 +228,6 @@ def values_with_gains(gain, found):
         if kind != "full": raise Unsupported("the printed gain " + k_name)
         return p * k if left else k * p
     return value
-
 def prove_yes(gain, claims=None):
     """(claims, gains, the gains at whose printed values all claims are proved again). The claims
     are appended to the given list, which so holds what was found when the time ran out."""
