@@ -4,23 +4,13 @@ Exit code 0: everything is proved, or there is nothing to prove. 1: something is
 3: something is open, or it was interrupted. 2: a file is not a gain file, or printing failed.
 70: a fault of certify.
 """
-
-import argparse
-import json
-import math
-import os
-import signal
-import sys
-import time
-import traceback
+import argparse, json, math, os, signal, sys, time, traceback
 from collections import Counter
-
 try:
     import yaml                 # what the other files need and Python does not bring along
 except ImportError:
     print("certify: PyYAML is not installed (package python3-yaml in Debian)", file=sys.stderr)
     sys.exit(2)
-
 from no import prove_no, prove_optimum
 from statement import Damaged, expect, read_gain_file
 from yes import Claim, prove_yes

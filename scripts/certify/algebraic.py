@@ -12,13 +12,11 @@ matrix X stands for e*X e, and for 0 only if X = 0. With the companion matrix C,
 times l is X C, and times m is C'X. All equations are checked in this ring, so with fractions only.
 What remains are signs at the root, which is isolated by a disk.
 """
-
 from fractions import Fraction
 from functools import reduce
 from itertools import product
 from math import prod
 from operator import add, mul
-
 from arithmetic import Ball, Undecided, ball, is_exact, sign
 from language import Family, observability
 from matrices import Matrix, beside, column, exactly, filled, flat, identity, null_space, zeros
@@ -85,13 +83,12 @@ def float_roots(p):
             z[i] -= reduce(lambda value, c: value * x + c, reversed(p)) / slope if slope else 0
     return [x for x in z if abs(x) < 1e300]
 def value_at(x, re, im):
-    """The real part of e*X e at l = re + i im."""
-    powers = [(ball(Fraction(1)), Ball(0))]
-    for _ in range(x.rows - 1):
-        u, v = powers[-1]
-        powers.append((u * re - v * im, u * im + v * re))
-    return sum(((a * u + b * v) * x[i, j] for i, (a, b) in enumerate(powers)
-                for j, (u, v) in enumerate(powers)), Ball(0))
+    """The real part of e*X e at l = re + i im, by Horner's rule in l and in its conjugate."""
+    a, b = Ball(0), Ball(0)
+    for row in reversed(x.elements):
+        u, v = complex_value(row, re, im)
+        a, b = a * re + b * im + u, b * re - a * im + v
+    return a
 
 # The search.
 def prove_algebraic(statement, blocks):

@@ -10,7 +10,6 @@ Every operation returns a set that contains all results of the operation on memb
 arguments. Two kinds may be mixed; the result has the later kind of the list. A question that a
 set cannot answer, such as the sign of a ball around 0, raises Undecided.
 """
-
 from fractions import Fraction
 from math import factorial, isqrt
 from operator import add
@@ -18,11 +17,8 @@ from operator import add
 BITS = 320
 ONE = 1 << BITS
 
-class Undecided(Exception):
-    """The enclosure is too wide to answer the question."""
-
-class Unsupported(Exception):
-    """The text asks for something that this checker does not know."""
+class Undecided(Exception): """The enclosure is too wide to answer the question."""
+class Unsupported(Exception): """The text asks for something that this checker does not know."""
 def is_exact(x): return x.__class__ is Fraction or x.__class__ is int
 def is_zero(x): return is_exact(x) and x == 0
 def level(x): return 0 if is_exact(x) else x.level      # the place of its kind in the list above
@@ -33,8 +29,6 @@ class Number:
     def __add__(self, other): return self.at_level(other, lambda a, b: a.plus(b))
     def __sub__(self, other): return self + (-other)
     def __rsub__(self, other): return (-self) + other
-    def __truediv__(self, other): return self * inverse(other)
-    def __rtruediv__(self, other): return other * inverse(self)
     def __mul__(self, other):
         if is_exact(other):
             return Fraction(0) if other == 0 else self if other == 1 else self.scaled(other)
@@ -207,7 +201,6 @@ def ball_inverse(x):
     return Ball(m if x.m > 0 else -m, high - m + 1)
 BALL_FUNCTIONS = {"exp": ball_exp, "log": ball_log, "sqrt": ball_sqrt, "inv": ball_inverse,
                   "sin": lambda x: ball_sin_cos(x)[0], "cos": lambda x: ball_sin_cos(x)[1]}
-
 PI = 16 * odd_series(ball(Fraction(1, 5)), -1) - 4 * odd_series(ball(Fraction(1, 239)), -1)
 
 # Elementary functions of all kinds.
@@ -222,12 +215,10 @@ def function(name, x):
         if name == "sqrt" and (n * n, d * d) == (x.numerator, x.denominator): return Fraction(n, d)
     return BALL_FUNCTIONS[name](ball(x))
 def inverse(x): return function("inv", x)
-
 SLOPES = {"exp": lambda p, f: f, "log": lambda p, f: inverse(p), "inv": lambda p, f: -(f * f),
           "sqrt": lambda p, f: inverse(2 * f), "sin": lambda p, f: function("cos", p),
           "cos": lambda p, f: -function("sin", p)}
 EXPONENTS = {"inv": Fraction(-1), "sqrt": Fraction(1, 2), "log": Fraction(0)}
-
 def function_of_series(name, x):
     """f(p + d) by its series in d up to the order K, where p is the constant term and |d| <= delta.
     The series of sin and cos leave at most delta^(K+1)/(K+1)!, that of exp leaves exp(p + delta)

@@ -4,14 +4,11 @@ The elements of a matrix are numbers of any kind of arithmetic.py. So the same t
 values, enclosures for all values of a variable, derivatives, or functions of the unknowns.
 A name or function that is not here raises Unsupported.
 """
-
-import operator
-import re
+import operator, re
 from collections import namedtuple
 from fractions import Fraction
 from functools import cache, partial, reduce
 from itertools import islice
-
 from arithmetic import (BITS, PI, Affine, Dual, Taylor, Undecided, Unsupported, ball, function,
                         inverse, is_exact, is_zero, middle, sign, upper)
 from matrices import (Matrix, beside, column, diagonal, exactly, filled, flat, identity, invert,
@@ -105,7 +102,6 @@ class Parser:
             return self.expression()
         self.take()
         return None
-
 def decimal(text):
     """The fraction that a decimal is."""
     if len(text) < 2000 and DECIMAL.fullmatch(text): return Fraction(text)
@@ -139,8 +135,7 @@ def defined(names, text, scope):
         return matrix(parse(text), Scope(scope, zip(names, values)))
     return Function(apply)
 
-class Family(dict):
-    """Members by their indices, a tuple of whole numbers."""
+class Family(dict): """Members by their indices, a tuple of whole numbers."""
 
 # Evaluation.
 CONSTANTS = {"I": Matrix([[Fraction(1)]], flexible=True), "pi": number(PI)}
@@ -180,7 +175,6 @@ def power(base, exponent):
     if base.is_number(): return base.map(lambda x: power_of_number(x, exponent.number()))
     k = exponent.whole()
     return repeated(base if k >= 0 else invert(base), k, identity(base.rows))
-
 OPERATORS = {
     "+": operator.add, "-": operator.sub, "*": operator.mul, "minus": operator.neg, "^": power,
     "'": Matrix.transposed, "/": lambda a, b: a.map(lambda x, y=b.number(): x * inverse(y)),
@@ -260,8 +254,8 @@ def affine_parts(a, model):
     if any(x.rest for x in flat(elements)) or any(sum(e) > 1 for e in exponents) or \
             not all(map(exactly, parts)) or \
             any((m * n).elements != (n * m).elements for m in parts for n in parts): return None
-    def in_time(e): return lambda x, j: model.like({tuple(j * k for k in e): ball(x)})
-    return [exponential_series(m, in_time(e), model.space[1]) if any(e) else matrix_exponential(m)
+    return [exponential_series(m, lambda x, j, e=e: model.like({tuple(j * k for k in e): ball(x)}),
+                               model.space[1]) if any(e) else matrix_exponential(m)
             for m, e in zip(parts, exponents)]
 def exponential_series(a, embed=lambda x, j: x, last=None):
     """The series of expm(a), up to the term a^j/j! with j = last or where it is tiny; the elements
@@ -291,9 +285,7 @@ def determinant(a):
     return sum(((-1) ** j * x * determinant(minor(j)) for j, x in enumerate(a.elements[0])
                 if not is_zero(x)), Fraction(0))
 def observability(a, c):
-    blocks = [c]
-    for _ in range(a.rows - 1): blocks.append(blocks[-1] * a)
-    return stacked(blocks)
+    return stacked([c * repeated(a, k, identity(a.rows)) for k in range(max(a.rows, 1))])
 def solved(system, q):
     """X of S vec X + vec Q = 0, where vec writes the columns one below the other."""
     x = invert(system) * column([-y for y in flat(q.transposed())])
@@ -399,16 +391,13 @@ def diagonal_or_its_matrix(a):
 def block_diagonal(items):
     return stacked([beside([x if i == j else zeros(x.rows, y.cols) for j, y in enumerate(items)])
                     for i, x in enumerate(items)])
-
 LISTS = {"sum": lambda items: reduce(operator.add, items or [number(Fraction(0))]),
          "vertcat": stacked, "horzcat": beside, "blkdiag": block_diagonal}
 BUILTINS = {
     "inv": invert, "pinv": pseudo_inverse, "expm": matrix_exponential, "floor": each(floor),
     **{name: each(lambda x, name=name: function(name, x))
        for name in ("exp", "sin", "cos", "sqrt", "log")},
-    "mod": elementwise(lambda x, y: x - y * floor(x * inverse(y))),
     "min": extreme("<="), "max": extreme(">="), "diag": diagonal_or_its_matrix,
-    "trace": lambda a: number(sum((a[i, i] for i in range(a.rows)), Fraction(0))),
     "det": lambda a: number(determinant(a)), "norm": lambda a: number(spectral_norm(a)),
     "eye": lambda n: identity(n.whole()), "zeros": shaped(Fraction(0)), "ones": shaped(Fraction(1)),
     "kron": kronecker, "orth": partial(orthonormal, range_of),
@@ -424,9 +413,9 @@ DEFINITIONS = {name: defined(arguments.split(), text, Scope()) for name, argumen
     ("sinh", "x", "(exp(x) - exp(-x))/2"), ("cosh", "x", "(exp(x) + exp(-x))/2"),
     ("tanh", "x", "sinh(x)./cosh(x)"), ("log10", "x", "log(x)/log(10)"),
     ("abs", "x", "where(x >= 0, x, -x)"), ("sign", "x", "where(x > 0, 1, where(x < 0, -1, 0))"),
-    ("ceil", "x", "-floor(-x)"),
+    ("ceil", "x", "-floor(-x)"), ("mod", "a b", "a - b.*floor(a./b)"),
+    ("trace", "A", "sum(diag(A))"),
     ("skew", "v", "[0, -v(3), v(2); v(3), 0, -v(1); -v(2), v(1), 0]"))}
-
 def builtin(name, arguments, scope):
     if name == "where":
         return choose(arguments[0], *[matrix(x, scope) for x in arguments[1:]], scope)
@@ -447,7 +436,6 @@ def members(ranges, scope):
         found = [(key + (k,), Scope(s, {name: number(Fraction(k))})) for key, s in found
                  for k in range(matrix(low, s).whole(), matrix(high, s).whole() + 1)]
     return found
-
 OPEN_JACOBIANS = []
 def at_duals(apply, value):
     """apply(value), with derivatives by the elements of the value, one column below the other. A

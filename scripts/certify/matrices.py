@@ -1,10 +1,8 @@
 """Matrices whose elements are numbers of any kind; elimination; what is positive definite."""
-
 from fractions import Fraction
 from functools import cache
 from itertools import product
 from math import comb, prod
-
 from arithmetic import (Ball, Undecided, Unsupported, ball, function, inverse, is_exact, is_zero,
                         level, middle, sign, sum_of_balls, typical, upper)
 
@@ -69,7 +67,6 @@ class Matrix:
         columns = other.transposed().elements
         return Matrix([[dot(row, c) for c in columns] for row in self.elements],
                       self.rows, other.cols)
-
 def dot(a, b):
     pairs = [(x, y) for x, y in zip(a, b) if not is_zero(x) and not is_zero(y)]
     if pairs and all(isinstance(z, Ball) for pair in pairs for z in pair):

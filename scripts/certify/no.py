@@ -11,13 +11,11 @@ v = 0 and a strict inequality has a Y_k that is not 0.
 The matrices Y_k of the file are rounded and satisfy no equation. Two rules find others: `near`
 shows that there are some near those of the file; algebraic.py builds some.
 """
-
 import math
 from collections import namedtuple
 from decimal import ROUND_FLOOR, Context, Decimal
 from fractions import Fraction
 from itertools import product
-
 from algebraic import STRICT, prove_algebraic
 from arithmetic import (Ball, Undecided, Unsupported, affine_terms, ball, function, is_exact,
                         middle, sign, sum_of_balls, upper)
@@ -64,7 +62,6 @@ def prove_inside(blocks, tiny, small):
         return "no strict inequality has a multiplier"
     if correction(rows, residual) is not None: return None
     return "the multipliers of the file are too far from exact ones, or dependent"
-
 def prove_optimum(gain):
     """The claim that the objective is nowhere below its bound in the file, or hardly; it names the
     bound that is proved. With r' inv(H) r <= s (see `near`), v = r_0 - sum_k <S_k, G_k0> is at

@@ -3,19 +3,13 @@
 The file is read with all numbers as the decimals that stand there. Keys that the checker does not
 use (campaigns, plants, reports, margins) are not looked at.
 """
-
-import hashlib
-import json
-import os
-import re
+import hashlib, json, os, re
 from collections import namedtuple
 from fractions import Fraction
 from functools import reduce
 from itertools import count, product
 from operator import add
-
 import yaml
-
 from arithmetic import Affine, Series, Undecided, Unsupported, is_exact, middle, upper
 from language import (Family, Function, Later, Scope, basis_functions, decimal, defined,
                       elementwise, evaluate, holds, matrix, members, parse, parse_range)
@@ -27,10 +21,8 @@ OPTIONAL = ("searched", "parameters", "bases", "functions", "search", "gain_func
 NOT_EVALUATED = (Undecided, Unsupported, ArithmeticError, LookupError, TypeError, ValueError,
                  AttributeError, RecursionError)
 
-class Damaged(Exception):
-    """This is not a gain file; the text says what was expected."""
-class Numeral(str):
-    """A number of the JSON file, as it is written."""
+class Damaged(Exception): """This is not a gain file; the text says what was expected."""
+class Numeral(str): """A number of the JSON file, as it is written."""
 def listed(x): return x if isinstance(x, list) else [x]
 def refuse(text): raise Unsupported(text)
 def expect(condition, what):
@@ -145,7 +137,6 @@ def problem_and_method(statement):
     def built_in(name):
         named = any(f.get("file") == "method " + name for f in statement.get("files", []))
         return text_of("method " + name) if named else read_yaml(statement["method_text"])
-
     problem = read_yaml(statement["problem_text"])
     for _ in range(100):
         if "like" in problem: problem = variant(text_of(problem.pop("like")), problem)
@@ -363,15 +354,14 @@ class Statement:
         later = Later(lambda: refuse("an entry of forall that depends on the one before"))
         for text in listed(texts):
             entry = re.fullmatch(r"\s*(\w+)\s+in\s+(.*)", text, re.S)
-            scopes = [Scope(d.scope, hidden) for d in found]
             if not entry:
-                found = [d for d, scope in zip(found, scopes) if holds(parse(text), scope)]
+                found = [d for d in found if holds(parse(text), Scope(d.scope, hidden))]
                 continue
             name, where = entry[1], entry[2].strip()
             if name in hidden or any(name == n for d in found for n, _, _ in d.choices):
                 raise Unsupported("a variable that occurs twice")
-            found = [new for d, scope in zip(found, scopes)
-                     for new in choices(d, scope, name, where)]
+            found = [new for d in found
+                     for new in choices(d, Scope(d.scope, hidden), name, where)]
             if where.startswith(("[", "conv")): hidden[name] = later
         return found
 
@@ -381,11 +371,9 @@ def named_blocks(entry):
     def place(a, b):
         if b in (blocks[a] or {}): return parse(blocks[a][b])
         return ("'", parse(blocks[b][a])) if a in (blocks[b] or {}) else ("number", Fraction(0))
-
     sign, right = re.fullmatch(r"\s*(<=|>=|<|>)(.*)", entry["is"]).groups()
     return ("compare", [("block", [[place(a, b) for b in blocks] for a in blocks]), sign,
                         parse(right)])
-
 def choices(domain, scope, name, where):
     """The domains that an entry `name in where` of forall makes of one, evaluated in the scope."""
     if where.startswith("["):
@@ -412,7 +400,6 @@ def choices(domain, scope, name, where):
     hulls = domain.hulls + (((name, values),) if where.startswith("conv") else ())
     return [Domain(Scope(domain.scope, {name: v}), domain.intervals,
                    domain.choices + ((name, k + 1, v),), hulls) for k, v in enumerate(values)]
-
 def polynomial(parts, span):
     """The unknown function sum parts[k] b_k(t), with powers or Chebyshev polynomials b_k."""
     return Function(lambda t: reduce(add, [
@@ -448,7 +435,6 @@ class Symbols:
 
 # Inequalities as symmetric matrices.
 BOUNDED = {1: ("norm", "abs", "max", "lambda_max"), -1: ("min", "lambda_min")}
-
 def inequality(comparison, scope):
     """The symmetric matrix that a comparison asks to be positive (semi)definite. A column is
     compared element by element, so its elements become a diagonal. Norms, absolute values, maxima

@@ -1,11 +1,8 @@
 """The proof of a yes: every comparison of every requirement, at the decimals of the file."""
-
-import math
-import re
+import math, re
 from collections import namedtuple
 from fractions import Fraction
 from itertools import product
-
 from arithmetic import (ONE, Affine, Taylor, Undecided, Unsupported, ball, is_zero, middle, sign,
                         upper)
 from language import Scope, matrix, parse
@@ -98,7 +95,6 @@ def scope_at(domain, values):
         before = [] if not i.index else flat(names[i.name])
         names[i.name] = number(x) if i.index is None else column(before + [x])
     return Scope(domain.scope, names)
-
 def prove_for_all(name, comparison, domain):
     """The box is halved until each piece is proved. Where the middle of a piece may fail, the
     matrix there is judged."""
@@ -133,7 +129,6 @@ def prove_for_all(name, comparison, domain):
         todo += [piece[:k] + [part] + piece[k + 1:] for part in ((half, high), (low, half))]
     texts = ["%s in [%s, %s]" % (t, short(x), short(y)) for t, (x, y) in zip(titles, whole)]
     return Claim(name, "proved", "all " + ", ".join(texts), pieces)
-
 def longest_side(piece, lengths, a):
     """The side to halve: that of the variable whose powers from 2 on are largest in a, since
     Bernstein coefficients are exact for the others; without such, the relatively longest side."""
