@@ -1,8 +1,7 @@
 """certify GAINS.json...: an independent check of what gain files of gainsmith say.
 
-Exit code 0: everything is proved, or there is nothing to prove. 1: something is refuted.
-3: something is open, or it was interrupted. 2: a file is not a gain file, or printing failed.
-70: a fault of certify.
+Exit code 0: all is proved, or there is nothing to prove. 1: something is refuted. 3: something is
+open, or it was interrupted. 2: a file is not a gain file, or printing failed. 70: a fault.
 """
 import argparse, json, math, os, signal, sys, time, traceback
 from collections import Counter
@@ -15,7 +14,7 @@ from no import prove_no, prove_optimum
 from statement import Damaged, expect, read_gain_file
 from yes import Claim, prove_yes
 
-SECONDS_OF_SEARCH = 2       # for the certificate of the value beyond the one that a search found
+SECONDS_BESIDE = 2       # for the certificate of the value beyond the one that a search found
 MOST_ULPS = 2 ** 20         # a gain farther from its formula is open
 EXIT = {"nothing to prove": 0, "proved": 0, "refuted": 1, "open": 3, "not a gain file": 2}
 
@@ -41,8 +40,7 @@ def check(path, seconds):
         check_beside(gain, found, seconds - (time.process_time() - began))
     except OutOfTime:
         after = " after the claim %s" % found["claims"][-1].name if found["claims"] else ""
-        found.update(verdict="open", message="the time limit of %g s was reached%s" %
-                     (seconds, after))
+        found.update(verdict="open", message="the limit of %g s was reached%s" % (seconds, after))
     except MemoryError:
         found.update(verdict="open", message="there was not enough memory")
     except Exception as error:      # Damaged, or a form of the file that no check expects
@@ -80,10 +78,9 @@ def check_beside(gain, found, seconds):
     beyond = dict(gain, searched={**gain["searched"], name: search["beyond"]})
     label = "no solution at %s = %s" % (name, search["beyond"])
     try:
-        claim = within(min(SECONDS_OF_SEARCH, seconds),
-                       lambda: prove_no(beyond, certificate, label))
+        claim = within(min(SECONDS_BESIDE, seconds), lambda: prove_no(beyond, certificate, label))
     except OutOfTime:
-        claim = Claim(label, "open", "not decided in %d s" % SECONDS_OF_SEARCH)
+        claim = Claim(label, "open", "not decided in %d s" % SECONDS_BESIDE)
     found["beside"].append(claim)
 
 # Reports.
@@ -119,8 +116,7 @@ def text_of_claim(c):
     if c.point: lines.append("at " + ", ".join("%s = %s" % p for p in c.point.items()))
     if c.vector: lines.append("v = [%s]" % ", ".join(map(str, c.vector)))
     return "\n            ".join(lines)
-def json_of(found):
-    """With named tuples as objects, and fractions as texts."""
+def json_of(found):         # with named tuples as objects, and fractions as texts
     plain = {key: [x._asdict() if hasattr(x, "_asdict") else x for x in value]
              if isinstance(value, list) else value for key, value in found.items()}
     return json.dumps(plain, default=str)

@@ -29,8 +29,7 @@ POWERS = {"1": [(0, 0)], "l + m": [(1, 0), (0, 1)], "l m": [(1, 1)]}
 WEIGHTS = [["1"], ["1", "l + m"], ["1", "l m"], ["1", "l + m", "l m"]]
 # The vectors z_k are w, or have two halves s l^i m^j w by their (s, i, j): w, and +-l w or +-m w.
 W = (1, 0, 0)
-HALVES = [pair for half in ((1, 1, 0), (-1, 1, 0), (1, 0, 1), (-1, 0, 1))
-          for pair in ((W, half), (half, W))]
+HALVES = [p for h in ((1, 1, 0), (-1, 1, 0), (1, 0, 1), (-1, 0, 1)) for p in ((W, h), (h, W))]
 
 def eigenvector(a, start):
     """(p, W): the monic p of least degree with p(A) b = 0, and w = W e = (p(l) - p(A))/(l - A) b.
@@ -73,8 +72,7 @@ def complex_value(p, re, im):
     a, b = re * 0, re * 0
     for c in reversed(p): a, b = a * re - b * im + c, a * im + b * re
     return a, b
-def float_roots(p):
-    """Roots in floating point (Durand and Kerner): only a guess."""
+def float_roots(p):         # in floating point (Durand and Kerner): only a guess
     n, size = len(p) - 1, 1 + max(map(abs, p[:-1]), default=0)
     z = [(0.4 + 0.9j) ** k * min(size, 1e3) ** (k / n) for k in range(1, n + 1)]
     for _ in range(300):
@@ -144,8 +142,7 @@ def all_forms(blocks, w, c):
         yield [{i: quadratic(entries, w, c, halves[block.shape[0]])
                 for i, entries in block.terms.items()} if block.shape[0] in halves else None
                for block in blocks]
-def quadratic(entries, w, c, halves):
-    """X with z*B z = e*X e."""
+def quadratic(entries, w, c, halves):       # X with z*B z = e*X e
     n, total = w.rows, zeros(w.cols, w.cols)
     for (p, (s, i, j)), (q, (t, k, l)) in product(enumerate(halves), repeat=2):
         b = filled(n, n, lambda x, y: entries.get((p * n + x, q * n + y), Fraction(0)) * s * t)
@@ -169,9 +166,8 @@ def certifies(blocks, forms, basis, p, c):
     return False
 def excludes(blocks, weights, constant, re, im):
     """The signs: c_k >= 0; the constant part < 0, or 0 with c_k > 0 for a strict inequality."""
-    values = {"1": ball(Fraction(1)), "l + m": 2 * re, "l m": re * re + im * im}
-    used = {k: sum(values[n] * x for n, x in w.items()) for k, w in weights.items()
-            if any(w.values())}
+    at = {"1": ball(Fraction(1)), "l + m": 2 * re, "l m": re * re + im * im}
+    used = {k: sum(at[n] * x for n, x in w.items()) for k, w in weights.items() if any(w.values())}
     try:
         if any(sign(c) < 0 for c in used.values()): return False
         if any(flat(constant)): return sign(value_at(constant, re, im)) < 0

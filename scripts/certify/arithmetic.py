@@ -118,7 +118,6 @@ class Taylor(Series):
             rest += ((polynomial * other.rest + self.rest * other.size()) >> BITS) + 1
         total = (lambda pairs: sum(a * b for a, b in pairs)) if exact else sum_of_balls
         return self.like({e: total(pairs) for e, pairs in terms.items()}, rest)
-
 class Affine(Series):
     """terms[0] + sum of terms[i] x_i. A product of two unknowns raises Unsupported. So a matrix
     that was evaluated with Affine elements is known to be affine in the unknowns."""
@@ -126,7 +125,6 @@ class Affine(Series):
     def times(self, other):
         if self.is_constant() or other.is_constant(): return super().times(other)
         raise Unsupported("the text is not affine in the unknowns")
-
 class Dual(Series):
     """terms[0] is a value, terms[k] its derivative by the k-th element of one variable."""
     level = 4
@@ -142,8 +140,7 @@ def sign(x):
     if isinstance(x, Taylor): x = ball(x.constant()).widened(x.variable().size())
     if abs(x.m) <= x.r: raise Undecided("a sign")
     return 1 if x.m > 0 else -1
-def typical(x):
-    """A fraction near |x|. It chooses pivots; nothing is concluded from it."""
+def typical(x):         # a fraction near |x|, which chooses pivots; nothing is concluded from it
     if isinstance(x, Series): return typical(x.constant())
     return abs(x) if is_exact(x) else Fraction(max(abs(x.m) - x.r, 0), ONE)
 

@@ -98,10 +98,9 @@ class Parser:
         return ("block", rows)
     def entry(self):
         """An entry of a matrix; None for a * that stands alone."""
-        if not self.next_is("*") or not self.next_is(",", ";", "]", ahead=1):
-            return self.expression()
-        self.take()
-        return None
+        alone = self.next_is("*") and self.next_is(",", ";", "]", ahead=1)
+        if alone: self.take()
+        return None if alone else self.expression()
 def decimal(text):
     """The fraction that a decimal is."""
     if len(text) < 2000 and DECIMAL.fullmatch(text): return Fraction(text)
@@ -121,7 +120,6 @@ class Scope:
         return value.get() if isinstance(value, Later) else value
     def is_local(self, name):       # of a variable or an argument, not a datum or a definition
         return self.outer is not None and (name in self.names or self.outer.is_local(name))
-
 class Later:
     """A value that is computed when it is first used, once."""
     def __init__(self, compute): self.get = cache(compute)
@@ -134,18 +132,15 @@ def defined(names, text, scope):
         if len(values) < len(names): raise Unsupported("the number of arguments")
         return matrix(parse(text), Scope(scope, zip(names, values)))
     return Function(apply)
-
 class Family(dict): """Members by their indices, a tuple of whole numbers."""
 
 # Evaluation.
 CONSTANTS = {"I": Matrix([[Fraction(1)]], flexible=True), "pi": number(PI)}
-def evaluate(tree, scope):
-    """The matrix (or Function, Family) that a tree means."""
+def evaluate(tree, scope):      # the matrix (or Function, Family) that a tree means
     kind, *parts = tree
     if kind == "number": return number(parts[0])
     if kind == "call": return call(*parts, scope)
-    if kind == "block":
-        return join_blocks([[x and matrix(x, scope) for x in row] for row in parts[0]])
+    if kind == "block": return join_blocks([[t and matrix(t, scope) for t in r] for r in parts[0]])
     if kind in OPERATORS: return OPERATORS[kind](*[matrix(x, scope) for x in parts])
     if kind != "name": raise Unsupported("a condition where a value is expected")
     value = scope.find(parts[0])
@@ -163,8 +158,7 @@ def elementwise(operation):
         rows, cols = (b if a.is_number() else a).shape()
         return filled(rows, cols, lambda i, j: operation(a.spread(i, j), b.spread(i, j)))
     return apply
-def repeated(base, k, one):
-    """base^k."""
+def repeated(base, k, one):         # base^k
     if abs(k) > 10_000: raise Unsupported("an exponent above 10000")
     return reduce(operator.mul, [base] * abs(int(k)), one)
 def power_of_number(x, k):
@@ -211,15 +205,13 @@ def part_of(value, arguments, scope):
     if len(arguments) != 2: raise Unsupported("the number of indices")
     return value.part(places(arguments[0], value.rows), places(arguments[1], value.cols))
 def relation(name): return elementwise(lambda x, y: RELATIONS[name](sign(x - y), 0))
-def holds(tree, scope):
-    """Whether a condition holds for all elements."""
+def holds(tree, scope):         # whether a condition holds for all elements
     kind, *parts = tree
     if kind in ("and", "or"): return {"and": all, "or": any}[kind](holds(x, scope) for x in parts)
     if kind == "not": return not holds(parts[0], scope)
     if kind != "compare": raise Unsupported("a value where a condition is expected")
-    values = [matrix(x, scope) for x in parts[0][::2]]
-    return all(all(flat(relation(name)(a, b)))
-               for a, name, b in zip(values, parts[0][1::2], values[1:]))
+    values, names = [matrix(x, scope) for x in parts[0][::2]], parts[0][1::2]
+    return all(all(flat(relation(r)(a, b))) for a, r, b in zip(values, names, values[1:]))
 def choose(condition, yes, no, scope):
     """where(condition, yes, no); a single comparison element by element."""
     if condition[0] == "compare" and len(condition[1]) == 3:
@@ -278,8 +270,7 @@ def exponential_series(a, embed=lambda x, j: x, last=None):
                   (ball(total[i, k]) if is_exact(total[i, k]) else total[i, k]).widened(error))
 
 # Functions.
-def determinant(a):
-    """By the first row."""
+def determinant(a):         # by the first row
     def minor(j): return a.part(range(1, a.rows), [k for k in range(a.cols) if k != j])
     if a.rows == 0: return Fraction(1)
     return sum(((-1) ** j * x * determinant(minor(j)) for j, x in enumerate(a.elements[0])
@@ -317,8 +308,7 @@ def orthonormal(subspace, a, *tolerance):
         p = next(i for i in range(size) if sign(e * r[i] - largest) >= 0)
         b = [w[i, p] * inverse(function("sqrt", r[p])) for i in range(size)]
         columns.append(column(b))
-        w = filled(size, size, lambda i, j: w[i, j] - b[i] * b[j] if p not in (i, j) else
-                   Fraction(0))
+        w = filled(size, size, lambda i, j: Fraction(0) if p in (i, j) else w[i, j] - b[i] * b[j])
     return beside(columns)
 def checked_rank(a, tolerance=number(Fraction(1, 10 ** 12))):
     """The rank of a matrix of fractions, if all singular values but those that are 0 are above the
@@ -336,8 +326,8 @@ def floor(x):
     return Fraction(x.numerator // x.denominator)
 def units(a, c):
     """Powers of two S: least squares of log2 of the elements of inv(S)*A*S (beside the diagonal)
-    and C*S. Exponents that these leave open, of the first states that no output is connected with,
-    are 0: in the elimination from the last state to the first they have no pivot."""
+    and C*S. Exponents that these leave open are 0, of the first state of each group that no output
+    is connected with: in the elimination from the last state to the first it has no pivot."""
     n = a.rows
     if not (exactly(a) and exactly(c)): raise Unsupported("units of irrational numbers")
     logs = [(i, j, a[i, j]) for i in range(n) for j in range(n) if i != j and a[i, j] != 0]
@@ -371,9 +361,8 @@ def chebyshev(k, t, low, high):
     return number(next(islice(functions, k.whole(), None)))
 def extreme(name):
     """The largest or smallest, element by element, or of the elements of one argument."""
-    better = elementwise(lambda x, y: x if RELATIONS[name](sign(x - y), 0) else y)
-    return lambda *values: reduce(
-        better, values if len(values) > 1 else [number(x) for x in flat(values[0])])
+    best = elementwise(lambda x, y: x if RELATIONS[name](sign(x - y), 0) else y)
+    return lambda *a: reduce(best, a if len(a) > 1 else [number(x) for x in flat(a[0])])
 def pseudo_inverse(a):
     t = a.transposed()
     return invert(t * a) * t if a.rows >= a.cols else t * invert(a * t)

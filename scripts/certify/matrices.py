@@ -14,8 +14,7 @@ class Matrix:
         self.elements, self.flexible = elements, flexible
         self.rows = len(elements) if rows is None else rows
         self.cols = len((elements or [[]])[0]) if cols is None else cols
-        if any(len(row) != self.cols for row in elements):
-            raise Unsupported("rows of different lengths")
+        if any(len(r) != self.cols for r in elements): raise Unsupported("rows of unequal length")
     def __getitem__(self, place): return self.elements[place[0]][place[1]]
     def shape(self): return (self.rows, self.cols)
     def is_number(self): return self.shape() == (1, 1)
@@ -65,12 +64,10 @@ class Matrix:
         if self.cols != other.rows:
             raise Unsupported("a product of %d x %d and %d x %d" % (self.shape() + other.shape()))
         columns = other.transposed().elements
-        return Matrix([[dot(row, c) for c in columns] for row in self.elements],
-                      self.rows, other.cols)
+        return Matrix([[dot(r, c) for c in columns] for r in self.elements], self.rows, other.cols)
 def dot(a, b):
     pairs = [(x, y) for x, y in zip(a, b) if not is_zero(x) and not is_zero(y)]
-    if pairs and all(isinstance(z, Ball) for pair in pairs for z in pair):
-        return sum_of_balls(pairs)
+    if pairs and all(isinstance(z, Ball) for xy in pairs for z in xy): return sum_of_balls(pairs)
     return sum((x * y for x, y in pairs), Fraction(0))
 def form(v, a, w): return dot(v, [dot(row, w) for row in a.elements])      # v'aw
 def filled(rows, cols, element):
@@ -86,8 +83,8 @@ def flat(a): return [x for row in a.elements for x in row]
 def exactly(a): return all(is_exact(x) for x in flat(a))        # all elements are fractions
 def stacked(items):
     if len({x.cols for x in items}) > 1: raise Unsupported("different widths of stacked matrices")
-    return Matrix([row for x in items for row in x.elements], sum(x.rows for x in items),
-                  items[0].cols)
+    rows = [row for x in items for row in x.elements]
+    return Matrix(rows, len(rows), items[0].cols)
 def beside(items): return stacked([x.transposed() for x in items]).transposed()
 def join_blocks(blocks):
     """[a, b; c, d]. None stands for `*`, the transpose of the mirrored block. Zeros and multiples
@@ -176,10 +173,9 @@ def least_pivots(a):
     """Pivots that are at most those of each symmetric matrix in the matrix of balls a, as long as
     they are positive. If the balls are m_ij +- r_ij, then a >= m - diag(sums of the rows of r).
     This has one number at each place, so that the balls of its elimination stay small."""
-    balls = a.map(ball)
-    rows = [[Ball(x.m) for x in row] for row in balls.elements]
-    for i in range(a.rows):
-        rows[i][i].m -= sum(max(balls[i, j].r, balls[j, i].r) for j in range(a.rows))
+    b, places = a.map(ball), range(a.rows)
+    rows = [[Ball(x.m) for x in row] for row in b.elements]
+    for i in places: rows[i][i].m -= sum(max(b[i, j].r, b[j, i].r) for j in places)
     return pivots_of(rows)
 def witness(a, strict):
     """A vector v of fractions with v'av < 0 (if strict: <= 0 and v not 0), or None. If a + t I has
@@ -202,8 +198,7 @@ def witness(a, strict):
         if s < 0: return v
         if s == 0 and strict: found = v
     return found
-def rounded(x):
-    """x if it is short, else a fraction near it."""
+def rounded(x):         # x if it is short, else a fraction near it
     if x.denominator.bit_length() < 400: return x
     shift = 400 + max(0, x.denominator.bit_length() - x.numerator.bit_length())
     return Fraction((x.numerator << shift) // x.denominator, 1 << shift)

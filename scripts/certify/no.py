@@ -18,12 +18,11 @@ from fractions import Fraction
 from itertools import product
 from algebraic import STRICT, prove_algebraic
 from arithmetic import (Ball, Undecided, Unsupported, affine_terms, ball, function, is_exact,
-                        middle, sign, sum_of_balls, upper)
+                        middle, sum_of_balls, upper)
 from language import decimal, matrix, parse
 from matrices import filled, least_pivots
-from statement import (NOT_EVALUATED, Statement, Symbols, expect, inequality, matrix_of_json,
-                       refuse)
-from yes import Claim, outward, reason, scope_at
+from statement import NOT_EVALUATED, Statement, Symbols, expect, inequality, matrix_of_json, refuse
+from yes import Claim, is_outside, outward, reason, scope_at
 
 # One inequality at one point: its matrix as {i: {(row, column): coefficient of x_i}}, x_0 = 1, its
 # shape, and the rows of its multiplier.
@@ -81,8 +80,7 @@ def prove_optimum(gain):
         if s is None: raise Undecided("the multipliers of the file are too far from exact ones")
         shown = (first - function("sqrt", s * inner(constant, constant))) * scale
         low = middle(shown) - upper(shown - middle(shown))
-        if low < stated - abs(stated) / NEAR:
-            return Claim(name, "open", "the multipliers show %.10g" % low)
+        if low < stated - abs(stated) / NEAR: return Claim(name, "open", "shown: >= %.10g" % low)
         digits = Context(10, ROUND_FLOOR).divide(Decimal(low.numerator), Decimal(low.denominator))
         return Claim("objective >= %s" % digits, "proved", "multipliers near those of the file")
     except NOT_EVALUATED as error:
@@ -98,14 +96,10 @@ def blocks_of(statement, multipliers):
         values = [part.partition(" = ") for part in point.split(", ") if part]
         comparison, at = comparisons.get(name), {key: decimal(x) for key, _, x in values}
         if isinstance(comparison, Exception): raise comparison
-        domain = next((d for d in comparison.domains if is_chosen(d, at)), None) if comparison \
-            else None
+        domain = comparison and next((d for d in comparison.domains if is_chosen(d, at)), None)
         if not domain: raise Unsupported("the block " + label)
         scope = scope_at(domain, [place(i, at.get(i.title)) for i in domain.intervals])
-        if comparison.sign == "==":
-            found = matrix(comparison.left, scope) - matrix(comparison.right, scope)
-        else: found = inequality(comparison, scope)
-        terms = {}
+        found, terms = inequality(comparison, scope), {}
         for a, b in product(range(found.rows), range(found.cols)):
             for i, c in affine_terms(found[a, b]).items(): terms.setdefault(i, {})[a, b] = c
         blocks.append(Block(comparison.sign, terms, found.shape(),
@@ -123,8 +117,7 @@ def place(interval, value):
     outward(interval)       # not empty
     for end in (interval.low, interval.high):
         if value is None or is_rounded(value, end): return end
-    if sign(value - interval.low) < 0 or sign(interval.high - value) < 0:
-        raise Unsupported("a point outside of its interval")
+    if is_outside(interval, value): raise Unsupported("a point outside of its interval")
     return value
 
 # Multipliers near those of the file.
@@ -207,8 +200,7 @@ def relaxed_rows(blocks):
         for found in entries.values():
             live = [e for e in found if (e[0], e[1]) not in dead and (e[0], e[2]) not in dead]
             if all(a == b and is_exact(c) and blocks[k].sign != "==" and (c > 0) == (live[0][3] > 0)
-                   for k, a, b, c in live):
-                dead |= {(k, a) for k, a, _, _ in live}
+                   for k, a, b, c in live): dead |= {(k, a) for k, a, _, _ in live}
     return dead
 def cholesky(y, tiny):
     """Rows of L with y near L L', in floating point; pivots below `tiny`, for a diagonal near 1,

@@ -121,8 +121,7 @@ def variant(base, over):
 def without_none(mapping):
     return {key: {k: v for k, v in value.items() if v != "none"} if isinstance(value, dict)
             else value for key, value in mapping.items() if value != "none"}
-def files_named(statement, name):
-    """The entries of a file: of this name, or else of the same name in another folder."""
+def files_named(statement, name):       # or else of the same name in another folder
     files = [f for f in statement.get("files", []) if isinstance(f.get("file"), str)]
     found = [f for f in files if f["file"] == name] or \
         [f for f in files if os.path.basename(f["file"]) == os.path.basename(name)]
@@ -183,9 +182,7 @@ class Statement:
                                   if isinstance(p, dict) and "search" in p}
         for value in section(self.problem, "search").values():
             asked |= set(value) if isinstance(value, dict) else set()
-        for name in self.searched:
-            expect(name in asked, "searched: names that are searched, not " + name)
-
+        for name in self.searched: expect(name in asked, "a search for the searched name " + name)
     # Definitions and data.
     def later(self, name, compute): self.scope.names[name] = Later(compute)
     def declare(self, name, compute, declared):
@@ -273,7 +270,6 @@ class Statement:
                        for k, (key, scope) in enumerate(self.members(texts))})
     def members(self, texts):       # of `for: [i in 1..N, k in 0..2]`
         return members([parse_range(text) for text in listed(texts)], self.scope)
-
     # Shapes.
     def parts(self, shape):
         """The trees of the rows and columns of `n x m`, `n`, `symmetric n`, `scalar`."""
@@ -300,7 +296,6 @@ class Statement:
         elif value.is_zero() and rows is not None and cols is not None: value = zeros(rows, cols)
         self.unify(shape, value)
         return value
-
     # Unknowns.
     def unknown(self, name, declared):
         if "for" not in declared: return self.member(name, declared)
@@ -331,7 +326,6 @@ class Statement:
                     self.scope.names[word] = self.unknown_value(word, rows, cols, kind)
                 return defined([call.group(2).strip()], text, self.scope)
         return refuse("the formula of " + name)
-
     # Requirements.
     def comparisons(self):
         """All comparisons of all requirements. One that cannot be read is an exception instead."""
@@ -360,20 +354,18 @@ class Statement:
             name, where = entry[1], entry[2].strip()
             if name in hidden or any(name == n for d in found for n, _, _ in d.choices):
                 raise Unsupported("a variable that occurs twice")
-            found = [new for d in found
-                     for new in choices(d, Scope(d.scope, hidden), name, where)]
+            found = [new for d in found for new in choices(d, Scope(d.scope, hidden), name, where)]
             if where.startswith(("[", "conv")): hidden[name] = later
         return found
 
 def named_blocks(entry):
     """The comparison of a matrix that is given by named block rows and columns."""
-    blocks = entry["blocks"]
+    rows = entry["blocks"]
     def place(a, b):
-        if b in (blocks[a] or {}): return parse(blocks[a][b])
-        return ("'", parse(blocks[b][a])) if a in (blocks[b] or {}) else ("number", Fraction(0))
+        if b in (rows[a] or {}): return parse(rows[a][b])
+        return ("'", parse(rows[b][a])) if a in (rows[b] or {}) else ("number", Fraction(0))
     sign, right = re.fullmatch(r"\s*(<=|>=|<|>)(.*)", entry["is"]).groups()
-    return ("compare", [("block", [[place(a, b) for b in blocks] for a in blocks]), sign,
-                        parse(right)])
+    return ("compare", [("block", [[place(a, b) for b in rows] for a in rows]), sign, parse(right)])
 def choices(domain, scope, name, where):
     """The domains that an entry `name in where` of forall makes of one, evaluated in the scope."""
     if where.startswith("["):
@@ -388,8 +380,7 @@ def choices(domain, scope, name, where):
             [Interval(name, i, low.spread(i, 0), high.spread(i, 0), "%s_%d" % (name, i + 1))
              for i in range(shape.rows)]
         empty = {name: shape} if shape.rows == 0 else {}
-        return [domain._replace(scope=Scope(domain.scope, empty),
-                                intervals=domain.intervals + tuple(new))]
+        return [Domain(Scope(domain.scope, empty), domain.intervals + tuple(new), *domain[2:])]
     if "{" in where:
         values = where[where.index("{") + 1:where.rindex("}")]
         values = [matrix(x, scope) for x in parse("[%s]" % values)[1][0]]
@@ -438,15 +429,16 @@ BOUNDED = {1: ("norm", "abs", "max", "lambda_max"), -1: ("min", "lambda_min")}
 def inequality(comparison, scope):
     """The symmetric matrix that a comparison asks to be positive (semi)definite. A column is
     compared element by element, so its elements become a diagonal. Norms, absolute values, maxima
-    and eigenvalues on the right side of the comparison are replaced as in docs/language.md."""
+    and eigenvalues on the right side of the comparison are replaced as in docs/language.md. Of an
+    equation, the matrix that must be 0."""
     small, large = comparison.left, comparison.right
+    if comparison.sign == "==": return matrix(small, scope) - matrix(large, scope)
     if comparison.sign in (">", ">="): small, large = large, small
     for side, other, factor in ((small, large, 1), (large, small, -1)):
         name = side[1][1] if side[0] == "call" and side[1][0] == "name" else ""
         if name not in BOUNDED[factor] or scope.find(name) is not None: continue
         bound, values = matrix(other, scope), [matrix(x, scope) for x in side[2]]
-        if len(values) > 1 and name not in ("max", "min"):
-            raise Unsupported("%s of several arguments" % name)
+        if len(values) > 1 and name not in ("max", "min"): refuse(name + " of several arguments")
         if name == "norm": return norm_block(values[0], bound)
         if name.startswith("lambda"):
             return symmetric((identity(values[0].rows, bound.number()) - values[0]).map(
