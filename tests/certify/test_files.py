@@ -341,7 +341,7 @@ class No(unittest.TestCase):
             found = problem(text.replace("[0, 1]", interval), {})
             self.assertEqual(prove_no(found, certificate).result, expected)
 
-class Optimum(unittest.TestCase):
+class Bounds(unittest.TestCase):
     def proved(self, require, objective, multipliers, stated):
         """The bound that is proved, a fraction, or None."""
         def numerals(x):
