@@ -1,32 +1,20 @@
 """certify GAINS.json...: an independent check of what gain files of gainsmith say.
 
-Exit code 0: everything is proved, or there is nothing to prove. 1: something is refuted.
-3: something is open, or it was interrupted. 2: a file is not a gain file, or printing failed.
-70: a fault of certify.
+Exit code 0: all is proved, or there is nothing to prove. 1: something is refuted. 3: something is
+open, or it was interrupted. 2: a file is not a gain file, or printing failed. 70: a fault.
 """
-
-import argparse
-import json
-import math
-import os
-import signal
-import sys
-import time
-import traceback
+import argparse, json, math, os, signal, sys, time, traceback
 from collections import Counter
-from fractions import Fraction
-
 try:
     import yaml                 # what the other files need and Python does not bring along
 except ImportError:
     print("certify: PyYAML is not installed (package python3-yaml in Debian)", file=sys.stderr)
     sys.exit(2)
-
 from no import prove_no, prove_optimum
 from statement import Damaged, expect, read_gain_file
 from yes import Claim, prove_yes
 
-SECONDS_OF_SEARCH = 2       # for the certificate of the value beyond the one that a search found
+SECONDS_BESIDE = 2       # for the certificate of the value beyond the one that a search found
 MOST_ULPS = 2 ** 20         # a gain farther from its formula is open
 EXIT = {"nothing to prove": 0, "proved": 0, "refuted": 1, "open": 3, "not a gain file": 2}
 
@@ -40,21 +28,19 @@ def within(seconds, work):
         return work()
     finally:
         signal.setitimer(signal.ITIMER_PROF, 0)
-
 def check(path, seconds):
     """What is found about one file, as a dictionary."""
     began = time.process_time()
     found = {"file": path, "verdict": "open", "message": "", "claims": [], "gains": [],
-             "proved_at_printed_gains": [], "search": []}
+             "proved_at_printed_gains": [], "beside": []}
     try:
         gain = within(seconds, lambda: read_gain_file(path))
         found["says"] = gain["verdict"]
         within(seconds, lambda: check_verdict(gain, found))
-        check_search(gain, found, seconds - (time.process_time() - began))
+        check_beside(gain, found, seconds - (time.process_time() - began))
     except OutOfTime:
         after = " after the claim %s" % found["claims"][-1].name if found["claims"] else ""
-        found.update(verdict="open", message="the time limit of %g s was reached%s" %
-                     (seconds, after))
+        found.update(verdict="open", message="the limit of %g s was reached%s" % (seconds, after))
     except MemoryError:
         found.update(verdict="open", message="there was not enough memory")
     except Exception as error:      # Damaged, or a form of the file that no check expects
@@ -63,7 +49,6 @@ def check(path, seconds):
                      message=("" if isinstance(error, Damaged) else unexpected) + str(error))
     found["seconds"] = time.process_time() - began
     return found
-
 def check_verdict(gain, found):
     claims = found["claims"]
     if gain["verdict"] == "undecided": found["message"] = "the file says undecided"
@@ -80,25 +65,23 @@ def check_verdict(gain, found):
            g.name not in found["proved_at_printed_gains"]]
     if found["verdict"] == "proved" and far:
         found.update(verdict="open", message="far from their formulas: " + ", ".join(far))
-
-def check_search(gain, found, seconds):
-    """The bound of the objective, and the certificate at the value beyond the best one. They do not
-    change the verdict."""
+def check_beside(gain, found, seconds):
+    """Claims beside the verdict, which they do not change: the bound of the objective, and the
+    certificate at the value beyond the best one of a search."""
     if gain["verdict"] == "yes" and gain["optimum"] and "objective_lower_bound" in gain:
-        found["search"] = [within(seconds, lambda: prove_optimum(gain))]
-    search = gain.get("search", {})
+        found["beside"] = [within(seconds, lambda: prove_optimum(gain))]
+    search = gain["search"]
     certificate, figure = search.get("certificate"), search.get("figure")
     if not isinstance(certificate, dict) or certificate.get("about") != "problem" or \
             not isinstance(figure, str) or search.get("beyond") is None: return
     name = figure.split()[-1]
-    beyond = dict(gain, searched={**gain.get("searched", {}), name: search["beyond"]})
+    beyond = dict(gain, searched={**gain["searched"], name: search["beyond"]})
     label = "no solution at %s = %s" % (name, search["beyond"])
     try:
-        claim = within(min(SECONDS_OF_SEARCH, seconds),
-                       lambda: prove_no(beyond, certificate, label))
+        claim = within(min(SECONDS_BESIDE, seconds), lambda: prove_no(beyond, certificate, label))
     except OutOfTime:
-        claim = Claim(label, "open", "not decided in %d s" % SECONDS_OF_SEARCH)
-    found["search"].append(claim)
+        claim = Claim(label, "open", "not decided in %d s" % SECONDS_BESIDE)
+    found["beside"].append(claim)
 
 # Reports.
 def summary(found):
@@ -106,8 +89,7 @@ def summary(found):
     if found["verdict"] == "not a gain file": return found["message"]
     if found["verdict"] == "nothing to prove": return "nothing to prove: " + found["message"]
     claims, gains = found["claims"], found["gains"]
-    parts = [summary_of_claims(claims)] if claims else []
-    parts += [found["message"]] if found["message"] else []
+    parts = [summary_of_claims(claims) if claims else "", found["message"]]
     parts += ["%s: %s" % (c.name, c.how) for c in claims if c.result != "proved"][:1]
     worst = max((g for g in gains if g.ulps is not None), key=lambda g: g.ulps, default=None)
     if worst:
@@ -117,16 +99,15 @@ def summary(found):
     for text, names in (("proved at the printed ", found["proved_at_printed_gains"]),
                         ("not compared: ", [g.name for g in gains if g.ulps is None])):
         if names: parts.append(text + ", ".join(names))
-    return ", ".join(parts + ["%s: %s" % (c.name, c.result) for c in found["search"]])
-
+    parts += ["%s: %s" % (c.name, c.result) for c in found["beside"]]
+    return ", ".join(filter(None, parts))
 def summary_of_claims(claims):
     proved, texts = [c for c in claims if c.result == "proved"], []
-    for kind, count in Counter(c.how for c in proved).items():
-        if kind.startswith("all "):
-            pieces = sum(c.pieces for c in proved if c.how == kind)
-            texts.append("%d for %s, %s" % (count, kind, counted(pieces, "piece")))
-        else: texts.append("%d %s %s" % (count, "in" if kind in ("balls", "fractions") else "by",
-                                         kind))
+    for how, count in Counter(c.how for c in proved).items():
+        word = "for" if how.startswith("all ") else "in" if how in ("balls", "fractions") else "by"
+        texts.append("%d %s %s" % (count, word, how))
+        pieces = sum(c.pieces for c in proved if c.how == how)
+        if word == "for": texts.append(counted(pieces, "piece"))
     return counted(len(claims), "claim") + (" (%s)" % ", ".join(texts) if texts else "")
 def counted(number, word): return "%d %s%s" % (number, word, "s" if number > 1 else "")
 def text_of_claim(c):
@@ -135,13 +116,10 @@ def text_of_claim(c):
     if c.point: lines.append("at " + ", ".join("%s = %s" % p for p in c.point.items()))
     if c.vector: lines.append("v = [%s]" % ", ".join(map(str, c.vector)))
     return "\n            ".join(lines)
-def plain(x):
-    """What JSON can write."""
-    if isinstance(x, Fraction): return str(x)
-    if hasattr(x, "_asdict"): return plain(x._asdict())
-    if isinstance(x, dict): return {str(k): plain(v) for k, v in x.items()}
-    return [plain(y) for y in x] if isinstance(x, (list, tuple)) else x
-
+def json_of(found):         # with named tuples as objects, and fractions as texts
+    plain = {key: [x._asdict() if hasattr(x, "_asdict") else x for x in value]
+             if isinstance(value, list) else value for key, value in found.items()}
+    return json.dumps(plain, default=str)
 def main():
     parser = argparse.ArgumentParser(prog="certify", description=__doc__.split("\n")[0])
     parser.add_argument("files", nargs="+", metavar="GAINS.json")
@@ -151,19 +129,21 @@ def main():
                         help="limit for each file; what is not decided then is open (60)")
     options = parser.parse_args()
     sys.setrecursionlimit(5000)
-    codes = set()
+    counts = Counter()
     for path in options.files:
         found = check(path, options.time)
-        codes.add(EXIT[found["verdict"]])
-        if options.json: print(json.dumps(plain(found)))
+        counts[found["verdict"]] += 1
+        if options.json: print(json_of(found))
         else:
             shown = found["verdict"].replace("nothing to prove", "nothing")
             print("%-8s %s  %s  %.2f s" % (shown, path, summary(found), found["seconds"]))
-            for c in found["claims"] + found["search"] if options.claims else ():
+            for c in found["claims"] + found["beside"] if options.claims else ():
                 print(text_of_claim(c))
         sys.stdout.flush()
-    return next((code for code in (1, 2, 3) if code in codes), 0)
-
+    if len(options.files) > 1 and not options.json:
+        texts = ["%d %s" % (counts[verdict], verdict) for verdict in EXIT if counts[verdict]]
+        print("%d files: %s" % (len(options.files), ", ".join(texts)))
+    return next((code for code in (1, 2, 3) if code in {EXIT[v] for v in counts}), 0)
 def exit_code():
     """That of main(). Python's own code of an exception, 1, would say that a file is refuted."""
     try:
@@ -177,5 +157,4 @@ def exit_code():
     except Exception:
         traceback.print_exc()
         return 70
-
 if __name__ == "__main__": sys.exit(exit_code())

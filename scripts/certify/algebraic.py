@@ -12,22 +12,24 @@ matrix X stands for e*X e, and for 0 only if X = 0. With the companion matrix C,
 times l is X C, and times m is C'X. All equations are checked in this ring, so with fractions only.
 What remains are signs at the root, which is isolated by a disk.
 """
-
 from fractions import Fraction
+from functools import reduce
 from itertools import product
-
+from math import prod
+from operator import add, mul
 from arithmetic import Ball, Undecided, ball, is_exact, sign
-from language import Family
-from matrices import (Matrix, beside, column, exactly, filled, flat, identity, null_space, stacked,
-                      zeros)
+from language import Family, observability
+from matrices import Matrix, beside, column, exactly, filled, flat, identity, null_space, zeros
 from statement import NOT_EVALUATED
 
 LARGEST = 8         # rows of a matrix whose eigenvalues are tried
 STRICT = ("<", ">")
-# The weights c_k are combinations of some of 1, l + m, l m. Here X -> weight * X, for each of them.
-TIMES = {"1": lambda x, c: x, "l + m": lambda x, c: x * c + c.transposed() * x,
-         "l m": lambda x, c: c.transposed() * x * c}
+# The weights c_k are combinations of some of 1, l + m, l m: sums of l^i m^j by their (i, j).
+POWERS = {"1": [(0, 0)], "l + m": [(1, 0), (0, 1)], "l m": [(1, 1)]}
 WEIGHTS = [["1"], ["1", "l + m"], ["1", "l m"], ["1", "l + m", "l m"]]
+# The vectors z_k are w, or have two halves s l^i m^j w by their (s, i, j): w, and +-l w or +-m w.
+W = (1, 0, 0)
+HALVES = [p for h in ((1, 1, 0), (-1, 1, 0), (1, 0, 1), (-1, 0, 1)) for p in ((W, h), (h, W))]
 
 def eigenvector(a, start):
     """(p, W): the monic p of least degree with p(A) b = 0, and w = W e = (p(l) - p(A))/(l - A) b.
@@ -66,31 +68,25 @@ def roots(p):
         if abs(f[0]) + abs(f[1]) + bound * h * h / 2 < max(abs(g[0]), abs(g[1])) * h:
             wide = ball(h).size()
             yield ball(re).widened(wide), ball(im).widened(wide if im else 0)
-
 def complex_value(p, re, im):
     a, b = re * 0, re * 0
     for c in reversed(p): a, b = a * re - b * im + c, a * im + b * re
     return a, b
-def float_roots(p):
-    """Roots in floating point (Durand and Kerner): only a guess."""
-    n = len(p) - 1
-    size = 1 + max((abs(c) for c in p[:-1]), default=0)
+def float_roots(p):         # in floating point (Durand and Kerner): only a guess
+    n, size = len(p) - 1, 1 + max(map(abs, p[:-1]), default=0)
     z = [(0.4 + 0.9j) ** k * min(size, 1e3) ** (k / n) for k in range(1, n + 1)]
     for _ in range(300):
-        for i in range(n):
-            value, quotient = 0, 1
-            for c in reversed(p): value = value * z[i] + c
-            for j in range(n): quotient *= (z[i] - z[j]) if i != j else 1
-            z[i] -= value / quotient if quotient else 0
+        for i, x in enumerate(z):
+            slope = prod(x - y for j, y in enumerate(z) if j != i)
+            z[i] -= reduce(lambda value, c: value * x + c, reversed(p)) / slope if slope else 0
     return [x for x in z if abs(x) < 1e300]
 def value_at(x, re, im):
-    """The real part of e*X e at l = re + i im."""
-    powers = [(ball(Fraction(1)), Ball(0))]
-    for _ in range(x.rows - 1):
-        u, v = powers[-1]
-        powers.append((u * re - v * im, u * im + v * re))
-    return sum(((a * u + b * v) * x[i, j] for i, (a, b) in enumerate(powers)
-                for j, (u, v) in enumerate(powers)), Ball(0))
+    """The real part of e*X e at l = re + i im, by Horner's rule in l and in its conjugate."""
+    a, b = Ball(0), Ball(0)
+    for row in reversed(x.elements):
+        u, v = complex_value(row, re, im)
+        a, b = a * re + b * im + u, b * re - a * im + v
+    return a
 
 # The search.
 def prove_algebraic(statement, blocks):
@@ -131,46 +127,31 @@ def with_shifts(matrices, scalars):
 def starts(a, others):
     """Vectors b: the unit vectors; and a basis of each kernel of [C; C A; ...], C a matrix."""
     n = a.rows
-    found = [identity(n)]
-    for c in [m for m in others if m.cols == n] + [m.transposed() for m in others if m.rows == n]:
-        parts = [c]
-        for _ in range(n - 1): parts.append(parts[-1] * a)
-        found.append(null_space(stacked(parts)))
-    vectors = [tuple(row) for kernel in found for row in kernel.transposed().elements]
+    seen = [m for m in others if m.cols == n] + [m.transposed() for m in others if m.rows == n]
+    kernels = [identity(n)] + [null_space(observability(a, c)) for c in seen]
+    vectors = [tuple(row) for kernel in kernels for row in kernel.transposed().elements]
     return [column(v) for v in dict.fromkeys(vectors)]
-
+def times(x, c, powers):
+    """The sum of l^i m^j X over these powers (i, j)."""
+    return reduce(add, [reduce(mul, [c.transposed()] * j + [x] + [c] * i) for i, j in powers])
 def all_forms(blocks, w, c):
-    """For each block {i: X} with z*B_i z = e*X e, where z is w, or [w; f w] or [f w; w] with f
-    among l, -l, m, -m; None for a block of another size."""
+    """For each block {i: X} with z*B_i z = e*X e, for all z; None for a block of another size."""
     n = w.rows
-    one, double = lambda x: x, [(None, None)]
-    if any(b.shape[0] == 2 * n for b in blocks):
-        factors = [(lambda x, s=s: (x * c).map(lambda y: s * y),
-                    lambda x, s=s: (c.transposed() * x).map(lambda y: s * y)) for s in (1, -1)]
-        factors += [(conjugate, f) for f, conjugate in factors]
-        double = [pair for f in factors for pair in (((one, one), f), (f, (one, one)))]
-    for pair in double:
-        result = []
-        for block in blocks:
-            if block.shape[0] == n: halves = [(one, one)]
-            elif block.shape[0] == 2 * n and pair != (None, None): halves = pair
-            else: halves = None
-            result.append(halves and {i: quadratic(entries, w, halves)
-                                      for i, entries in block.terms.items()})
-        yield result
-
-def quadratic(entries, w, halves):
-    """X with z*B z = e*X e. A half of z is f w; `halves` has the products with f and conjugate."""
+    for pair in HALVES if any(b.shape[0] == 2 * n for b in blocks) else [()]:
+        halves = {n: [W], 2 * n: pair}
+        yield [{i: quadratic(entries, w, c, halves[block.shape[0]])
+                for i, entries in block.terms.items()} if block.shape[0] in halves else None
+               for block in blocks]
+def quadratic(entries, w, c, halves):       # X with z*B z = e*X e
     n, total = w.rows, zeros(w.cols, w.cols)
-    for (i, (_, left)), (j, (right, _)) in product(enumerate(halves), repeat=2):
-        b = filled(n, n, lambda r, s: entries.get((i * n + r, j * n + s), Fraction(0)))
-        total = total + left(right(w.transposed() * b * w))
+    for (p, (s, i, j)), (q, (t, k, l)) in product(enumerate(halves), repeat=2):
+        b = filled(n, n, lambda x, y: entries.get((p * n + x, q * n + y), Fraction(0)) * s * t)
+        total = total + times(w.transposed() * b * w, c, [(j + k, i + l)])
     return total
-
 def certifies(blocks, forms, basis, p, c):
     """Whether weights c_k in the span of `basis` make c_k z_k z_k* multipliers at a root of p."""
     places = [(k, weight) for k, form in enumerate(forms) if form for weight in basis]
-    terms = [{i: TIMES[weight](x, c) for i, x in forms[k].items()} for k, weight in places]
+    terms = [{i: times(x, c, POWERS[weight]) for i, x in forms[k].items()} for k, weight in places]
     zero = zeros(len(p) - 1, len(p) - 1)
     unknowns = sorted({i for t in terms for i in t if i})
     if not unknowns: return False
@@ -181,16 +162,12 @@ def certifies(blocks, forms, basis, p, c):
             for factor, (k, weight), t in zip(solution, places, terms):
                 weights.setdefault(k, {})[weight] = s * factor
                 constant = constant + t.get(0, zero).map(lambda x: s * factor * x)
-            if any(excludes(blocks, weights, constant, root) for root in roots(p)): return True
+            if any(excludes(blocks, weights, constant, *root) for root in roots(p)): return True
     return False
-
-def excludes(blocks, weights, constant, root):
-    """The signs: c_k >= 0; the constant part < 0, or exactly 0 with c_k > 0 for a strict
-    inequality."""
-    re, im = root
-    values = {"1": ball(Fraction(1)), "l + m": 2 * re, "l m": re * re + im * im}
-    used = {k: sum(values[n] * x for n, x in w.items()) for k, w in weights.items()
-            if any(w.values())}
+def excludes(blocks, weights, constant, re, im):
+    """The signs: c_k >= 0; the constant part < 0, or 0 with c_k > 0 for a strict inequality."""
+    at = {"1": ball(Fraction(1)), "l + m": 2 * re, "l m": re * re + im * im}
+    used = {k: sum(at[n] * x for n, x in w.items()) for k, w in weights.items() if any(w.values())}
     try:
         if any(sign(c) < 0 for c in used.values()): return False
         if any(flat(constant)): return sign(value_at(constant, re, im)) < 0

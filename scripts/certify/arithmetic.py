@@ -9,10 +9,7 @@
 Every operation returns a set that contains all results of the operation on members of its
 arguments. Two kinds may be mixed; the result has the later kind of the list. A question that a
 set cannot answer, such as the sign of a ball around 0, raises Undecided.
-
-(The file is not called numbers.py, since the standard library has a module of that name.)
 """
-
 from fractions import Fraction
 from math import factorial, isqrt
 from operator import add
@@ -20,12 +17,8 @@ from operator import add
 BITS = 320
 ONE = 1 << BITS
 
-class Undecided(Exception):
-    """The enclosure is too wide to answer the question."""
-
-class Unsupported(Exception):
-    """The text asks for something that this checker does not know."""
-
+class Undecided(Exception): """The enclosure is too wide to answer the question."""
+class Unsupported(Exception): """The text asks for something that this checker does not know."""
 def is_exact(x): return x.__class__ is Fraction or x.__class__ is int
 def is_zero(x): return is_exact(x) and x == 0
 def level(x): return 0 if is_exact(x) else x.level      # the place of its kind in the list above
@@ -36,8 +29,6 @@ class Number:
     def __add__(self, other): return self.at_level(other, lambda a, b: a.plus(b))
     def __sub__(self, other): return self + (-other)
     def __rsub__(self, other): return (-self) + other
-    def __truediv__(self, other): return self * inverse(other)
-    def __rtruediv__(self, other): return other * inverse(self)
     def __mul__(self, other):
         if is_exact(other):
             return Fraction(0) if other == 0 else self if other == 1 else self.scaled(other)
@@ -61,7 +52,6 @@ class Ball(Number):
     def scaled(self, q):
         n, d = q.numerator, q.denominator
         return Ball(self.m * n // d, self.r * abs(n) // d + 2)
-
 def ball(x):
     """The ball of a fraction; a ball stays as it is."""
     if isinstance(x, Ball): return x
@@ -73,11 +63,9 @@ def sum_of_balls(pairs):
     m = sum(a.m * b.m for a, b in pairs)
     r = sum(abs(a.m) * b.r + a.r * (abs(b.m) + b.r) for a, b in pairs)
     return Ball(m >> BITS, (r >> BITS) + 2)
-def upper(x):
-    """A fraction that is at least |x|, for fractions, balls and Taylor models."""
+def upper(x):           # a fraction that is at least |x|, for fractions, balls and Taylor models
     return abs(x) if is_exact(x) else Fraction(x.size(), ONE)
-def middle(x):
-    """The fraction in the middle of a fraction or a ball."""
+def middle(x):          # the fraction in the middle of a fraction or a ball
     return Fraction(x) if is_exact(x) else Fraction(ball(x).m, ONE)
 
 class Series(Number):
@@ -89,10 +77,8 @@ class Series(Number):
     def lift(self, x): return self.like({self.origin(): x})
     def constant(self): return self.terms.get(self.origin(), Fraction(0))
     def is_constant(self): return not self.rest and all(e == self.origin() for e in self.terms)
-    def variable(self):
-        """What remains without the constant term."""
-        origin = self.origin()
-        return self.like({e: c for e, c in self.terms.items() if e != origin}, self.rest)
+    def variable(self):         # what remains without the constant term
+        return self.like({e: c for e, c in self.terms.items() if e != self.origin()}, self.rest)
     def __neg__(self): return self.like({e: -c for e, c in self.terms.items()}, self.rest)
     def plus(self, other):
         terms = dict(self.terms)
@@ -116,8 +102,7 @@ class Taylor(Series):
     level = 2
     def origin(self): return (0,) * self.space[0]
     def widened(self, error): return self.like(self.terms, self.rest + error)
-    def size(self):
-        """An upper bound of |f| 2^320 on the box."""
+    def size(self):             # at least |f| 2^320 on the box
         return sum(ball(c).size() for c in self.terms.values()) + self.rest
     def times(self, other):
         exact = all(map(is_exact, [*self.terms.values(), *other.terms.values()]))
@@ -133,7 +118,6 @@ class Taylor(Series):
             rest += ((polynomial * other.rest + self.rest * other.size()) >> BITS) + 1
         total = (lambda pairs: sum(a * b for a, b in pairs)) if exact else sum_of_balls
         return self.like({e: total(pairs) for e, pairs in terms.items()}, rest)
-
 class Affine(Series):
     """terms[0] + sum of terms[i] x_i. A product of two unknowns raises Unsupported. So a matrix
     that was evaluated with Affine elements is known to be affine in the unknowns."""
@@ -141,11 +125,9 @@ class Affine(Series):
     def times(self, other):
         if self.is_constant() or other.is_constant(): return super().times(other)
         raise Unsupported("the text is not affine in the unknowns")
-
 class Dual(Series):
     """terms[0] is a value, terms[k] its derivative by the k-th element of one variable."""
     level = 4
-
 def affine_terms(x):
     """{i: c_i} of x = c_0 + sum c_i x_i, without exact zeros."""
     terms = x.terms if isinstance(x, Affine) else {0: x}
@@ -158,8 +140,7 @@ def sign(x):
     if isinstance(x, Taylor): x = ball(x.constant()).widened(x.variable().size())
     if abs(x.m) <= x.r: raise Undecided("a sign")
     return 1 if x.m > 0 else -1
-def typical(x):
-    """A fraction near |x|. It chooses pivots; nothing is concluded from it."""
+def typical(x):         # a fraction near |x|, which chooses pivots; nothing is concluded from it
     if isinstance(x, Series): return typical(x.constant())
     return abs(x) if is_exact(x) else Fraction(max(abs(x.m) - x.r, 0), ONE)
 
@@ -198,36 +179,29 @@ def ball_sqrt(x):
     low = isqrt((x.m - x.r) << BITS)
     high = isqrt((x.m + x.r) << BITS) + 1
     return Ball((low + high) >> 1, ((high - low + 1) >> 1) + 1)
-def twice_atanh(z):
-    """2 (z + z^3/3 + z^5/5 + ...) for |z| <= 1/2."""
+def odd_series(z, s):
+    """z + s z^3/3 + z^5/5 + s z^7/7 + ... for |z| <= 1/2: atanh(z) with s = 1, atan(z) with -1."""
     if z.size() > ONE >> 1: raise Undecided("a logarithm of a wide ball")
     square = z * z
-    return 2 * series_sum(z, lambda j: square.scaled(Fraction(2 * j + 1, 2 * j + 3)))
+    return series_sum(z, lambda j: square.scaled(Fraction(s * (2 * j + 1), 2 * j + 3)))
 def ball_log(x):
     """log(x) = k log 2 + log(u), u in [1/2, 1], log(u) = 2 atanh((u - 1)/(u + 1))."""
     if x.m <= x.r: raise Undecided("a logarithm of a number that may be negative")
     k = x.m.bit_length() - BITS
     u = x * (Fraction(1, 2) ** k)
-    return twice_atanh((u - 1) * inverse(u + 1)) + k * twice_atanh(ball(Fraction(1, 3)))
+    return 2 * (odd_series((u - 1) * inverse(u + 1), 1) + k * odd_series(ball(Fraction(1, 3)), 1))
 def ball_inverse(x):
     if abs(x.m) <= x.r: raise Undecided("a division by a number that may be zero")
     low = (ONE << BITS) // (abs(x.m) + x.r)
     high = -((-ONE << BITS) // (abs(x.m) - x.r))
     m = (low + high) >> 1
     return Ball(m if x.m > 0 else -m, high - m + 1)
-def atan_of_inverse(n):
-    """atan(1/n) = 1/n - 1/(3 n^3) + ..., whose rest is at most its first term, for n > 4."""
-    terms = [Fraction((-1) ** k, (2 * k + 1) * n ** (2 * k + 1)) for k in range(BITS // 4)]
-    return sum(map(ball, terms), Ball(0, 1))
-
-PI = 16 * atan_of_inverse(5) - 4 * atan_of_inverse(239)         # Machin
-
 BALL_FUNCTIONS = {"exp": ball_exp, "log": ball_log, "sqrt": ball_sqrt, "inv": ball_inverse,
                   "sin": lambda x: ball_sin_cos(x)[0], "cos": lambda x: ball_sin_cos(x)[1]}
+PI = 16 * odd_series(ball(Fraction(1, 5)), -1) - 4 * odd_series(ball(Fraction(1, 239)), -1)
 
 # Elementary functions of all kinds.
 EXACT = {("exp", 0): 1, ("cos", 0): 1, ("sin", 0): 0, ("log", 1): 0}
-
 def function(name, x):
     """exp, log, sqrt, inv, sin or cos of a number of any kind; fractions where they are known."""
     if isinstance(x, Series): return function_of_series(name, x)
@@ -238,12 +212,10 @@ def function(name, x):
         if name == "sqrt" and (n * n, d * d) == (x.numerator, x.denominator): return Fraction(n, d)
     return BALL_FUNCTIONS[name](ball(x))
 def inverse(x): return function("inv", x)
-
 SLOPES = {"exp": lambda p, f: f, "log": lambda p, f: inverse(p), "inv": lambda p, f: -(f * f),
           "sqrt": lambda p, f: inverse(2 * f), "sin": lambda p, f: function("cos", p),
           "cos": lambda p, f: -function("sin", p)}
 EXPONENTS = {"inv": Fraction(-1), "sqrt": Fraction(1, 2), "log": Fraction(0)}
-
 def function_of_series(name, x):
     """f(p + d) by its series in d up to the order K, where p is the constant term and |d| <= delta.
     The series of sin and cos leave at most delta^(K+1)/(K+1)!, that of exp leaves exp(p + delta)
@@ -256,22 +228,20 @@ def function_of_series(name, x):
     value = function(name, p)
     if x.is_constant(): return x.lift(value)
     if isinstance(x, Dual): return d * x.lift(SLOPES[name](p, value)) + value
-    order, largest = x.space[1], 1
+    order = x.space[1]
     if name in EXPONENTS:
         d, a = d * inverse(p), EXPONENTS[name]
         delta = upper(d)
         if delta >= 1: raise Undecided("a quotient or root whose argument varies too much")
-        left = delta ** (order + 1) / (1 - delta)
-        if name != "log": largest = value
+        left = delta ** (order + 1) / (1 - delta) * (1 if name == "log" else upper(value))
         series = [value, Fraction(1) if name == "log" else value * a]
         for j in range(2, order + 1): series.append(series[-1] * ((a - j + 1) / j))
     else:
-        delta = upper(d)
-        left = delta ** (order + 1) / factorial(order + 1)
-        if name == "exp": largest = value * function("exp", ball(delta))
+        left = upper(d) ** (order + 1) / factorial(order + 1)
+        if name == "exp": left *= upper(value * function("exp", ball(upper(d))))
         slope = SLOPES[name](p, value)
         cycle = [value] if name == "exp" else [value, slope, -value, -slope]
         series = [cycle[j % len(cycle)] * Fraction(1, factorial(j)) for j in range(order + 1)]
     result = x.lift(series[order])
     for c in reversed(series[:order]): result = result * d + c
-    return result.widened(ball(left * upper(largest)).size() + 1)
+    return result.widened(ball(left).size() + 1)

@@ -4,14 +4,11 @@ The elements of a matrix are numbers of any kind of arithmetic.py. So the same t
 values, enclosures for all values of a variable, derivatives, or functions of the unknowns.
 A name or function that is not here raises Unsupported.
 """
-
-import operator
-import re
+import operator, re
 from collections import namedtuple
 from fractions import Fraction
 from functools import cache, partial, reduce
 from itertools import islice
-
 from arithmetic import (BITS, PI, Affine, Dual, Taylor, Undecided, Unsupported, ball, function,
                         inverse, is_exact, is_zero, middle, sign, upper)
 from matrices import (Matrix, beside, column, diagonal, exactly, filled, flat, identity, invert,
@@ -37,24 +34,18 @@ class Parser:
         if len(text) > LONGEST: raise Unsupported("a formula of more than %d characters" % LONGEST)
         self.text, self.at = text, 0
         self.tokens = [(m.lastgroup, m.group(m.lastgroup)) for m in TOKEN.finditer(text)]
-    def token(self, ahead=0):
-        at = self.at + ahead
-        return self.tokens[at] if at < len(self.tokens) else ("end", "")
-    def next_is(self, *signs, ahead=0):
-        kind, text = self.token(ahead)
-        return kind in ("sign", "name") and text in signs
+        self.tokens += [("end", ""), ("end", "")]
+    def next_is(self, *texts, ahead=0): return self.tokens[self.at + ahead][1] in texts
     def take(self):
         self.at += 1
-        return self.token(-1)[1]
-    def taken(self, *signs):
-        """The next sign if it is one of these; it is consumed."""
-        return self.take() if self.next_is(*signs) else None
+        return self.tokens[self.at - 1][1]
+    def taken(self, *texts): return self.take() if self.next_is(*texts) else None
     def expect(self, text):
         if not self.taken(text): raise Unsupported("%r is missing in %r" % (text, self.text[:60]))
     def whole(self, read):
         tree = read(self)
-        if self.at == len(self.tokens): return tree
-        raise Unsupported("%r in %r" % (self.token()[1], self.text[:60]))
+        if self.tokens[self.at][0] == "end": return tree
+        raise Unsupported("%r in %r" % (self.tokens[self.at][1], self.text[:60]))
     def expression(self, level=1):
         """Operators of this level and above, from left to right."""
         if self.taken("not"): tree = ("not", self.expression(3))
@@ -62,7 +53,7 @@ class Parser:
         elif self.taken("+"): tree = self.expression(max(level, 6))
         else: tree = self.factor()
         chain = None        # of comparisons
-        while self.next_is(*LEVELS) and LEVELS[self.token()[1]] >= level:
+        while self.next_is(*LEVELS) and LEVELS[self.tokens[self.at][1]] >= level:
             sign_ = self.take()
             right = self.expression(LEVELS[sign_] + 1)
             if sign_ not in RELATIONS: tree = (sign_, tree, right)
@@ -77,12 +68,13 @@ class Parser:
             elif self.next_is("^", ".^"):
                 power, negative = self.take(), self.taken("-")
                 tree = (power, tree, ("minus", self.value()) if negative else self.value())
-            elif self.taken("("): tree = ("call", tree, self.listed(self.argument, ")"))
+            elif self.taken("("):
+                tree = ("call", tree, [] if self.next_is(")") else self.listed(self.argument, ","))
+                self.expect(")")
             else: return tree
-    def listed(self, read, end):
-        found = [] if self.next_is(end) else [read()]
-        while self.taken(","): found.append(read())
-        self.expect(end)
+    def listed(self, read, separator):
+        found = [read()]
+        while self.taken(separator): found.append(read())
         return found
     def argument(self):
         if self.taken(":"): return ("all",)
@@ -93,7 +85,7 @@ class Parser:
         tree = self.expression()
         return ("span", tree, self.expression(5)) if self.taken(":") else tree
     def value(self):
-        kind = self.token()[0]
+        kind = self.tokens[self.at][0]
         if kind == "number": return (kind, decimal(self.take()))
         if kind == "name": return (kind, self.take())
         if self.taken("("):
@@ -101,19 +93,14 @@ class Parser:
             self.expect(")")
             return tree
         self.expect("[")
-        rows = [[self.entry()]]
-        while self.next_is(",", ";"):
-            if self.take() == ";": rows.append([])
-            rows[-1].append(self.entry())
+        rows = self.listed(lambda: self.listed(self.entry, ","), ";")
         self.expect("]")
         return ("block", rows)
     def entry(self):
         """An entry of a matrix; None for a * that stands alone."""
-        if not self.next_is("*") or not self.next_is(",", ";", "]", ahead=1):
-            return self.expression()
-        self.take()
-        return None
-
+        alone = self.next_is("*") and self.next_is(",", ";", "]", ahead=1)
+        if alone: self.take()
+        return None if alone else self.expression()
 def decimal(text):
     """The fraction that a decimal is."""
     if len(text) < 2000 and DECIMAL.fullmatch(text): return Fraction(text)
@@ -131,37 +118,29 @@ class Scope:
         if name not in self.names: return self.outer and self.outer.find(name)
         value = self.names[name]
         return value.get() if isinstance(value, Later) else value
-    def is_local(self, name):
-        """Whether a variable or argument has this name, not a datum or a definition."""
+    def is_local(self, name):       # of a variable or an argument, not a datum or a definition
         return self.outer is not None and (name in self.names or self.outer.is_local(name))
-
 class Later:
     """A value that is computed when it is first used, once."""
     def __init__(self, compute): self.get = cache(compute)
 
 # A definition with arguments, or an unknown that is a function.
-Function = namedtuple("Function", "apply derivative", defaults=[None])
-
+Function = namedtuple("Function", "apply")
 def defined(names, text, scope):
     """The function of these arguments that the text is."""
     def apply(*values):
         if len(values) < len(names): raise Unsupported("the number of arguments")
         return matrix(parse(text), Scope(scope, zip(names, values)))
     return Function(apply)
-
-class Family(dict):
-    """Members by their indices, a tuple of whole numbers."""
+class Family(dict): """Members by their indices, a tuple of whole numbers."""
 
 # Evaluation.
 CONSTANTS = {"I": Matrix([[Fraction(1)]], flexible=True), "pi": number(PI)}
-
-def evaluate(tree, scope):
-    """The matrix (or Function, Family) that a tree means."""
+def evaluate(tree, scope):      # the matrix (or Function, Family) that a tree means
     kind, *parts = tree
     if kind == "number": return number(parts[0])
     if kind == "call": return call(*parts, scope)
-    if kind == "block":
-        return join_blocks([[x and matrix(x, scope) for x in row] for row in parts[0]])
+    if kind == "block": return join_blocks([[t and matrix(t, scope) for t in r] for r in parts[0]])
     if kind in OPERATORS: return OPERATORS[kind](*[matrix(x, scope) for x in parts])
     if kind != "name": raise Unsupported("a condition where a value is expected")
     value = scope.find(parts[0])
@@ -179,8 +158,7 @@ def elementwise(operation):
         rows, cols = (b if a.is_number() else a).shape()
         return filled(rows, cols, lambda i, j: operation(a.spread(i, j), b.spread(i, j)))
     return apply
-def repeated(base, k, one):
-    """base^k."""
+def repeated(base, k, one):         # base^k
     if abs(k) > 10_000: raise Unsupported("an exponent above 10000")
     return reduce(operator.mul, [base] * abs(int(k)), one)
 def power_of_number(x, k):
@@ -191,29 +169,27 @@ def power(base, exponent):
     if base.is_number(): return base.map(lambda x: power_of_number(x, exponent.number()))
     k = exponent.whole()
     return repeated(base if k >= 0 else invert(base), k, identity(base.rows))
-
 OPERATORS = {
     "+": operator.add, "-": operator.sub, "*": operator.mul, "minus": operator.neg, "^": power,
     "'": Matrix.transposed, "/": lambda a, b: a.map(lambda x, y=b.number(): x * inverse(y)),
     ".*": elementwise(operator.mul), "./": elementwise(lambda x, y: x * inverse(y)),
     ".^": elementwise(power_of_number)}
-
 def call(head, arguments, scope):
     """f(...), a member of a family, an element or part of a matrix, or a built-in function."""
     if head[0] == "name" and scope.find(head[1]) is None: return builtin(head[1], arguments, scope)
     if head[0] == "call" and head[1] == ("name", "derivative"):
         unknown = evaluate(head[2][0], scope)
-        if isinstance(unknown, Function) and unknown.derivative:
-            return unknown.derivative(matrix(arguments[0], scope))
+        if isinstance(unknown, Function) and len(arguments) == 1:
+            found = at_duals(unknown.apply, number(matrix(arguments[0], scope).number()))
+            return found.map(lambda x: slope(x, 1))
         raise Unsupported("the derivative of what is not an unknown function")
     value = evaluate(head, scope)
     if isinstance(value, Function): return value.apply(*[matrix(x, scope) for x in arguments])
     if isinstance(value, Matrix): return part_of(value, arguments, scope)
     last = with_end(scope, max(k[0] for k in value))
     key = tuple(matrix(x, last).whole() for x in arguments)
-    if key not in value: raise Unsupported("the member %s of a family" % (key,))
-    return value[key]
-
+    if key in value: return value[key]
+    raise Unsupported("the member %s of a family" % (key,))
 def with_end(scope, last): return Scope(scope, {"end": number(Fraction(last))})
 def part_of(value, arguments, scope):
     """M(i, j), v(i); an index is a number, lo:hi or : alone."""
@@ -229,24 +205,21 @@ def part_of(value, arguments, scope):
     if len(arguments) != 2: raise Unsupported("the number of indices")
     return value.part(places(arguments[0], value.rows), places(arguments[1], value.cols))
 def relation(name): return elementwise(lambda x, y: RELATIONS[name](sign(x - y), 0))
-def holds(tree, scope):
-    """Whether a condition holds for all elements."""
+def holds(tree, scope):         # whether a condition holds for all elements
     kind, *parts = tree
     if kind in ("and", "or"): return {"and": all, "or": any}[kind](holds(x, scope) for x in parts)
     if kind == "not": return not holds(parts[0], scope)
     if kind != "compare": raise Unsupported("a value where a condition is expected")
-    values = [matrix(x, scope) for x in parts[0][::2]]
-    return all(all(flat(relation(name)(a, b)))
-               for a, name, b in zip(values, parts[0][1::2], values[1:]))
+    values, names = [matrix(x, scope) for x in parts[0][::2]], parts[0][1::2]
+    return all(all(flat(relation(r)(a, b))) for a, r, b in zip(values, names, values[1:]))
 def choose(condition, yes, no, scope):
-    """where(condition, yes, no), element by element."""
+    """where(condition, yes, no); a single comparison element by element."""
     if condition[0] == "compare" and len(condition[1]) == 3:
         left, name, right = condition[1]
         truths = relation(name)(matrix(left, scope), matrix(right, scope))
-        if not truths.is_number():
-            return filled(*truths.shape(),
-                          lambda i, j: (yes if truths[i, j] else no).spread(i, j))
-    return yes if holds(condition, scope) else no
+    else: truths = number(holds(condition, scope))
+    if truths.is_number(): return yes if truths.number() else no
+    return filled(*truths.shape(), lambda i, j: (yes if truths[i, j] else no).spread(i, j))
 
 # The matrix exponential.
 def matrix_exponential(a):
@@ -273,10 +246,9 @@ def affine_parts(a, model):
     if any(x.rest for x in flat(elements)) or any(sum(e) > 1 for e in exponents) or \
             not all(map(exactly, parts)) or \
             any((m * n).elements != (n * m).elements for m in parts for n in parts): return None
-    def in_time(e): return lambda x, j: model.like({tuple(j * k for k in e): ball(x)})
-    return [exponential_series(m, in_time(e), model.space[1]) if any(e) else matrix_exponential(m)
+    return [exponential_series(m, lambda x, j, e=e: model.like({tuple(j * k for k in e): ball(x)}),
+                               model.space[1]) if any(e) else matrix_exponential(m)
             for m, e in zip(parts, exponents)]
-
 def exponential_series(a, embed=lambda x, j: x, last=None):
     """The series of expm(a), up to the term a^j/j! with j = last or where it is tiny; the elements
     x of this term are replaced by embed(x, j), such as x t^j for expm(a t). With n, the largest sum
@@ -298,16 +270,13 @@ def exponential_series(a, embed=lambda x, j: x, last=None):
                   (ball(total[i, k]) if is_exact(total[i, k]) else total[i, k]).widened(error))
 
 # Functions.
-def determinant(a):
-    """By the first row."""
+def determinant(a):         # by the first row
     def minor(j): return a.part(range(1, a.rows), [k for k in range(a.cols) if k != j])
-    return Fraction(1) if a.rows == 0 else sum(
-        ((-1) ** j * x * determinant(minor(j)) for j, x in enumerate(a.elements[0])
-         if not is_zero(x)), Fraction(0))
+    if a.rows == 0: return Fraction(1)
+    return sum(((-1) ** j * x * determinant(minor(j)) for j, x in enumerate(a.elements[0])
+                if not is_zero(x)), Fraction(0))
 def observability(a, c):
-    blocks = [c]
-    for _ in range(a.rows - 1): blocks.append(blocks[-1] * a)
-    return stacked(blocks)
+    return stacked([c * repeated(a, k, identity(a.rows)) for k in range(max(a.rows, 1))])
 def solved(system, q):
     """X of S vec X + vec Q = 0, where vec writes the columns one below the other."""
     x = invert(system) * column([-y for y in flat(q.transposed())])
@@ -315,27 +284,23 @@ def solved(system, q):
 def gramian(f, hc, j, hd, lengths, backward=False):
     """Sum over flows and the jumps between them of the outputs' squares, x'W x, by the state at the
     start (or at the end). expm([-F', H'H; 0, F] t) = [.., expm(-F't) W; 0, expm(F t)]."""
-    n, total, moved, before = f.rows, zeros(f.rows, f.rows), identity(f.rows), None
-    generator = join_blocks([[-f.transposed(), hc.transposed() * hc], [zeros(n, n), f]])
-    first, second = range(n), range(n, 2 * n)
+    n, total, moved = f.rows, zeros(f.rows, f.rows), identity(f.rows)
+    generator = join_blocks([[-f.transposed(), squared(hc)], [zeros(n, n), f]])
+    both = cache(lambda t: matrix_exponential(generator.map(lambda x: x * t)))
     for k, t in enumerate(flat(lengths)):
         if k: total, moved = total + squared(hd * moved), j * moved
-        if t is not before:
-            both, before = matrix_exponential(generator.map(lambda x: x * t)), t
-            flow = both.part(second, second)
-            seen = flow.transposed() * both.part(first, second)
-        total, moved = total + moved.transposed() * seen * moved, flow * moved
+        seen, flow = [both(t).part(rows, range(n, 2 * n)) for rows in (range(n), range(n, 2 * n))]
+        total, moved = total + moved.transposed() * flow.transposed() * seen * moved, flow * moved
     back = invert(moved) if backward else identity(n)
     return back.transposed() * total * back
 def squared(a): return a.transposed() * a
-
 def orthonormal(subspace, a, *tolerance):
     """The basis of docs/language.md of the range or kernel of a matrix whose rank is checked: the
     pivoted Cholesky factor of the projector."""
     checked_rank(a, *tolerance)
     basis, columns, e = subspace(a), [], function("exp", ball(1))
     size = basis.rows
-    if basis.cols in (0, size): return zeros(size, 0) if basis.cols == 0 else identity(size)
+    if basis.cols in (0, size): return identity(size).part(range(size), range(basis.cols))
     w = basis * invert(squared(basis)) * basis.transposed()
     for _ in range(basis.cols):
         r = [w[i, i] for i in range(size)]
@@ -343,10 +308,8 @@ def orthonormal(subspace, a, *tolerance):
         p = next(i for i in range(size) if sign(e * r[i] - largest) >= 0)
         b = [w[i, p] * inverse(function("sqrt", r[p])) for i in range(size)]
         columns.append(column(b))
-        w = filled(size, size, lambda i, j: w[i, j] - b[i] * b[j] if p not in (i, j) else
-                   Fraction(0))
+        w = filled(size, size, lambda i, j: Fraction(0) if p in (i, j) else w[i, j] - b[i] * b[j])
     return beside(columns)
-
 def checked_rank(a, tolerance=number(Fraction(1, 10 ** 12))):
     """The rank of a matrix of fractions, if all singular values but those that are 0 are above the
     tolerance times the largest one. By inertia: the positive pivots of a'a - s I count the
@@ -361,28 +324,24 @@ def range_of(a): return a.part(range(a.rows), reduced(a, a.cols)[0])
 def floor(x):
     if not is_exact(x): raise Undecided("floor of a number that is not rational")
     return Fraction(x.numerator // x.denominator)
-
 def units(a, c):
     """Powers of two S: least squares of log2 of the elements of inv(S)*A*S (beside the diagonal)
-    and C*S. States that no output is connected with are measured from their first one."""
-    n, places = a.rows, range(a.rows)
+    and C*S. Exponents that these leave open are 0, of the first state of each group that no output
+    is connected with: in the elimination from the last state to the first it has no pivot."""
+    n = a.rows
     if not (exactly(a) and exactly(c)): raise Unsupported("units of irrational numbers")
-    logs = [(i, j, a[i, j]) for i in places for j in places if i != j and a[i, j] != 0]
-    logs += [(n, j, row[j]) for row in c.elements for j in places if row[j] != 0]
-    normal, right = zeros(n, n).elements, [Fraction(0)] * n
-    group = list(range(n + 1))          # connected states; n stands for the outputs
+    logs = [(i, j, a[i, j]) for i in range(n) for j in range(n) if i != j and a[i, j] != 0]
+    logs += [(None, j, row[j]) for row in c.elements for j in range(n) if row[j] != 0]
+    normal = zeros(n, n + 1)            # columns: the states from the last to the first, log2
     for i, j, x in logs:
         value = function("log", abs(x)) * inverse(function("log", Fraction(2)))
-        ends = [(j, 1)] + ([(i, -1)] if i < n else [])
+        ends = [(j, 1)] + ([(i, -1)] if i is not None else [])
         for k, s in ends:
-            right[k] = right[k] - s * value
-            for m, t in ends: normal[k][m] += s * t
-        group = [group[j] if g == group[i] else g for g in group]
-    for k in places:
-        if group[k] != group[n] and group.index(group[k]) == k: normal[k][k] += 1
-    exponents = invert(Matrix(normal)) * column(right)
-    return diagonal([Fraction(2) ** nearest(x) for x in flat(exponents)])
-
+            normal.elements[k][n] -= s * value
+            for m, t in ends: normal.elements[k][n - 1 - m] += s * t
+    pivots, rows = reduced(normal, n)
+    exponents = {n - 1 - p: row[n] for p, row in zip(pivots, rows)}
+    return diagonal([Fraction(2) ** nearest(exponents.get(k, Fraction(0))) for k in range(n)])
 def nearest(x):
     """The nearest whole number, upward from 0.4863 on. A ball around such a limit is undecided."""
     x = x + Fraction(137, 10000)
@@ -390,26 +349,20 @@ def nearest(x):
     if upper(x - k) >= Fraction(1, 2): raise Undecided("a rounding")
     return k
 def basis_functions(t, span=None):
-    """(b_k(t), b_k'(t)) for k = 0, 1, ...: powers, or the Chebyshev polynomials on the span. b_k =
-    t b_(k-1), or b_k = 2 u b_(k-1) - b_(k-2) with u = (2 t - low - high)/(high - low)."""
-    b, d = Fraction(1), Fraction(0)
-    if span:
-        slope = 2 * inverse(span[1] - span[0])
-        u = (t - span[0]) * slope - 1
-        before = (u, slope)
+    """b_k(t) for k = 0, 1, ...: powers b_k = t b_(k-1), or the Chebyshev polynomials on the span,
+    b_k = 2 u b_(k-1) - b_(k-2) with u = (2 t - low - high)/(high - low)."""
+    u = span and (t - span[0]) * (2 * inverse(span[1] - span[0])) - 1
+    before, b = u, Fraction(1)
     while True:
-        yield b, d
-        if span: before, b, d = (b, d), 2 * (u * b) - before[0], 2 * (slope * b + u * d) - before[1]
-        else: b, d = t * b, b + t * d
+        yield b
+        before, b = b, 2 * (u * b) - before if span else t * b
 def chebyshev(k, t, low, high):
     functions = basis_functions(t.number(), (low.number(), high.number()))
-    return number(next(islice(functions, k.whole(), None))[0])
+    return number(next(islice(functions, k.whole(), None)))
 def extreme(name):
     """The largest or smallest, element by element, or of the elements of one argument."""
-    def apply(*values):
-        if len(values) == 1: values = [number(x) for x in flat(values[0])]
-        return reduce(elementwise(lambda x, y: x if RELATIONS[name](sign(x - y), 0) else y), values)
-    return apply
+    best = elementwise(lambda x, y: x if RELATIONS[name](sign(x - y), 0) else y)
+    return lambda *a: reduce(best, a if len(a) > 1 else [number(x) for x in flat(a[0])])
 def pseudo_inverse(a):
     t = a.transposed()
     return invert(t * a) * t if a.rows >= a.cols else t * invert(a * t)
@@ -427,16 +380,13 @@ def diagonal_or_its_matrix(a):
 def block_diagonal(items):
     return stacked([beside([x if i == j else zeros(x.rows, y.cols) for j, y in enumerate(items)])
                     for i, x in enumerate(items)])
-
 LISTS = {"sum": lambda items: reduce(operator.add, items or [number(Fraction(0))]),
          "vertcat": stacked, "horzcat": beside, "blkdiag": block_diagonal}
 BUILTINS = {
     "inv": invert, "pinv": pseudo_inverse, "expm": matrix_exponential, "floor": each(floor),
     **{name: each(lambda x, name=name: function(name, x))
        for name in ("exp", "sin", "cos", "sqrt", "log")},
-    "mod": elementwise(lambda x, y: x - y * floor(x * inverse(y))),
     "min": extreme("<="), "max": extreme(">="), "diag": diagonal_or_its_matrix,
-    "trace": lambda a: number(sum((a[i, i] for i in range(a.rows)), Fraction(0))),
     "det": lambda a: number(determinant(a)), "norm": lambda a: number(spectral_norm(a)),
     "eye": lambda n: identity(n.whole()), "zeros": shaped(Fraction(0)), "ones": shaped(Fraction(1)),
     "kron": kronecker, "orth": partial(orthonormal, range_of),
@@ -452,25 +402,22 @@ DEFINITIONS = {name: defined(arguments.split(), text, Scope()) for name, argumen
     ("sinh", "x", "(exp(x) - exp(-x))/2"), ("cosh", "x", "(exp(x) + exp(-x))/2"),
     ("tanh", "x", "sinh(x)./cosh(x)"), ("log10", "x", "log(x)/log(10)"),
     ("abs", "x", "where(x >= 0, x, -x)"), ("sign", "x", "where(x > 0, 1, where(x < 0, -1, 0))"),
-    ("ceil", "x", "-floor(-x)"),
+    ("ceil", "x", "-floor(-x)"), ("mod", "a b", "a - b.*floor(a./b)"),
+    ("trace", "A", "sum(diag(A))"),
     ("skew", "v", "[0, -v(3), v(2); v(3), 0, -v(1); -v(2), v(1), 0]"))}
-
 def builtin(name, arguments, scope):
     if name == "where":
         return choose(arguments[0], *[matrix(x, scope) for x in arguments[1:]], scope)
     if name == "jacobian": return jacobian(*arguments, scope)
-    if name in LISTS:
-        items = list_items(arguments, scope)
-        if name == "sum" and len(arguments) == 1: return number(sum(flat(items[0]), Fraction(0)))
+    if name in LISTS:           # of arguments, or of sum(i in 1..N, M) and the like
+        ranges = [x for x in arguments if x[0] == "range"]
+        items = [matrix(x, s) for _, s in members(ranges, scope) for x in arguments[len(ranges):]]
+        if name == "sum" and len(arguments) == 1: items = [number(x) for x in flat(items[0])]
         return LISTS[name](items)
     values = [matrix(x, scope) for x in arguments]
     if name in DEFINITIONS: return DEFINITIONS[name].apply(*values)
     if name not in BUILTINS: raise Unsupported("the function " + name)
     return BUILTINS[name](*values)
-def list_items(arguments, scope):
-    """The values of sum(i in 1..N, M) and the like; or those of the arguments."""
-    ranges = [x for x in arguments if x[0] == "range"]
-    return [matrix(x, s) for _, s in members(ranges, scope) for x in arguments[len(ranges):]]
 def members(ranges, scope):
     """[(indices, scope)] of several i in low..high."""
     found = [((), scope)]
@@ -478,23 +425,24 @@ def members(ranges, scope):
         found = [(key + (k,), Scope(s, {name: number(Fraction(k))})) for key, s in found
                  for k in range(matrix(low, s).whole(), matrix(high, s).whole() + 1)]
     return found
-
 OPEN_JACOBIANS = []
-
-def jacobian(expression, variable, scope):
-    """The derivatives of the expression by an argument or a variable of forall, by dual numbers.
-    Definitions without arguments do not depend on such a variable. A jacobian within a jacobian
-    would mix the derivatives of both and is refused, and so is one by a datum."""
+def at_duals(apply, value):
+    """apply(value), with derivatives by the elements of the value, one column below the other. A
+    jacobian within a jacobian would mix the derivatives of both."""
     if OPEN_JACOBIANS: raise Unsupported("a jacobian within a jacobian")
+    OPEN_JACOBIANS.append(value)
+    try:
+        return apply(filled(*value.shape(), lambda i, j: Dual({
+            0: value[i, j], 1 + i + j * value.rows: Fraction(1)})))
+    finally:
+        OPEN_JACOBIANS.pop()
+def slope(x, k): return x.terms.get(k, Fraction(0)) if isinstance(x, Dual) else Fraction(0)
+def jacobian(expression, variable, scope):
+    """The derivatives of the expression by an argument or a variable of forall. Definitions without
+    arguments do not depend on such a variable. A jacobian by a datum is refused."""
     if variable[0] != "name" or not scope.is_local(variable[1]):
         raise Unsupported("a jacobian by what is not a variable or an argument")
     value = scope.find(variable[1])
-    rows, cols = value.shape()
-    seeds = filled(rows, cols, lambda i, j: Dual({0: value[i, j], 1 + i + j * rows: Fraction(1)}))
-    OPEN_JACOBIANS.append(variable)
-    try:
-        result = flat(matrix(expression, Scope(scope, {variable[1]: seeds})).transposed())
-    finally:
-        OPEN_JACOBIANS.pop()
-    slopes = [x.terms if isinstance(x, Dual) else {} for x in result]
-    return filled(len(slopes), rows * cols, lambda i, k: slopes[i].get(k + 1, Fraction(0)))
+    found = at_duals(lambda x: matrix(expression, Scope(scope, {variable[1]: x})), value)
+    found, size = flat(found.transposed()), value.rows * value.cols
+    return filled(len(found), size, lambda i, k: slope(found[i], k + 1))

@@ -1,10 +1,8 @@
 """Matrices whose elements are numbers of any kind; elimination; what is positive definite."""
-
 from fractions import Fraction
 from functools import cache
 from itertools import product
 from math import comb, prod
-
 from arithmetic import (Ball, Undecided, Unsupported, ball, function, inverse, is_exact, is_zero,
                         level, middle, sign, sum_of_balls, typical, upper)
 
@@ -16,8 +14,7 @@ class Matrix:
         self.elements, self.flexible = elements, flexible
         self.rows = len(elements) if rows is None else rows
         self.cols = len((elements or [[]])[0]) if cols is None else cols
-        if any(len(row) != self.cols for row in elements):
-            raise Unsupported("rows of different lengths")
+        if any(len(r) != self.cols for r in elements): raise Unsupported("rows of unequal length")
     def __getitem__(self, place): return self.elements[place[0]][place[1]]
     def shape(self): return (self.rows, self.cols)
     def is_number(self): return self.shape() == (1, 1)
@@ -29,11 +26,9 @@ class Matrix:
         if not is_exact(x) or x.denominator != 1 or abs(x) > 10 ** 6:
             raise Unsupported("a whole number is expected")
         return int(x)
-    def is_zero(self):
-        """Whether this is the number 0, which takes any size."""
+    def is_zero(self):      # the number 0, which takes any size
         return self.is_number() and is_zero(self.elements[0][0])
-    def spread(self, i, j):
-        """Element (i, j), where a number stands for all elements."""
+    def spread(self, i, j):     # element (i, j), where a number stands for all elements
         return self.elements[0][0] if self.is_number() else self.elements[i][j]
     def map(self, f):
         return Matrix([[f(x) for x in row] for row in self.elements], *self.shape(), self.flexible)
@@ -69,19 +64,13 @@ class Matrix:
         if self.cols != other.rows:
             raise Unsupported("a product of %d x %d and %d x %d" % (self.shape() + other.shape()))
         columns = other.transposed().elements
-        return Matrix([[dot(row, c) for c in columns] for row in self.elements],
-                      self.rows, other.cols)
-
+        return Matrix([[dot(r, c) for c in columns] for r in self.elements], self.rows, other.cols)
 def dot(a, b):
     pairs = [(x, y) for x, y in zip(a, b) if not is_zero(x) and not is_zero(y)]
-    if pairs and all(isinstance(z, Ball) for pair in pairs for z in pair):
-        return sum_of_balls(pairs)
+    if pairs and all(isinstance(z, Ball) for xy in pairs for z in xy): return sum_of_balls(pairs)
     return sum((x * y for x, y in pairs), Fraction(0))
-def form(v, a, w):
-    """v'aw of lists v, w."""
-    return dot(v, [dot(row, w) for row in a.elements])
+def form(v, a, w): return dot(v, [dot(row, w) for row in a.elements])      # v'aw
 def filled(rows, cols, element):
-    """The matrix of element(i, j)."""
     return Matrix([[element(i, j) for j in range(cols)] for i in range(rows)], rows, cols)
 def number(x): return Matrix([[x]])
 def column(values): return filled(len(values), 1, lambda i, j: values[i])
@@ -94,40 +83,32 @@ def flat(a): return [x for row in a.elements for x in row]
 def exactly(a): return all(is_exact(x) for x in flat(a))        # all elements are fractions
 def stacked(items):
     if len({x.cols for x in items}) > 1: raise Unsupported("different widths of stacked matrices")
-    return Matrix([row for x in items for row in x.elements], sum(x.rows for x in items),
-                  items[0].cols)
+    rows = [row for x in items for row in x.elements]
+    return Matrix(rows, len(rows), items[0].cols)
 def beside(items): return stacked([x.transposed() for x in items]).transposed()
 def join_blocks(blocks):
     """[a, b; c, d]. None stands for `*`, the transpose of the mirrored block. Zeros and multiples
-    of I take their size from their block row and block column."""
+    of I take their size from their block row and block column; a size that nothing gives is 1."""
+    count, known, equal = len(blocks), {}, []       # block column j has the name count + j
     if any(len(row) != len(blocks[0]) for row in blocks):
         return stacked([join_blocks([row]) for row in blocks])     # each row has its own columns
-    heights, widths = block_sizes(blocks)
-    full = [[x and x.sized(heights[i], widths[j]) for j, x in enumerate(row)]
-            for i, row in enumerate(blocks)]
-    for i, j in product(range(len(blocks)), range(len(blocks[0]))):
-        if blocks[i][j] is None:
-            if len(blocks) != len(blocks[0]) or blocks[j][i] is None:
-                raise Unsupported("a * without a mirrored block")
-            full[i][j] = full[j][i].transposed()
-    return stacked([beside(row) for row in full])
-
-def block_sizes(blocks):
-    """Heights of block rows and widths of block columns; sizes that nothing gives are 1."""
-    count, known, equal = len(blocks), {}, []       # block column j has the name count + j
+    if any(x is None for row in blocks for x in row):
+        def mirrored(i, j):
+            if count == len(blocks[0]) and blocks[j][i]: return blocks[j][i].transposed()
+            raise Unsupported("a * without a mirrored block")
+        blocks = [[x or mirrored(i, j) for j, x in enumerate(row)] for i, row in enumerate(blocks)]
+        equal = [(k, count + k) for k in range(count)]
     for i, row in enumerate(blocks):
         for j, x in enumerate(row):
-            if x is None: equal += [(k, count + k) for k in range(count)]
-            elif x.flexible and not x.is_zero(): equal.append((i, count + j))
-            elif not x.is_zero():
-                known.setdefault(i, x.rows)
-                known.setdefault(count + j, x.cols)
+            if x.is_zero(): continue
+            if x.flexible: equal.append((i, count + j))
+            else: known = {i: x.rows, count + j: x.cols, **known}
     for _ in range(count + len(blocks[0])):
         for a, b in equal:
             size = known.get(a, known.get(b))
-            if size is not None: known.update({a: size, b: known.get(b, size)})
-    sizes = [known.get(k, 1) for k in range(count + len(blocks[0]))]
-    return sizes[:count], sizes[count:]
+            if size is not None: known = {a: size, b: size, **known}
+    return stacked([beside([x.sized(known.get(i, 1), known.get(count + j, 1))
+                            for j, x in enumerate(row)]) for i, row in enumerate(blocks)])
 
 # Elimination.
 def reduced(a, cols):
@@ -146,7 +127,6 @@ def reduced(a, cols):
             if k != i and not is_zero(f): rows[k] = [x - f * y for x, y in zip(rows[k], rows[i])]
         pivots.append(j)
     return pivots, rows
-
 def invert(a):
     if a.flexible: return a.map(inverse)
     if a.rows != a.cols: raise Unsupported("the inverse of a matrix that is not square")
@@ -178,7 +158,6 @@ def pivots_of(rows):
 
 # Definite matrices.
 POSITIVE, SEMIDEFINITE, UNKNOWN, NEGATIVE = "positive", "semidefinite", "unknown", "negative"
-
 def classify(a):
     """What is proved of the symmetric matrix a: POSITIVE (definite), SEMIDEFINITE and singular,
     NEGATIVE (v'av < 0 for some v), or UNKNOWN. Fractions decide always: a pivot 0 needs a zero
@@ -189,46 +168,37 @@ def classify(a):
         if pivot < 0 or pivot == 0 and any(row[k] != 0 for row in rows[k + 1:]): return NEGATIVE
         if pivot == 0: result = SEMIDEFINITE
     return result
-def is_positive(a):
-    """Whether every symmetric matrix in the matrix of balls a is proved positive definite. If the
-    balls are m_ij +- r_ij, then a >= m - diag(sums of the rows of r). This matrix has one number at
-    each place, so that the balls of its L D L' elimination stay small."""
-    balls = a.map(ball)
-    rows = [[Ball(x.m) for x in row] for row in balls.elements]
-    for i in range(a.rows):
-        rows[i][i].m -= sum(max(balls[i, j].r, balls[j, i].r) for j in range(a.rows))
-    return all(pivot.m > pivot.r for pivot in pivots_of(rows))
+def is_positive(a): return all(pivot.m > pivot.r for pivot in least_pivots(a))
+def least_pivots(a):
+    """Pivots that are at most those of each symmetric matrix in the matrix of balls a, as long as
+    they are positive. If the balls are m_ij +- r_ij, then a >= m - diag(sums of the rows of r).
+    This has one number at each place, so that the balls of its elimination stay small."""
+    b, places = a.map(ball), range(a.rows)
+    rows = [[Ball(x.m) for x in row] for row in b.elements]
+    for i in places: rows[i][i].m -= sum(max(b[i, j].r, b[j, i].r) for j in places)
+    return pivots_of(rows)
 def witness(a, strict):
-    """A vector v of fractions with v'av < 0 (if strict: <= 0 and v not 0), or None."""
-    found = None
-    for v in directions(a.map(middle)):
+    """A vector v of fractions with v'av < 0 (if strict: <= 0 and v not 0), or None. If a + t I has
+    its first pivot d <= 0 at k, let v = (x, 1, 0) solve its first k rows: v'(a + t I)v = d. A tiny
+    t > 0 is for a pivot 0 beside other elements."""
+    middles, found = a.map(middle), None
+    size = max(upper(x) for x in flat(a))
+    for t in [Fraction(0)] + [size / 10 ** k for k in (10, 20, 40, 80, 160, 320)]:
+        shifted = middles + identity(a.rows, t)
+        pivots = pivots_of([list(row) for row in shifted.elements])
+        k = next((k for k, pivot in enumerate(pivots) if pivot <= 0), None)
+        if k is None and t == 0: return None
+        if k is None: continue
+        v = flat(null_space(shifted.part(range(k), range(k + 1))).map(rounded))
+        v += [Fraction(0)] * (a.rows - k - 1)
         try:
             s = sign(form(v, a, v))
         except Undecided:
             continue
         if s < 0: return v
-        if s == 0 and strict and any(v): found = v
+        if s == 0 and strict: found = v
     return found
-
-def directions(a):
-    """Vectors v with v'av <= 0, up to rounding. The elimination of a meets a pivot d <= 0 at k. The
-    solutions of the first k rows have a basis z_k, z_(k+1), ... with z_k'a z_k = d; beside d = 0
-    and b = z_k'a z_i, there is a combination of z_k and z_i with v'av < 0."""
-    rows = [list(row) for row in a.elements]
-    k = next((k for k, pivot in enumerate(pivots_of(rows)) if pivot <= 0), None)
-    if k is None: return
-    solutions = null_space(a.part(range(k), range(a.cols))).map(rounded).transposed().elements
-    first = solutions[0]
-    yield first
-    for z in solutions[1:]:
-        yield z
-        b, c = form(first, a, z), form(z, a, z)
-        if b != 0:
-            step = -(abs(c) + 1) / b        # (step z_k + z)'a (step z_k + z) = 2 step b + c
-            yield [rounded(step * x + y) for x, y in zip(first, z)]
-
-def rounded(x):
-    """x if it is short, else a fraction near it."""
+def rounded(x):         # x if it is short, else a fraction near it
     if x.denominator.bit_length() < 400: return x
     shift = 400 + max(0, x.denominator.bit_length() - x.numerator.bit_length())
     return Fraction((x.numerator << shift) // x.denominator, 1 << shift)
@@ -248,7 +218,6 @@ def is_positive_on_box(a):
     weights = [bernstein_weights(max(e)) for e in zip(*exponents)]
     for rows in product(*weights):
         factor = {e: prod(w[j] for w, j in zip(rows, e)) for e in exponents}
-
         def coefficient(x):
             total = sum((c * factor[e] for e, c in x.terms.items()), Fraction(0))
             return total if x.rest == 0 else ball(total).widened(x.rest)

@@ -1,44 +1,43 @@
 """What multipliers show: that inequalities have no common solution, or a bound of an objective.
 
 Let B_k(x) = B_k0 + sum_i x_i B_ki > 0 (or >= 0) be inequalities of the text, some of them at
-points of their intervals, and Y_k >= 0. If sum_k <B_ki, Y_k> = 0 for each i >= 1, then
-sum_k <B_k(x), Y_k> = sum_k <B_k0, Y_k> for all x. At a solution the left side is >= 0, and > 0 if
-a strict inequality has a Y_k that is not 0. So there is no solution if the right side is < 0, or
-if it is 0 and a strict inequality has such a Y_k.
+points of their intervals, and Y_k >= 0 with sum_k <B_ki, Y_k> = c_i for each i >= 1. Then
 
-The matrices Y_k of the file are rounded and satisfy no equation. Two rules find others:
-prove_inside shows that there are some near those of the file; algebraic.py builds some.
-With sum_k <B_ki, Y_k> = c_i instead, c_0 + c'x >= c_0 - sum_k <B_k0, Y_k> at each solution.
+    c_0 + c'x = v + sum_k <B_k(x), Y_k> >= v = c_0 - sum_k <B_k0, Y_k>      at each solution x.
+
+So v is a lower bound of the objective c_0 + c'x. With c = 0 there is no solution if v > 0, or if
+v = 0 and a strict inequality has a Y_k that is not 0.
+
+The matrices Y_k of the file are rounded and satisfy no equation. Two rules find others: `near`
+shows that there are some near those of the file; algebraic.py builds some.
 """
-
 import math
 from collections import namedtuple
+from decimal import ROUND_FLOOR, Context, Decimal
 from fractions import Fraction
 from itertools import product
-
-from algebraic import prove_algebraic
+from algebraic import STRICT, prove_algebraic
 from arithmetic import (Ball, Undecided, Unsupported, affine_terms, ball, function, is_exact,
-                        middle, sign, sum_of_balls, upper)
+                        middle, sum_of_balls, upper)
 from language import decimal, matrix, parse
-from matrices import Matrix, is_positive
-from statement import (NOT_EVALUATED, Statement, Symbols, expect, inequality, matrix_of_json,
-                       refuse)
-from yes import Claim, outward, reason, scope_at
+from matrices import filled, least_pivots
+from statement import NOT_EVALUATED, Statement, Symbols, expect, inequality, matrix_of_json, refuse
+from yes import Claim, is_outside, outward, reason, scope_at
 
 # One inequality at one point: its matrix as {i: {(row, column): coefficient of x_i}}, x_0 = 1, its
-# shape, and the rows of its multiplier, or of a factor of it.
-Block = namedtuple("Block", "sign terms shape multiplier factor")
+# shape, and the rows of its multiplier.
+Block = namedtuple("Block", "sign terms shape multiplier")
 
 # (smallest pivot kept, smallest multiplier kept), relative to the largest
 CHOICES = [(1e-13, 0), (1e-9, 0), (1e-13, 1e-14), (1e-13, 1e-9), (1e-9, 1e-9), (1e-6, 0),
            (1e-6, 1e-6)]
-LIMITS = [Fraction(1, 10 ** k) for k in (28, 24, 20, 16, 12, 8)]    # of prove_optimum
+NEAR = 10 ** 6      # an objective is proved above its stated bound, but for this part of it
 
 def prove_no(gain, certificate, name="no solution"):
     """The claim that the inequalities of the file have no solution."""
     try:
         statement = Statement(gain, Symbols())
-        blocks = blocks_of(statement, certificate)
+        blocks = blocks_of(statement, certificate.get("multipliers"))
         for tiny, small in CHOICES:
             try:
                 why = prove_inside(blocks, Fraction(tiny), Fraction(small))
@@ -49,152 +48,124 @@ def prove_no(gain, certificate, name="no solution"):
         return Claim(name, "proved", found) if found else Claim(name, "open", why)
     except NOT_EVALUATED as error:
         return Claim(name, "open", reason(error))
-
-# The blocks of a certificate.
-def blocks_of(statement, certificate):
-    """The inequalities that have multipliers, at their points."""
-    comparisons = dict(statement.comparisons())
-    if "blocks" in certificate:
-        return [block_of_record(comparisons, entry) for entry in certificate["blocks"]]
-    expect(isinstance(certificate.get("multipliers"), dict), "certificate.multipliers: an object")
-    return [block_of_label(comparisons, label, matrix_of_json(rows, "multipliers").elements)
-            for label, rows in certificate["multipliers"].items()]
-def block_of_label(comparisons, label, multiplier):
-    """The block of a label such as `flow at i = 1, tau = 0.768359`, whose values have 6 digits. A
-    value near an end of its interval is that end. Any point of the interval would serve."""
-    names = [n for n in comparisons if label == n or label.startswith(n + " at ")]
-    name = max(names, key=len, default="")
-    at = dict(part.partition(" = ")[::2] for part in label[len(name) + 4:].split(", ") if part)
-    return block_at(comparisons.get(name), label, {key: decimal(x) for key, x in at.items()},
-                    multiplier, None)
-def block_of_record(comparisons, entry):
-    """The block of {requirement, comparison, at: {variable: text}, factor: rows of texts}."""
-    name = entry["requirement"]
-    if name not in comparisons: name = "%s.%s" % (name, entry["comparison"])
-    factor = [[decimal(str(x)) for x in row] for row in entry["factor"]]
-    at = {key: matrix(parse(str(text)), comparisons[name].domains[0].scope).number()
-          for key, text in entry.get("at", {}).items()}
-    return block_at(comparisons[name], name, at, None, factor)
-def block_at(comparison, label, at, multiplier, factor):
-    if isinstance(comparison, Exception): raise comparison
-    for domain in comparison.domains if comparison else ():
-        if all(is_near(value, at.get(name)) for name, _, value in domain.choices):
-            scope = scope_at(domain, [place(i, at.get(i.title)) for i in domain.intervals])
-            if comparison.sign == "==":
-                found = matrix(comparison.left, scope) - matrix(comparison.right, scope)
-            else: found = inequality(comparison, scope)
-            terms = {}
-            for a, b in product(range(found.rows), range(found.cols)):
-                for i, c in affine_terms(found[a, b]).items(): terms.setdefault(i, {})[a, b] = c
-            return Block(comparison.sign, terms, found.shape(), multiplier, factor)
-    raise Unsupported("the block " + label)
-def is_near(value, given):
-    if not value.is_number() or given is None: raise Unsupported("the value of an element of a set")
-    x = middle(value.number())
-    return abs(x - middle(given)) <= (1 + abs(x)) / 10 ** 5
-def place(interval, value):
-    """The point of the interval that a value of 6 digits means; it is shown to be inside."""
-    outward(interval)       # not empty
-    value = interval.low if value is None else value
-    for end in (interval.low, interval.high):
-        if upper(end - value) <= upper(end) * 6 / 10 ** 6: return end
-    if sign(value - interval.low) < 0 or sign(interval.high - value) < 0:
-        raise Unsupported("a point outside of its interval")
-    return value
-
-# Multipliers near those of the file.
 def prove_inside(blocks, tiny, small):
-    """None if exact multipliers are shown to exist near those of the file, else why not. Let L_k be
-    any matrices, such as factors of the multipliers of the file, G_ki = L_k' B_ki L_k, r_i = sum_k
-    trace G_ki, and H_ij = sum_k <G_ki, G_kj>. With u = inv(H) r and S_k = sum_j u_j G_kj, the
-    multipliers Y_k = L_k (I - S_k) L_k' satisfy all equations sum_k <B_ki, Y_k> = r_i - (H u)_i =
-    0. If r' inv(H) r = sum_k |S_k|^2 < 1, then I - S_k > 0. So Y_k >= 0, and Y_k is not 0 if L_k is
-    not 0. Both H > 0 and this hold if [H, r; r', 1] > 0. The constant parts are the coefficients of
-    x_0 = 1 > 0, with v = -sum_k trace G_k0 > 0 as its multiplier: another block, of one row, with G
-    = v. Equations E(x) = 0 have multipliers of any sign: their coefficients enter H with the weight
-    2^40, and r as they are."""
-    scale = scale_of(blocks)
-    if scale == 0: return "all multipliers are 0"
-    factors = factors_of(blocks, scale, tiny, small, relaxed_rows(blocks))
-    rows, residual = gathered(blocks, scale, factors)
-    strict = any(blocks[k].sign in ("<", ">") for k in factors)
+    """None if multipliers with c = 0 and v > 0 (or v = 0, strictly) are shown to exist, else why
+    not. The constant parts are the coefficients of x_0 = 1 > 0, with v as its multiplier: another
+    block, of one row, with G = v and r_0 = 0."""
+    _, rows, residual, used = near(blocks, {}, tiny, small, relaxed_rows(blocks))
+    v = residual.pop(0)
     if 0 in rows:
-        v = -residual[0]
         if v.m <= v.r: return "the constant part has no sign"
         rows[0]["x0"], residual[0] = v, Ball(0)
-    elif not strict: return "no strict inequality has a multiplier"
-    if first_above(rows, residual, [1]): return None
+    elif not any(block.sign in STRICT for block in used):
+        return "no strict inequality has a multiplier"
+    if correction(rows, residual) is not None: return None
     return "the multipliers of the file are too far from exact ones, or dependent"
-
-def scale_of(blocks):
-    return max((abs(x) for b in blocks for row in b.multiplier or b.factor for x in row), default=0)
-def gathered(blocks, scale, factors):
-    """({i: G_ki, by (k, row, column)}, {i: r_i})."""
-    rows, residual = {}, {}
-    for k, block in enumerate(blocks):
-        if block.sign == "==": add_equation(k, block, scale, rows, residual)
-        elif k in factors: add_block(k, block, factors[k], rows, residual)
-    return rows, residual
-def first_above(rows, residual, limits):
-    """The first of the limits with H > 0 and r' inv(H) r < limit, or None."""
-    rows, residual = dict(rows), dict(residual)
-    for i, row in rows.items():      # rows of size 1: this changes H and r together
-        size = sum(upper(x) ** 2 for x in row.values())
-        power = (size.numerator.bit_length() - size.denominator.bit_length()) // 2
-        rows[i] = {key: x * Fraction(2) ** -power for key, x in row.items()}
-        residual[i] = residual[i] * Fraction(2) ** -power
-    h, places = {}, list(rows)
-    for n, i in enumerate(places):
-        for j in places[:n + 1]: h[i, j] = h[j, i] = inner(rows[i], rows[j])
-    bordered = [[h[i, j] for j in rows] + [residual[i]] for i in rows]
-    last = [residual[i] for i in rows]
-    return next((x for x in limits if is_positive(Matrix(bordered + [last + [Fraction(x)]]))), None)
-
-# The bound of an objective.
 def prove_optimum(gain):
-    """The claim that the objective is nowhere below objective_lower_bound, or hardly. With G_ki,
-    r_i = c_i - sum_k trace G_ki and H as in prove_inside, and r' inv(H) r <= s <= 1, the
-    multipliers L_k (I + S_k) L_k' >= 0 satisfy all equations. They bound the objective by r_0 -
-    sum_k <S_k, G_k0> >= r_0 - sqrt(s) |G_0|. Bounds on gains that the text does not state have no
-    multipliers here."""
+    """The claim that the objective is nowhere below its bound in the file, or hardly; it names the
+    bound that is proved. With r' inv(H) r <= s (see `near`), v = r_0 - sum_k <S_k, G_k0> is at
+    least r_0 - sqrt(s) |G_0|. Bounds on gains that the text does not state get no multipliers."""
     stated = decimal(str(gain["objective_lower_bound"]))
     name = "objective >= %.10g" % stated
     try:
         statement = Statement(gain, Symbols())
         text = statement.method.get("minimize") or refuse("the objective of another problem")
         costs = affine_terms(matrix(parse(text), statement.scope).number())
-        comparisons = dict(statement.comparisons())
-        blocks = [block_of_label(comparisons, label, matrix_of_json(rows, "optimum").elements)
-                  for label, rows in gain["optimum"].items() if not label.startswith("bound ")]
-        scale = scale_of(blocks)
-        if scale == 0: raise Undecided("all multipliers are 0")
-        factors = factors_of(blocks, scale, Fraction(0), 0, set())
-        rows, residual = gathered(blocks, scale, factors)
-        left = {i: ball(costs.get(i, 0)) * (1 / scale) - residual.get(i, Ball(0))
-                for i in {0, *costs, *rows}}
-        first, constant = left.pop(0), rows.pop(0, {})
-        if not set(left) <= set(rows): raise Undecided("an unknown of the objective alone")
-        s = first_above(rows, left, LIMITS)
+        blocks = blocks_of(statement, {label: rows for label, rows in gain["optimum"].items()
+                                       if not label.startswith("bound ")})
+        scale, rows, residual, _ = near(blocks, costs, 0, 0, set())
+        first, constant = residual.pop(0), rows.pop(0, {})
+        if not set(residual) <= set(rows): raise Undecided("an unknown of the objective alone")
+        s = correction(rows, residual)
         if s is None: raise Undecided("the multipliers of the file are too far from exact ones")
         shown = (first - function("sqrt", s * inner(constant, constant))) * scale
         low = middle(shown) - upper(shown - middle(shown))
-        enough = low >= stated - abs(stated) / 10 ** 6
-        return Claim(name, "proved" if enough else "open", "multipliers: at least %.12g" % low)
+        if low < stated - abs(stated) / NEAR: return Claim(name, "open", "shown: >= %.10g" % low)
+        digits = Context(10, ROUND_FLOOR).divide(Decimal(low.numerator), Decimal(low.denominator))
+        return Claim("objective >= %s" % digits, "proved", "multipliers near those of the file")
     except NOT_EVALUATED as error:
         return Claim(name, "open", reason(error))
 
+# The blocks of a certificate.
+def blocks_of(statement, multipliers):
+    """The inequalities that have multipliers. A label is such as `flow at i = 1, tau = 0.7`."""
+    expect(isinstance(multipliers, dict), "multipliers: an object")
+    comparisons, blocks = dict(statement.comparisons()), []
+    for label, rows in multipliers.items():
+        name, _, point = label.partition(" at ")
+        values = [part.partition(" = ") for part in point.split(", ") if part]
+        comparison, at = comparisons.get(name), {key: decimal(x) for key, _, x in values}
+        if isinstance(comparison, Exception): raise comparison
+        domain = comparison and next((d for d in comparison.domains if is_chosen(d, at)), None)
+        if not domain: raise Unsupported("the block " + label)
+        scope = scope_at(domain, [place(i, at.get(i.title)) for i in domain.intervals])
+        found, terms = inequality(comparison, scope), {}
+        for a, b in product(range(found.rows), range(found.cols)):
+            for i, c in affine_terms(found[a, b]).items(): terms.setdefault(i, {})[a, b] = c
+        blocks.append(Block(comparison.sign, terms, found.shape(),
+                            matrix_of_json(rows, "multipliers").elements))
+    return blocks
+def is_chosen(domain, at):
+    """Whether these are the values of the variables that have a finite choice."""
+    if any(not value.is_number() or name not in at for name, _, value in domain.choices):
+        raise Unsupported("the value of an element of a set")
+    return all(is_rounded(at[name], value.number()) for name, _, value in domain.choices)
+def is_rounded(value, x): return upper(x - value) <= upper(x) / 10 ** 15 + Fraction(1, 10 ** 30)
+def place(interval, value):
+    """The point of the interval that decimals mean: an end, or a point that is shown to be inside.
+    Any point of the interval would serve."""
+    outward(interval)       # not empty
+    for end in (interval.low, interval.high):
+        if value is None or is_rounded(value, end): return end
+    if is_outside(interval, value): raise Unsupported("a point outside of its interval")
+    return value
+
+# Multipliers near those of the file.
+def near(blocks, costs, tiny, small, dead):
+    """(scale, {i: G_ki, by (k, row, column)}, {i: r_i}, the blocks with L_k) for multipliers of the
+    scale 1. Let L_k be any matrices, such as factors of the multipliers of the file, G_ki = L_k'
+    B_ki L_k, r_i = c_i - sum_k trace G_ki and H_ij = sum_k <G_ki, G_kj>, i, j >= 1. With u = inv(H)
+    r and S_k = sum_j u_j G_kj, the multipliers Y_k = L_k (I + S_k) L_k' satisfy all equations:
+    sum_k <B_ki, Y_k> = c_i - r_i + (H u)_i = c_i. If r' inv(H) r = sum_k |S_k|^2 < 1, then I + S_k
+    > 0. So Y_k >= 0, and Y_k is not 0 if L_k is not 0. Equations E(x) = 0 have multipliers of any
+    sign: their coefficients enter H with the weight 2^40, and r as they are."""
+    scale = max((abs(x) for b in blocks for row in b.multiplier for x in row), default=0)
+    if scale == 0: raise Undecided("all multipliers are 0")
+    rows, traces, used = {}, {}, []
+    for k, block in enumerate(blocks):
+        if block.sign == "==": add_equation(k, block, scale, rows, traces)
+        elif factor := factor_of(k, block, scale, tiny, small, dead):
+            add_block(k, block, factor, rows, traces)
+            used.append(block)
+    residual = {i: ball(costs.get(i, 0)) * (1 / scale) - traces.get(i, Ball(0))
+                for i in {0, *costs, *rows}}
+    return scale, rows, residual, used
+def correction(rows, residual):
+    """An upper bound s < 1 of r' inv(H) r, or None. If [H, r; r', 1] > 0, then H > 0, and the last
+    pivot is 1 - r' inv(H) r. Powers of two make the rows of G_ki of size 1, and change r_i too."""
+    scaled = []
+    for i, row in rows.items():
+        size = sum(upper(x) ** 2 for x in row.values())
+        factor = Fraction(2) ** ((size.denominator.bit_length() - size.numerator.bit_length()) // 2)
+        scaled.append(({key: x * factor for key, x in row.items()}, residual[i] * factor))
+    lower = [[inner(a, b) for b, _ in scaled[:n + 1]] for n, (a, _) in enumerate(scaled)]
+    lower.append([r for _, r in scaled] + [Fraction(1)])
+    for pivot in least_pivots(filled(len(lower), len(lower),
+                                     lambda i, j: lower[max(i, j)][min(i, j)])):
+        if pivot.m <= pivot.r: return None
+    return upper(1 - pivot)
 def inner(a, b):
     a, b = (a, b) if len(a) <= len(b) else (b, a)
     return sum_of_balls([(x, b[key]) for key, x in a.items() if key in b])
-def add_equation(k, block, scale, rows, residual):
+def add_equation(k, block, scale, rows, traces):
     """E(x) = 0 with the multiplier M of [0, E; E', 0], of which 2 M_12 counts."""
-    (height, width), given = block.shape, block.multiplier or []
+    (height, width), given = block.shape, block.multiplier
     for i, entries in block.terms.items():
         for (a, b), c in entries.items():
             m = 2 * given[a][height + b] if len(given) == height + width else given[a][b]
-            residual[i] = residual.get(i, Ball(0)) + ball(c) * (m / scale)
+            traces[i] = traces.get(i, Ball(0)) + ball(c) * (m / scale)
             rows.setdefault(i, {})[k, a, b] = ball(c) * Fraction(2 ** 40)
-def add_block(k, block, factor, rows, residual):
+def add_block(k, block, factor, rows, traces):
     """G_ki = L' B_i L for all i."""
     columns = range(len(factor[0]))
     for i, entries in block.terms.items():
@@ -206,26 +177,18 @@ def add_block(k, block, factor, rows, residual):
         for p, q in product(columns, columns) if moved else ():
             g = sum((row[q] * factor[a][p] for a, row in moved.items()), Ball(0))
             rows.setdefault(i, {})[k, p, q] = g
-            if p == q: residual[i] = residual.get(i, Ball(0)) + g
-
-def factors_of(blocks, scale, tiny, small, dead):
-    """{k: L_k} with zero rows where an unknown only relaxes the inequalities (dead). An unknown
-    whose coefficients in the remaining rows are diagonal and of one sign makes these rows hold. No
-    multiplier can use them, so they become zero; this is repeated."""
-    found = {}
-    for k, block in enumerate(blocks):
-        size = max(abs(x) for row in block.multiplier or block.factor for x in row)
-        live = [a for a in range(block.shape[0]) if (k, a) not in dead]
-        if block.sign == "==" or size == 0 or size < small * scale or not live: continue
-        if block.factor: part = [block.factor[a] for a in live]
-        else: part = cholesky([[block.multiplier[a][b] / scale for b in live] for a in live], tiny)
-        rows = dict(zip(live, part))
-        if any(any(row) for row in part):      # L_k is not 0
-            found[k] = [rows.get(a, [Fraction(0)] * len(part[0])) for a in range(block.shape[0])]
-    return found
-
+            if p == q: traces[i] = traces.get(i, Ball(0)) + g
+def factor_of(k, block, scale, tiny, small, dead):
+    """L_k, with rows 0 where an unknown relaxes the inequalities (dead); None if it would be 0."""
+    live = [a for a in range(block.shape[0]) if (k, a) not in dead]
+    if max(abs(x) for row in block.multiplier for x in row) < small * scale: return None
+    part = cholesky([[block.multiplier[a][b] / scale for b in live] for a in live], tiny)
+    rows = dict(zip(live, part))
+    return [rows.get(a, [Fraction(0)] * len(part[0])) for a in range(block.shape[0])] \
+        if any(map(any, part)) else None
 def relaxed_rows(blocks):
-    """The rows (block, row) that an unknown alone can make positive."""
+    """The rows (block, row) that no multiplier can use. An unknown whose coefficients in all other
+    rows are diagonal and of one sign makes its rows hold; this is repeated."""
     entries = {}
     for k, block in enumerate(blocks):
         for i, found in block.terms.items():
@@ -237,10 +200,8 @@ def relaxed_rows(blocks):
         for found in entries.values():
             live = [e for e in found if (e[0], e[1]) not in dead and (e[0], e[2]) not in dead]
             if all(a == b and is_exact(c) and blocks[k].sign != "==" and (c > 0) == (live[0][3] > 0)
-                   for k, a, b, c in live):
-                dead |= {(k, a) for k, a, _, _ in live}
+                   for k, a, b, c in live): dead |= {(k, a) for k, a, _, _ in live}
     return dead
-
 def cholesky(y, tiny):
     """Rows of L with y near L L', in floating point; pivots below `tiny`, for a diagonal near 1,
     are dropped. Nothing is concluded from L: whatever it is, L L' >= 0."""

@@ -3,19 +3,13 @@
 The file is read with all numbers as the decimals that stand there. Keys that the checker does not
 use (campaigns, plants, reports, margins) are not looked at.
 """
-
-import hashlib
-import json
-import os
-import re
+import hashlib, json, os, re
 from collections import namedtuple
 from fractions import Fraction
 from functools import reduce
-from itertools import product
+from itertools import count, product
 from operator import add
-
 import yaml
-
 from arithmetic import Affine, Series, Undecided, Unsupported, is_exact, middle, upper
 from language import (Family, Function, Later, Scope, basis_functions, decimal, defined,
                       elementwise, evaluate, holds, matrix, members, parse, parse_range)
@@ -27,12 +21,8 @@ OPTIONAL = ("searched", "parameters", "bases", "functions", "search", "gain_func
 NOT_EVALUATED = (Undecided, Unsupported, ArithmeticError, LookupError, TypeError, ValueError,
                  AttributeError, RecursionError)
 
-class Damaged(Exception):
-    """This is not a gain file; the text says what was expected."""
-
-class Numeral(str):
-    """A number of the JSON file, as it is written."""
-
+class Damaged(Exception): """This is not a gain file; the text says what was expected."""
+class Numeral(str): """A number of the JSON file, as it is written."""
 def listed(x): return x if isinstance(x, list) else [x]
 def refuse(text): raise Unsupported(text)
 def expect(condition, what):
@@ -50,20 +40,22 @@ def read_gain_file(path):
         raise Damaged("cannot read this file: %s" % (getattr(error, "strerror", None) or error))
     expect(isinstance(gain, dict), "a JSON object")
     expect(gain.get("verdict") in ("yes", "no", "undecided"), "verdict: yes, no or undecided")
-    for key in OBJECTS: expect(isinstance(gain.get(key), dict), key + ": an object")
-    for key in OPTIONAL: expect(isinstance(gain.setdefault(key, {}), dict), key + ": an object")
+    for key in OPTIONAL: gain.setdefault(key, {})
+    for key in OBJECTS + OPTIONAL: expect(isinstance(gain.get(key), dict), key + ": an object")
     for key in ("gains", "unknowns", "bases"):
         for name, value in gain[key].items(): matrix_of_json(value, "%s.%s" % (key, name))
     check_statement(gain["statement"])
     if "proof" in gain: check_results(gain)
     return gain
-
 def unique_keys(pairs):
     if len({key for key, _ in pairs}) < len(pairs): raise ValueError("a key occurs twice")
     return dict(pairs)
 
+# Hashes; docs/gain-file.md says of which bytes.
+def expect_sha256(stated, parts, what):
+    found = hashlib.sha256("\0".join(parts).encode()).hexdigest()
+    expect(found == stated, what)
 def check_statement(statement):
-    """The texts are there, and their sha256 is right (docs/gain-file.md says of which bytes)."""
     for key in ("method_text", "problem_text", "sha256"):
         expect(isinstance(statement.get(key), str), "statement.%s: a text" % key)
     parts = [statement["method_text"], statement["problem_text"]]
@@ -79,28 +71,22 @@ def check_statement(statement):
             size = "%d x %d" % matrix_of_json(rows, "statement.files").shape()
             parts += [name, size if rows and isinstance(rows[0], list) else "list"]
             parts += [str(x) for row in rows for x in listed(row)]
-    found = hashlib.sha256("\0".join(parts).encode()).hexdigest()
-    expect(found == statement["sha256"], "a statement with the sha256 that it names: it was edited")
-
+    expect_sha256(statement["sha256"], parts, "a statement with its sha256: it was edited")
 def check_results(gain):
-    """The sha256 of what is proved is right (docs/gain-file.md says of which bytes)."""
-    matrices = {"gains." + name: x for name, x in gain["gains"].items()}
+    groups = {"gains": gain["gains"]}
     for name, entry in gain["gain_functions"].items():
-        for k, x in enumerate(entry.get("coefficients", [])):
-            matrices["gain_functions.%s.coefficients[%d]" % (name, k)] = x
-    for key, part in [(key, gain[key]) for key in ("unknowns", "parameters", "bases", "searched",
-                                                   "optimum")] + \
-            [(key + "certificate.multipliers", part.get("certificate", {}).get("multipliers", {}))
-             for key, part in (("", gain), ("search.", gain["search"]))]:
-        matrices.update((key + "." + name, x) for name, x in part.items())
+        groups["gain_functions." + name] = {"coefficients[%d]" % k: x for k, x in
+                                            enumerate(entry.get("coefficients", []))}
+    for key in ("unknowns", "parameters", "bases", "searched", "optimum"): groups[key] = gain[key]
+    for key, part in (("", gain), ("search.", gain["search"])):
+        groups[key + "certificate.multipliers"] = part.get("certificate", {}).get("multipliers", {})
     parts = [gain["statement"]["sha256"]]
-    for key, x in matrices.items():
-        parts += [key] + [str(y) for row in listed(x) for y in listed(row)]
-    found = hashlib.sha256("\0".join(parts).encode()).hexdigest()
-    expect(isinstance(gain["proof"], dict) and found == gain["proof"].get("sha256"),
-           "results with the sha256 that proof names: they were edited (without the key proof the "
-           "file is taken as it is)")
-
+    for key, matrices in groups.items():
+        for name, x in matrices.items():
+            parts += ["%s.%s" % (key, name)] + [str(y) for row in listed(x) for y in listed(row)]
+    expect(isinstance(gain["proof"], dict), "proof: an object")
+    expect_sha256(gain["proof"].get("sha256"), parts, "results with their sha256: they "
+                  "were edited (without the key proof the file is taken as it is)")
 def matrix_of_json(value, where):
     """The matrix of a number, a list of numbers (a column) or a list of rows."""
     rows = [listed(row) for row in listed(value)]
@@ -109,14 +95,11 @@ def matrix_of_json(value, where):
         return Matrix([[decimal(x) for x in row] for row in rows])
     except Unsupported as error:
         raise Damaged("%s: %s" % (where, error))
-
 class TextLoader(yaml.BaseLoader):
     """YAML with all scalars as texts (0.1 is a decimal, not a double), without repeated keys."""
     def construct_mapping(self, node, deep=False):
-        keys = [str(key.value) for key, _ in node.value]
-        if len(set(keys)) < len(keys): raise yaml.YAMLError("a key occurs twice")
+        unique_keys([(str(key.value), None) for key, _ in node.value])
         return super().construct_mapping(node, deep)
-
 def read_yaml(text):
     try:
         result = yaml.load(text, Loader=TextLoader)
@@ -129,60 +112,54 @@ def read_yaml(text):
 def variant(base, over):
     """Sections of `base`, also those of its method, with the entries of `over` in their place. An
     entry `none` stays, since it may remove one of a built-in method; without_none ends this."""
-    result = dict(base)
-    for key, value in over.items():
-        old = base.get(key)
-        if key == "method" and old and not isinstance(value, str):
-            result[key] = variant({"like": old} if isinstance(old, str) else old, value)
-        elif isinstance(value, dict) and isinstance(old, dict): result[key] = {**old, **value}
-        else: result[key] = value
+    result = {**base, **over}
+    for key in base.keys() & over.keys():
+        old, new = base[key], over[key]
+        if key == "method" and not isinstance(new, str):
+            result[key] = variant({"like": old} if isinstance(old, str) else old, new)
+        elif isinstance(old, dict) and isinstance(new, dict): result[key] = {**old, **new}
     return result
 def without_none(mapping):
     return {key: {k: v for k, v in value.items() if v != "none"} if isinstance(value, dict)
             else value for key, value in mapping.items() if value != "none"}
-def files_named(statement, name):
-    """The entries of a file: of this name, or else of the same name in another folder."""
+def files_named(statement, name):       # or else of the same name in another folder
     files = [f for f in statement.get("files", []) if isinstance(f.get("file"), str)]
     found = [f for f in files if f["file"] == name] or \
         [f for f in files if os.path.basename(f["file"]) == os.path.basename(name)]
     expect(len({f["file"] for f in found}) <= 1, "one file with the name " + name)
     return found
-
 def problem_and_method(statement):
     """Both texts with all variants applied."""
     def text_of(name):
         found = files_named(statement, name)
         expect(len(found) == 1 and isinstance(found[0].get("text"), str), "the text of " + name)
-        return found[0]["text"]
+        return read_yaml(found[0]["text"])
     def built_in(name):
         named = any(f.get("file") == "method " + name for f in statement.get("files", []))
-        return read_yaml(text_of("method " + name) if named else statement["method_text"])
-
+        return text_of("method " + name) if named else read_yaml(statement["method_text"])
     problem = read_yaml(statement["problem_text"])
     for _ in range(100):
-        if "like" in problem: problem = variant(read_yaml(text_of(problem.pop("like"))), problem)
+        if "like" in problem: problem = variant(text_of(problem.pop("like")), problem)
     expect("like" not in problem, "a problem that is not like itself")
     method = problem.get("method")
-    expect(isinstance(method, (str, dict)), "the method of the problem")
-    if isinstance(method, str): method = built_in(method)
-    elif "like" in method: method = variant(built_in(method.pop("like")), method)
+    if isinstance(method, str): method = {"like": method}
+    expect(isinstance(method, dict), "the method of the problem")
+    if "like" in method: method = variant(built_in(method.pop("like")), method)
     return without_none(problem), without_none(method)
-
 def section(mapping, key):
     value = mapping.get(key) or {}
     expect(isinstance(value, dict), key + ": a mapping")
     return value
-def declarations(mapping, key):
-    """The entries of a section, where a text alone is a shape."""
-    return {name: entry if isinstance(entry, dict) else {"shape": entry}
+def declarations(mapping, key, short="shape"):
+    """The entries of a section, where a text alone is a shape (or what `short` says)."""
+    return {name: entry if isinstance(entry, dict) else {short: entry}
             for name, entry in section(mapping, key).items()}
 
 # The statement.
-
 # index: the element of a column, or None; title: the name with it, such as x_1
 Interval = namedtuple("Interval", "name index low high title")
 Domain = namedtuple("Domain", "scope intervals choices hulls")
-Comparison = namedtuple("Comparison", "name left sign right domains")
+Comparison = namedtuple("Comparison", "left sign right domains")
 SHAPE = re.compile(r"\s*(?:(symmetric|diagonal)\s+)?(.+?)(?:\s+x\s+(.+))?\s*", re.S)
 HEAD = re.compile(r"\s*(\w+)\s*\((.*)\)\s*", re.S)
 
@@ -193,49 +170,43 @@ class Statement:
     def __init__(self, gain, unknown_value):
         self.gain, self.unknown_value, self.scope = gain, unknown_value, Scope()
         self.problem, self.method = problem_and_method(gain["statement"])
-        self.settings = gain["statement"].get("set", {})
-        self.check_searched()
+        self.settings, self.searched = gain["statement"].get("set", {}), gain.get("searched", {})
         self.given = {**section(self.problem, "data"), **section(self.problem, "parameters")}
+        self.unknowns = declarations(self.method, "unknowns")
+        self.check_searched()
         self.declare_definitions()
         self.declare_data()
-        self.unknowns = declarations(self.method, "unknowns")
-        for name, declared in self.unknowns.items():
-            self.declare(name, lambda: self.unknown_or_family(name, declared))
+        for name, declared in self.unknowns.items(): self.declare(name, self.unknown, declared)
     def check_searched(self):
         """Values under `searched` replace those of the texts: the texts must ask for a search."""
         asked = {"gain_bound"} | {name for name, p in section(self.method, "parameters").items()
                                   if isinstance(p, dict) and "search" in p}
         for value in section(self.problem, "search").values():
             asked |= set(value) if isinstance(value, dict) else set()
-        for name in self.gain.get("searched", {}):
-            expect(name in asked, "searched: names that are searched, not " + name)
-
+        for name in self.searched: expect(name in asked, "a search for the searched name " + name)
     # Definitions and data.
     def later(self, name, compute): self.scope.names[name] = Later(compute)
-    def declare(self, name, compute):
+    def declare(self, name, compute, declared):
         """The name gets its value now; if there is none, its use is refused."""
         try:
-            self.scope.names[name] = compute()
+            self.scope.names[name] = compute(name, declared)
         except NOT_EVALUATED as error:
             text = "%s of the datum %s" % (error, name)
             self.later(name, lambda: refuse(text))
     def declare_definitions(self):
-        for source in (self.method, self.problem):
-            for head, text in section(source, "let").items():
-                self.define(head, self.settings.get(head, text))
+        for head, text in {**section(self.method, "let"), **section(self.problem, "let")}.items():
+            text, call = self.settings.get(head, text), HEAD.fullmatch(head)
+            if call:
+                names = [x.split()[0] for x in call.group(2).split(",")]
+                self.scope.names[call.group(1)] = defined(names, text, self.scope)
+            else: self.later(head, lambda text=text: evaluate(parse(text), self.scope))
         declared = {**section(self.method, "data"), **section(self.method, "parameters")}
         for name in self.given:
             if name not in declared and not HEAD.fullmatch(name):
                 self.later(name, lambda name=name: self.value(self.given_value(name)))
-    def define(self, head, text):
-        call = HEAD.fullmatch(head)
-        if call:
-            names = [x.split()[0] for x in call.group(2).split(",")]
-            self.scope.names[call.group(1)] = defined(names, text, self.scope)
-        else: self.later(head.strip(), lambda: evaluate(parse(text), self.scope))
     def given_value(self, name):
         """The value of a datum or parameter: searched, set on the command line, or given."""
-        if name in self.gain.get("searched", {}): return str(self.gain["searched"][name])
+        if name in self.searched: return str(self.searched[name])
         if name in self.settings:
             text = self.settings[name].strip()
             is_list = text[:1] in "[{" and ";" not in text
@@ -252,16 +223,15 @@ class Statement:
     def matrix_of_file(self, reference):
         path = next((reference[k] for k in ("csv", "mat", "npy", "json") if k in reference), "")
         for entry in files_named(self.gain["statement"], path):
-            if reference.get("name") in entry.get("matrices", {}):
-                return entry["matrices"][reference["name"]]
-            if "matrix" in entry: return entry["matrix"]
+            found = entry.get("matrices", {}).get(reference.get("name"), entry.get("matrix"))
+            if found is not None: return found
         return refuse("a matrix from a file")
     def declare_data(self):
         for name, declared in declarations(self.method, "data").items():
-            self.declare(name, lambda: self.datum(name, declared))
-        for name, declared in section(self.method, "parameters").items():
-            default = declared.get("default") if isinstance(declared, dict) else declared
-            found = [self.given_value(name), default, self.gain.get("parameters", {}).get(name)]
+            self.declare(name, self.datum, declared)
+        for name, declared in declarations(self.method, "parameters", "default").items():
+            found = [self.given_value(name), declared.get("default"),
+                     self.gain.get("parameters", {}).get(name)]
             x = next((x for x in found if x is not None), None)
             self.later(name, lambda x=x: self.value(x))
     def datum(self, name, declared):
@@ -275,8 +245,7 @@ class Statement:
         """A datum with arguments. Its value at zero shows a size that nothing else gives."""
         names = list(declared["of"])
         for head in filter(None, map(HEAD.fullmatch, self.given)):
-            if head.group(1) == name:
-                x, names = self.given[head.group()], [a.strip() for a in head.group(2).split(",")]
+            if head[1] == name: x, names = self.given[head[0]], head[2].replace(",", " ").split()
         result = defined(names, declared["default"] if x is None else x, self.scope)
         try:
             shapes = [self.shape(s) for s in declared["of"].values()]
@@ -288,29 +257,24 @@ class Statement:
         """The basis of the file, if it is the one of the text up to the rounding of doubles."""
         result = matrix_of_json(self.gain["bases"][name], name)
         self.unify(shape, result)
-        difference = self.value(x, result.shape()) - result
-        scale = max([abs(y) for y in flat(result)] + [Fraction(0)])
-        if any(upper(y) > scale / 10 ** 13 for y in flat(difference)):
-            raise Unsupported("a basis that is not the one of the text")
-        return result
+        scale = max(map(abs, flat(result)), default=0)
+        if all(upper(y) <= scale / 10 ** 13 for y in flat(self.value(x, result.shape()) - result)):
+            return result
+        raise Unsupported("a basis that is not the one of the text")
     def family_of_data(self, x, declared):
         """One text for all members, or a list of them, which may give the last index."""
         texts = listed(declared["for"])
         several = isinstance(x, list) and len(texts) == 1
         _, _, low, high = parse_range(texts[0])
         if several: self.unify_size(high, len(x) + matrix(low, self.scope).whole() - 1)
-        found = self.members(texts)
-        return Family({key: self.shaped(y, declared["shape"], scope)
-                       for (key, scope), y in zip(found, x if several else [x] * len(found))})
-    def members(self, texts):
-        """[(indices, scope)] of `for: [i in 1..N, k in 0..2]`."""
+        return Family({key: self.shaped(x[k] if several else x, declared["shape"], scope)
+                       for k, (key, scope) in enumerate(self.members(texts))})
+    def members(self, texts):       # of `for: [i in 1..N, k in 0..2]`
         return members([parse_range(text) for text in listed(texts)], self.scope)
-
     # Shapes.
     def parts(self, shape):
         """The trees of the rows and columns of `n x m`, `n`, `symmetric n`, `scalar`."""
-        kind, rows, cols = SHAPE.fullmatch(shape).groups()
-        rows = "1" if rows == "scalar" else rows
+        kind, rows, cols = SHAPE.fullmatch("1" if shape == "scalar" else shape).groups()
         return [parse(rows), parse(rows if kind else cols or "1")]
     def size(self, tree):
         """The whole number that a text is, or None."""
@@ -333,13 +297,12 @@ class Statement:
         elif value.is_zero() and rows is not None and cols is not None: value = zeros(rows, cols)
         self.unify(shape, value)
         return value
-
     # Unknowns.
-    def unknown_or_family(self, name, declared):
-        if "for" not in declared: return self.unknown(name, declared)
-        return Family({key: self.unknown("_".join(map(str, (name,) + key)), declared)
-                       for key, _ in self.members(declared["for"])})
     def unknown(self, name, declared):
+        if "for" not in declared: return self.member(name, declared)
+        return Family({key: self.member("_".join(map(str, (name,) + key)), declared)
+                       for key, _ in self.members(declared["for"])})
+    def member(self, name, declared):
         kind = SHAPE.fullmatch(declared["shape"]).group(1) or "full"
         rows, cols = self.shape(declared["shape"])
         if "of" not in declared: return self.unknown_value(name, rows, cols, kind)
@@ -364,7 +327,6 @@ class Statement:
                     self.scope.names[word] = self.unknown_value(word, rows, cols, kind)
                 return defined([call.group(2).strip()], text, self.scope)
         return refuse("the formula of " + name)
-
     # Requirements.
     def comparisons(self):
         """All comparisons of all requirements. One that cannot be read is an exception instead."""
@@ -377,9 +339,9 @@ class Statement:
             except NOT_EVALUATED as error:
                 yield name, error
                 continue
-            for k, (left, sign, right) in enumerate(found):
-                label = "%s.%d" % (name, k + 1) if len(found) > 1 else name
-                yield label, Comparison(name, left, sign, right, domains)
+            for k, comparison in enumerate(found):
+                yield ("%s.%d" % (name, k + 1) if len(found) > 1 else name,
+                       Comparison(*comparison, domains))
     def domains(self, texts):
         """The finite choices of `forall`, each with the intervals that remain. An interval has no
         value, and a vertex stands for a whole polytope: no later entry may depend on them."""
@@ -387,29 +349,24 @@ class Statement:
         later = Later(lambda: refuse("an entry of forall that depends on the one before"))
         for text in listed(texts):
             entry = re.fullmatch(r"\s*(\w+)\s+in\s+(.*)", text, re.S)
-            scopes = [Scope(d.scope, hidden) for d in found]
             if not entry:
-                found = [d for d, scope in zip(found, scopes) if holds(parse(text), scope)]
+                found = [d for d in found if holds(parse(text), Scope(d.scope, hidden))]
                 continue
-            name, where = entry.group(1), entry.group(2).strip()
+            name, where = entry[1], entry[2].strip()
             if name in hidden or any(name == n for d in found for n, _, _ in d.choices):
                 raise Unsupported("a variable that occurs twice")
-            found = [new for d, scope in zip(found, scopes)
-                     for new in choices(d, scope, name, where)]
+            found = [new for d in found for new in choices(d, Scope(d.scope, hidden), name, where)]
             if where.startswith(("[", "conv")): hidden[name] = later
         return found
 
 def named_blocks(entry):
     """The comparison of a matrix that is given by named block rows and columns."""
-    blocks = entry["blocks"]
+    rows = entry["blocks"]
     def place(a, b):
-        if b in (blocks[a] or {}): return parse(blocks[a][b])
-        return ("'", parse(blocks[b][a])) if a in (blocks[b] or {}) else ("number", Fraction(0))
-
+        if b in (rows[a] or {}): return parse(rows[a][b])
+        return ("'", parse(rows[b][a])) if a in (rows[b] or {}) else ("number", Fraction(0))
     sign, right = re.fullmatch(r"\s*(<=|>=|<|>)(.*)", entry["is"]).groups()
-    return ("compare", [("block", [[place(a, b) for b in blocks] for a in blocks]), sign,
-                        parse(right)])
-
+    return ("compare", [("block", [[place(a, b) for b in rows] for a in rows]), sign, parse(right)])
 def choices(domain, scope, name, where):
     """The domains that an entry `name in where` of forall makes of one, evaluated in the scope."""
     if where.startswith("["):
@@ -424,8 +381,7 @@ def choices(domain, scope, name, where):
             [Interval(name, i, low.spread(i, 0), high.spread(i, 0), "%s_%d" % (name, i + 1))
              for i in range(shape.rows)]
         empty = {name: shape} if shape.rows == 0 else {}
-        return [domain._replace(scope=Scope(domain.scope, empty),
-                                intervals=domain.intervals + tuple(new))]
+        return [Domain(Scope(domain.scope, empty), domain.intervals + tuple(new), *domain[2:])]
     if "{" in where:
         values = where[where.index("{") + 1:where.rindex("}")]
         values = [matrix(x, scope) for x in parse("[%s]" % values)[1][0]]
@@ -436,24 +392,17 @@ def choices(domain, scope, name, where):
     hulls = domain.hulls + (((name, values),) if where.startswith("conv") else ())
     return [Domain(Scope(domain.scope, {name: v}), domain.intervals,
                    domain.choices + ((name, k + 1, v),), hulls) for k, v in enumerate(values)]
-
 def polynomial(parts, span):
     """The unknown function sum parts[k] b_k(t), with powers or Chebyshev polynomials b_k."""
-    def function(which):
-        def apply(argument):
-            functions = basis_functions(argument.number(), span)
-            return reduce(add, [part * number(b[which]) for part, b in zip(parts, functions)])
-        return apply
-    return Function(function(0), function(1))
+    return Function(lambda t: reduce(add, [
+        part * number(b) for part, b in zip(parts, basis_functions(t.number(), span))]))
 def chain_parts(tree):
     """(left, sign, right) of each comparison of a requirement."""
     if tree[0] == "and": return chain_parts(tree[1]) + chain_parts(tree[2])
     if tree[0] != "compare" or "!=" in tree[1][1::2]:
         raise Unsupported("a requirement that is not an inequality")
     return [tree[1][k:k + 3] for k in range(0, len(tree[1]) - 2, 2)]
-def values_of_file(gain):
-    """unknown_value of the decimals of the file. Symmetric unknowns must be symmetric."""
-    return lambda name, *kind: checked(gain["unknowns"], name, *kind)
+def values_of_file(gain): return lambda name, *kind: checked(gain["unknowns"], name, *kind)
 def checked(values, name, rows, cols, kind="full"):
     """A matrix of the file, if it has this size and is of this kind; a flat list may be a row."""
     if name not in values: raise Unsupported("a file without " + name)
@@ -461,39 +410,36 @@ def checked(values, name, rows, cols, kind="full"):
     if a.shape() != (rows, cols) and a.cols == 1: a = a.transposed()
     if 0 in (rows, cols): a = zeros(rows, cols)
     if a.shape() != (rows, cols): raise Unsupported("the size of " + name)
-    if kind == "symmetric" and a.elements != a.transposed().elements:
-        raise Unsupported("%s, which is not symmetric" % name)
-    if kind == "diagonal" and a.elements != diagonal([a[i, i] for i in range(rows)]).elements:
-        raise Unsupported("%s, which is not diagonal" % name)
-    return a
+    wanted = {"full": lambda i, j: a[i, j], "symmetric": lambda i, j: a[j, i],
+              "diagonal": lambda i, j: a[i, j] if i == j else 0}[kind]
+    if all(a[i, j] == wanted(i, j) for i in range(rows) for j in range(cols)): return a
+    raise Unsupported("%s, which is not %s" % (name, kind))
 
 class Symbols:
-    """unknown_value with a new scalar x_i for each free element; `count` is their number."""
-    def __init__(self): self.count = 0
+    """unknown_value with a new scalar x_i for each free element."""
+    def __init__(self): self.new = (Affine({i: Fraction(1)}) for i in count(1))
     def __call__(self, name, rows, cols, kind):
         result = zeros(rows, cols)
         for i, j in product(range(rows), range(cols)):
-            if kind == "diagonal" and i != j or kind == "symmetric" and i < j: continue
-            self.count += 1
-            result.elements[i][j] = Affine({self.count: Fraction(1)})
-            if kind == "symmetric": result.elements[j][i] = result.elements[i][j]
+            if kind == "symmetric" and j < i: result.elements[i][j] = result.elements[j][i]
+            elif kind != "diagonal" or i == j: result.elements[i][j] = next(self.new)
         return result
 
 # Inequalities as symmetric matrices.
 BOUNDED = {1: ("norm", "abs", "max", "lambda_max"), -1: ("min", "lambda_min")}
-
 def inequality(comparison, scope):
     """The symmetric matrix that a comparison asks to be positive (semi)definite. A column is
     compared element by element, so its elements become a diagonal. Norms, absolute values, maxima
-    and eigenvalues on the right side of the comparison are replaced as in docs/language.md."""
+    and eigenvalues on the right side of the comparison are replaced as in docs/language.md. Of an
+    equation, the matrix that must be 0."""
     small, large = comparison.left, comparison.right
+    if comparison.sign == "==": return matrix(small, scope) - matrix(large, scope)
     if comparison.sign in (">", ">="): small, large = large, small
     for side, other, factor in ((small, large, 1), (large, small, -1)):
         name = side[1][1] if side[0] == "call" and side[1][0] == "name" else ""
         if name not in BOUNDED[factor] or scope.find(name) is not None: continue
         bound, values = matrix(other, scope), [matrix(x, scope) for x in side[2]]
-        if len(values) > 1 and name not in ("max", "min"):
-            raise Unsupported("%s of several arguments" % name)
+        if len(values) > 1 and name not in ("max", "min"): refuse(name + " of several arguments")
         if name == "norm": return norm_block(values[0], bound)
         if name.startswith("lambda"):
             return symmetric((identity(values[0].rows, bound.number()) - values[0]).map(
@@ -506,19 +452,15 @@ def inequality(comparison, scope):
     if 1 in difference.shape(): return diagonal(flat(difference))
     if difference.rows == difference.cols: return symmetric(difference)
     raise Unsupported("an inequality of %d x %d matrices" % difference.shape())
-
 def symmetric(a):
     """a if it is symmetric. Asymmetry of the size of rounding, at most 1e-9 of the coefficients, is
     averaged: v'av stays the same."""
-    result = a + a.transposed()
+    result = (a + a.transposed()).map(lambda x: x * Fraction(1, 2))
     for i, j in product(range(a.rows), repeat=2):
         x, y = a[i, j], a[j, i]
         if x is y or is_exact(x) and x == y: result.elements[i][j] = x
-        elif i < j:
-            difference, size = [max(abs(middle(c)) for z in numbers for c in coefficients(z))
-                                for numbers in ([x - y], [x, y])]
-            if difference > size / 10 ** 9 + Fraction(1, 10 ** 80):
-                raise Unsupported("a matrix that is not symmetric")
-            result.elements[i][j] = result.elements[j][i] = result[i, j] * Fraction(1, 2)
+        elif largest(x - y) > max(largest(x), largest(y)) / 10 ** 9 + Fraction(1, 10 ** 80):
+            raise Unsupported("a matrix that is not symmetric")
     return result
-def coefficients(x): return x.terms.values() if isinstance(x, Series) else [x]
+def largest(x):         # of its coefficients
+    return max(abs(middle(c)) for c in (x.terms.values() if isinstance(x, Series) else [x]))

@@ -1,13 +1,11 @@
 """The proof of a yes: every comparison of every requirement, at the decimals of the file."""
-
-import math
-import re
+import math, re
 from collections import namedtuple
 from fractions import Fraction
+from functools import reduce
 from itertools import product
-
-from arithmetic import (ONE, Affine, Taylor, Undecided, Unsupported, ball, is_zero, middle, sign,
-                        upper)
+from operator import add
+from arithmetic import Affine, Taylor, Undecided, Unsupported, ball, is_zero, middle, sign, upper
 from language import Scope, matrix, parse
 from matrices import (POSITIVE, SEMIDEFINITE, classify, column, exactly, filled, flat, is_positive,
                       is_positive_on_box, number, witness)
@@ -59,7 +57,7 @@ def prove_equation(name, comparison, domain, near):
     `solution_within` (near) the file does not say that its decimals satisfy the equations."""
     scope = domain.scope
     if domain.intervals: scope, _ = on_piece(domain, [outward(x) for x in domain.intervals])
-    difference = matrix(comparison.left, scope) - matrix(comparison.right, scope)
+    difference = inequality(comparison, scope)
     terms = [c for x in flat(difference)
              for c in ([*x.terms.values(), x.rest] if isinstance(x, Taylor) else [x])]
     if all(is_zero(c) for c in terms): return Claim(name, "proved", "fractions")
@@ -76,12 +74,12 @@ def check_affine(comparison, domain):
     inequality(comparison, Scope(domain.scope, {name: symbols}))
 
 # Intervals.
-def outward(interval):
+def outward(span):
     """The ends as fractions; an end that is a ball is moved outward."""
-    low, high = [middle(x) + s * upper(x - middle(x))
-                 for s, x in ((-1, interval.low), (1, interval.high))]
+    low, high = [middle(x) + s * upper(x - middle(x)) for s, x in ((-1, span.low), (1, span.high))]
     if low > high: raise Unsupported("an interval whose low end is above its high end")
     return low, high
+def is_outside(interval, x): return sign(x - interval.low) < 0 or sign(interval.high - x) < 0
 def on_piece(domain, piece):
     """(scope with Taylor models of the variables on the piece, a number 0 of their space). An
     interval of one point has the value of this point."""
@@ -98,7 +96,6 @@ def scope_at(domain, values):
         before = [] if not i.index else flat(names[i.name])
         names[i.name] = number(x) if i.index is None else column(before + [x])
     return Scope(domain.scope, names)
-
 def prove_for_all(name, comparison, domain):
     """The box is halved until each piece is proved. Where the middle of a piece may fail, the
     matrix there is judged."""
@@ -133,7 +130,6 @@ def prove_for_all(name, comparison, domain):
         todo += [piece[:k] + [part] + piece[k + 1:] for part in ((half, high), (low, half))]
     texts = ["%s in [%s, %s]" % (t, short(x), short(y)) for t, (x, y) in zip(titles, whole)]
     return Claim(name, "proved", "all " + ", ".join(texts), pieces)
-
 def longest_side(piece, lengths, a):
     """The side to halve: that of the variable whose powers from 2 on are largest in a, since
     Bernstein coefficients are exact for the others; without such, the relatively longest side."""
@@ -141,7 +137,7 @@ def longest_side(piece, lengths, a):
     wide = [k for k, side in enumerate(sides) if side > 0]
     scores = dict.fromkeys(wide, 0)
     for i, j in product(range(a.rows), repeat=2) if a and len(wide) > 1 else ():
-        scale = (upper(a[i, i]) + Fraction(1, ONE)) * (upper(a[j, j]) + Fraction(1, ONE))
+        scale = (upper(a[i, i]) + SMALLEST_PIECE ** 8) * (upper(a[j, j]) + SMALLEST_PIECE ** 8)
         for e, c in a[i, j].terms.items():
             for k, power in zip(wide, e): scores[k] += upper(c) ** 2 / scale if power > 1 else 0
     return max(wide, key=lambda k: (scores[k] if sides[k] > max(sides) / 1000 else 0, sides[k]))
@@ -151,8 +147,7 @@ def refutation(name, comparison, domain, piece, corners):
     points += list(product(*piece)) if corners and len(piece) <= 3 else []
     for point in points:
         try:
-            if any(sign(x - i.low) < 0 or sign(i.high - x) < 0
-                   for x, i in zip(point, domain.intervals)): continue
+            if any(map(is_outside, domain.intervals, point)): continue
             at = {i.title: x for i, x in zip(domain.intervals, point)}
             found = judge(name, comparison, inequality(comparison, scope_at(domain, point)), at)
             if found.result == "refuted": return found
@@ -169,29 +164,24 @@ def gains_of(statement):
         indices = [c.split(",") for c in calls if " in " in c]
         members = statement.members(indices[-1]) if indices else [((), statement.scope)]
         for key, scope in members:
-            yield ("_".join(map(str, (name,) + key)), text, scope,
-                   arguments[0] if arguments else None)
-
+            yield "_".join(map(str, (name, *key))), text, scope, arguments[0] if arguments else None
 def compare_gains(statement):
     """|formula - printed| in units of the last place of the largest element of each gain. A gain
     that is a polynomial with d + 1 coefficients is compared at the points 0, ..., d. One that is
     given by its formula has no decimals."""
     for name, text, scope, argument in gains_of(statement):
         try:
-            function = statement.gain.get("gain_functions", {}).get(name, {})
-            parts = [statement.gain["gains"][name]] if name in statement.gain["gains"] else \
-                function.get("coefficients", [])
+            parts = statement.gain.get("gain_functions", {}).get(name, {}).get("coefficients", [])
+            if name in statement.gain["gains"]: parts = [statement.gain["gains"][name]]
             parts, worst = [matrix_of_json(x, name) for x in parts], Fraction(0)
             for t in map(Fraction, range(len(parts))):
                 value = matrix(parse(text), Scope(scope, {argument: number(t)}))
-                decimals = parts[0]
-                for k, part in list(enumerate(parts))[1:]: decimals += part * number(t ** k)
+                decimals = reduce(add, [part * number(t ** k) for k, part in enumerate(parts)])
                 worst = max(worst, distance(value, decimals))
                 if not argument: statement.scope.names.setdefault(name, value)
             if parts: yield Gain(name, worst, "")
         except NOT_EVALUATED as error:
             yield Gain(name, None, reason(error))
-
 def distance(value, decimals):
     """The largest difference of two matrices in units of the last place of the second."""
     if value.flexible: raise Unsupported("a gain without a size")
@@ -230,7 +220,6 @@ def values_with_gains(gain, found):
         if kind != "full": raise Unsupported("the printed gain " + k_name)
         return p * k if left else k * p
     return value
-
 def prove_yes(gain, claims=None):
     """(claims, gains, the gains at whose printed values all claims are proved again). The claims
     are appended to the given list, which so holds what was found when the time ran out."""

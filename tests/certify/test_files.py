@@ -1,7 +1,9 @@
 """Whole gain files: what is proved, what is not, and damaged files."""
 
+import hashlib
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -10,7 +12,8 @@ from fractions import Fraction
 
 import helper
 from helper import CERTIFY, gain, one_claim, path, problem, with_text
-from no import prove_no
+from no import prove_no, prove_optimum
+from statement import Damaged, read_gain_file
 from yes import prove_yes
 
 YES = ["lyapunov", "observer", "sampled", "equations", "modes", "polytope", "clock", "box",
@@ -79,7 +82,8 @@ class Yes(unittest.TestCase):
                 ("abs(x) < 1", "-1", "refuted"), ("max(x, 2*x) <= 2", "1", "proved"),
                 ("max(x, 2*x) < 2", "1", "refuted"), ("max(x, 0) <= [3; 0.5]", "1", "refuted"),
                 ("max([3; x]) <= [4; 1]", "0", "refuted"), ("max([3; x]) <= 3", "3", "proved"),
-                ("abs(x) <= [3; 0.5]", "1", "refuted"), ("abs(x) <= [3; 1]", "-1", "proved"), ("min(x, 2*x) >= 1", "1", "proved"),
+                ("abs(x) <= [3; 0.5]", "1", "refuted"), ("abs(x) <= [3; 1]", "-1", "proved"),
+                ("min(x, 2*x) >= 1", "1", "proved"),
                 ("min(x, 2*x) > 1", "1", "refuted"), ("[x; 2; -1] > 0", "1", "refuted"),
                 ("[x; 2; 1] > 0", "1", "proved"), ("[x, 2, -1] > 0", "1", "refuted"),
                 ("lambda_max([x, 1; 1, x]) <= 2", "1", "proved"),
@@ -291,25 +295,41 @@ class No(unittest.TestCase):
             found = results(problem(text % that, {"x": "0"}))
             self.assertEqual(set(found.values()), {expected}, that)
 
-    def test_factors(self):
-        """A certificate with factors of its multipliers, at points in full decimals."""
+    def test_multipliers_that_use_nothing(self):
         text = ("problem: p\nmethod:\n  unknowns: {x: scalar, y: scalar}\n"
                 "  require: {a: {forall: \"t in [0, 1]\", that: x >= 0*t}, b: -x >= 0, c: y > 0,"
                 " d: x > y}\n")
-        def result(**factors):
-            blocks = [{"requirement": k, "comparison": "1", "at": {"t": "0.5"} if k == "a" else {},
-                       "factor": [[str(v)]]} for k, v in factors.items()]
-            return prove_no(problem(text, {}), {"blocks": blocks}).result
+        def result(**multipliers):
+            named = {"a at t = 0.5" if k == "a" else k: helper.Numeral(v)
+                     for k, v in multipliers.items()}
+            return prove_no(problem(text, {}), {"multipliers": named}).result
         self.assertEqual(result(a=1, b=1, c=0), "open")     # c has no multiplier
         self.assertEqual(result(a=1, b=1), "open")          # nothing is strict
         self.assertEqual(result(b=1, c=1, d=1), "proved")
-        # A factor that is 0 except where z relaxes e. Feasible: x = 0, y = z = 1.
+        # A multiplier that is 0 except where z relaxes e. Feasible: x = 0, y = z = 1.
         text = ("problem: p\nmethod:\n  unknowns: {x: scalar, y: scalar, z: scalar}\n"
                 "  require: {a: \"[x, 0, 0; 0, 1, y; 0, y, 1] >= 0\", b: -x >= 0,"
                 " e: \"[y, 0; 0, z] > 0\"}\n")
-        blocks = [{"requirement": k, "factor": [[x] for x in factor]} for k, factor in (
-            ("a", ("1", "0", "0")), ("b", ("1",)), ("e", ("0", "1")))]
-        self.assertEqual(prove_no(problem(text, {}), {"blocks": blocks}).result, "open")
+        multipliers = {k: [[helper.Numeral(x if i == j == at else 0) for j in range(n)]
+                           for i in range(n)] for k, n, at, x in (("a", 3, 0, 1), ("b", 1, 0, 1),
+                                                                  ("e", 2, 1, 1))}
+        claim = prove_no(problem(text, {}), {"multipliers": multipliers})
+        self.assertEqual(claim.result, "open")
+
+    def test_points_in_all_decimals(self):
+        """An end that is no decimal is found by the decimals of a double; other points are not."""
+        text = ("problem: p\nmethod:\n  unknowns: {x: scalar}\n  require: {a: {forall:"
+                " \"t in [0, sqrt(2)]\", that: x >= t}, b: {forall: \"k in {1/3, 2/3}\","
+                " that: x <= k}}\n")
+        for t, k, expected in (("1.4142135623730951", "0.3333333333333333", "proved"),
+                               ("1.4142135623730951", "0.6666666666666666", "proved"),
+                               ("1.4142136", "0.3333333333333333", "open"),
+                               ("1.4142135623730951", "0.333333", "open"),
+                               ("0.5", "0.6666666666666666", "open"),
+                               ("0.5", "0.3333333333333333", "proved")):
+            certificate = {"multipliers": {"a at t = " + t: helper.Numeral("1"),
+                                           "b at k = " + k: helper.Numeral("1")}}
+            self.assertEqual(prove_no(problem(text, {}), certificate).result, expected, (t, k))
 
     def test_points_outside_of_their_interval_are_refused(self):
         text = ("problem: p\nmethod:\n  unknowns: {x: scalar}\n"
@@ -320,6 +340,169 @@ class No(unittest.TestCase):
                                            "b": helper.Numeral("1")}}
             found = problem(text.replace("[0, 1]", interval), {})
             self.assertEqual(prove_no(found, certificate).result, expected)
+
+class Bounds(unittest.TestCase):
+    def proved(self, require, objective, multipliers, stated):
+        """The bound that is proved, a fraction, or None."""
+        def numerals(x):
+            return [numerals(y) for y in x] if isinstance(x, list) else helper.Numeral(x)
+        found = problem("problem: p\nmethod:\n  unknowns: {x: scalar, y: scalar}\n  require: {%s}\n"
+                        "  minimize: %s\n" % (require, objective), {})
+        found["optimum"] = {label: numerals(value) for label, value in multipliers.items()}
+        found["objective_lower_bound"] = helper.Numeral(stated)
+        return self.bound(found)
+    def bound(self, found):
+        claim = prove_optimum(found)
+        self.assertIn(claim.result, ("proved", "open"))
+        return Fraction(claim.name.split()[-1]) if claim.result == "proved" else None
+
+    def test_bounds_of_small_problems(self):
+        matrix = 'a: "[x, 1; 1, y] >= 0"'
+        for require, objective, multipliers, stated in (
+                ("a: x >= 1", "x", {"a": "1"}, "1"),
+                ("a: x > 1", "x + 7", {"a": "1"}, "8"),
+                ("a: x >= 1", "4*x", {"a": "4"}, "4"),
+                ("a: x >= 1", "0.5*x", {"a": "0.5"}, "0.5"),
+                ("a: x >= 1", "0.3*x", {"a": "0.30000000000000004"}, "0.3"),
+                ("a: -5 <= x <= 1", "-x", {"a.2": "1"}, "-1"),
+                ("a: x >= 1", "x", {"a": "1", "bound 1": "1"}, "1"),
+                ("e: x == 2", "x", {"e": "1"}, "2"), ("e: x == 2", "-3*x", {"e": "-3"}, "-6"),
+                ("e: x == 2", "x", {"e": [["0", "0.5"], ["0.5", "0"]]}, "2"),
+                ("e: x - y == 2, a: y >= 3", "x", {"e": "1", "a": "1"}, "5"),
+                (matrix, "x + y", {"a": [["1", "-0.9999999"], ["-0.9999999", "1"]]}, "2"),
+                (matrix, "100*x + y", {"a": [["100", "-9.999999"], ["-9.999999", "1"]]}, "20"),
+                ('a: {forall: "t in [0, 1]", that: x >= t}', "x", {"a at t = 1": "1"}, "1")):
+            found = self.proved(require, objective, multipliers, stated)
+            self.assertIsNotNone(found, (require, objective, multipliers))
+            self.assertLessEqual(found, Fraction(stated))
+            self.assertGreaterEqual(found, Fraction(stated) - abs(Fraction(stated)) / 10 ** 6)
+
+    def test_bounds_that_are_wrong(self):
+        for require, objective, multipliers, stated in (
+                ("a: x >= 1", "x", {"a": "1"}, "1.00001"),
+                ("a: x >= 1", "x", {"a": "1.00001"}, "1.00001"),    # needs a correction
+                ("a: x >= 1", "x", {"a": "0.99999"}, "1.0001"),
+                ("a: x >= 1", "x", {"a": "1.5"}, "1.5"), ("a: x >= 1", "x", {"a": "5"}, "5"),
+                ("a: x >= 1", "0.5*x", {"a": "0.5"}, "1"), ("a: x >= 1", "x", {"a": "2"}, "2"),
+                ("a: x <= 5", "x", {"a": "-1"}, "5"), ("a: x < 5", "x", {"a": "-1"}, "5"),
+                ("a: x <= 5", "x", {"a": "1"}, "5"), ("a: x <= 5", "x", {"a": "1"}, "-5"),
+                ("a: x >= 1", "-x", {"a": "-1"}, "-1"), ("a: x >= 1", "x + y", {"a": "1"}, "1"),
+                ("a: x >= 1", "y", {"a": "0"}, "0"), ("a: x >= 1", "x*x", {"a": "1"}, "1"),
+                ("e: x == 2", "x", {"e": "1.5"}, "3"), ("e: x == 2", "x", {"e": "-1"}, "3"),
+                ("e: x == 2", "x", {"e": "2"}, "4"),
+                ("e: x == 2", "x", {"e": [["0", "1"], ["1", "0"]]}, "4"),
+                ("e: x - y == 2, a: y <= 3", "x", {"e": "1", "a": "-1"}, "5"),
+                ('a: "[x, 1; 1, y] >= 0"', "x + y", {"a": [["1", "-2"], ["-2", "1"]]}, "4"),
+                ('a: "[x, 1; 1, y] >= 0"', "x + y", {"a": [["1", "-1.1"], ["-1.1", "1"]]}, "2.2"),
+                ('a: {forall: "t in [0, 1]", that: x >= t}', "x", {"a at t = 2": "1"}, "2"),
+                ('a: {forall: "t in [0, 1]", that: x >= t}', "x", {"a": "1"}, "1")):
+            found = self.proved(require, objective, multipliers, stated)
+            self.assertIsNone(found, (require, objective, multipliers, stated))
+
+    def test_the_bound_of_a_file(self):
+        """Its optimum is 5.92: no multipliers and no stated bound prove more."""
+        found = gain("s-procedure")
+        bound = self.bound(found)
+        self.assertTrue(Fraction("5.91999") < bound <= Fraction("5.92"), bound)
+        random, count = helper.random.Random(5), 0
+        for k in range(60):
+            changed = gain("s-procedure")
+            matrix = changed["optimum"]["lagrangian"]
+            i, j = random.randrange(3), random.randrange(3)
+            size = Fraction(random.randint(-9, 9), 10 ** random.randint(1, 12))
+            value = helper.Numeral(helper.to_decimal(Fraction(matrix[i][j]) + size))
+            matrix[i][j] = matrix[j][i] = value
+            for stated in ("5.9", "5.91999", "5.92", "5.9200001", "5.93", "6.5"):
+                changed["objective_lower_bound"] = helper.Numeral(stated)
+                bound = self.bound(changed)
+                count += bound is not None
+                self.assertFalse(bound and bound > Fraction("5.92"), (stated, matrix))
+                self.assertFalse(bound and Fraction(stated) > Fraction("5.93"))
+        self.assertGreater(count, 60)
+
+class Hash(unittest.TestCase):
+    """docs/gain-file.md says which bytes the sha256 of `proof` is of."""
+    N = [["1.5", "-2"], ["3e-7", "40"]]
+    RESULTS = ("gains", "gain_functions", "unknowns", "parameters", "bases", "searched", "optimum",
+               "certificate", "search")
+    def file(self):
+        with open(path("lyapunov"), encoding="utf-8") as stream: found = json.load(stream)
+        multipliers = {"flow at t = 0.1": self.N, "e": "7"}
+        found.update({
+            "gains": {"K": self.N, "L": "12"}, "unknowns": {"P": self.N, "g": "0.25"},
+            "gain_functions": {"F": {"of": "t", "coefficients": [[["31"]], [["32", "33"]]]}},
+            "parameters": {"T": "0.7"}, "bases": {"B": [["0.6"], ["0.8"]]},
+            "searched": {"rho": "0.5"}, "optimum": {"a": self.N},
+            "certificate": {"multipliers": multipliers},
+            "search": {"certificate": {"multipliers": {"b at t = 0.25": self.N}}}})
+        parts = [found["statement"]["sha256"]]
+        rows = ["1.5", "-2", "3e-7", "40"]
+        for name, elements in (
+                ("gains.K", rows), ("gains.L", ["12"]),
+                ("gain_functions.F.coefficients[0]", ["31"]),
+                ("gain_functions.F.coefficients[1]", ["32", "33"]), ("unknowns.P", rows),
+                ("unknowns.g", ["0.25"]), ("parameters.T", ["0.7"]), ("bases.B", ["0.6", "0.8"]),
+                ("searched.rho", ["0.5"]), ("optimum.a", rows),
+                ("certificate.multipliers.flow at t = 0.1", rows),
+                ("certificate.multipliers.e", ["7"]),
+                ("search.certificate.multipliers.b at t = 0.25", rows)):
+            parts += [name] + elements
+        digest = hashlib.sha256(b"\0".join(x.encode() for x in parts)).hexdigest()
+        found["proof"] = {"version": "1", "sha256": digest}
+        return found
+    def places(self, x, at=()):
+        """The places of all numbers of the results."""
+        for k in x if isinstance(x, dict) else range(len(x)):
+            if isinstance(x[k], (dict, list)): yield from self.places(x[k], at + (k,))
+            elif k != "of": yield at + (k,)
+    def error(self, found):
+        """What read_gain_file says of the file, or None. Texts of results become numbers."""
+        results = {key: value for key, value in found.items() if key in self.RESULTS}
+        others = {key: value for key, value in found.items() if key not in self.RESULTS}
+        text = json.dumps(others)[:-1] + ", " + re.sub(r'"(-?[0-9.]+(e-?[0-9]+)?)"', r"\1",
+                                                       json.dumps(results)[1:])
+        with tempfile.TemporaryDirectory() as folder:
+            name = os.path.join(folder, "gains.json")
+            with open(name, "w", encoding="utf-8") as stream: stream.write(text)
+            try:
+                read_gain_file(name)
+            except Damaged as error:
+                return str(error)
+        return None
+
+    def test_a_changed_digit_is_named(self):
+        self.assertIsNone(self.error(self.file()))
+        places = list(self.places({key: self.file()[key] for key in self.RESULTS}))
+        self.assertEqual(len(places), 30)
+        for place in places:
+            found = self.file()
+            holder = found
+            for key in place[:-1]: holder = holder[key]
+            old = holder[place[-1]]
+            holder[place[-1]] = old[:-1] + str((int(old[-1]) + 1) % 10)
+            self.assertIn("they were edited", self.error(found) or "", place)
+        for key in ("unknowns", "optimum", "bases", "searched"):    # a name, or a part that is gone
+            found = self.file()
+            found[key] = {"other": value for value in found[key].values()}
+            self.assertIn("they were edited", self.error(found) or "", key)
+            self.assertIn("they were edited", self.error(dict(found, **{key: {}})) or "", key)
+        found = self.file()
+        del found["proof"]["sha256"]
+        self.assertIn("they were edited", self.error(found) or "")
+        del found["proof"]
+        self.assertIsNone(self.error(found))
+
+    def test_a_file_of_gainsmith(self):
+        with open(path("s-procedure"), encoding="utf-8") as stream: text = stream.read()
+        self.assertIn('"proof"', text)
+        with tempfile.TemporaryDirectory() as folder:
+            name = os.path.join(folder, "gains.json")
+            for old, new in (("0.35998017629176826", "0.35998017629176827"), ('"l": 3', '"l": 4'),
+                             ('"l": 2', '"l": 1')):
+                if old not in text: continue
+                with open(name, "w", encoding="utf-8") as stream:
+                    stream.write(text.replace(old, new, 1))
+                with self.assertRaisesRegex(Damaged, "they were edited"): read_gain_file(name)
 
 class Program(unittest.TestCase):
     def run_program(self, *arguments):
@@ -370,7 +553,8 @@ class Program(unittest.TestCase):
             code, out = self.run_program(*names, os.path.join(folder, "missing.json"))
             self.assertEqual(code, 2)
             lines = out.strip().split("\n")
-            self.assertEqual(len(lines), len(damaged) + 1)
+            self.assertEqual(len(lines), len(damaged) + 2)
+            self.assertEqual(lines.pop(), "%d files: %d not a gain file" % ((len(damaged) + 1,) * 2))
             for line in lines: self.assertTrue(line.startswith("not a gain file"), line)
 
     def test_time_limit(self):
