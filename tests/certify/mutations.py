@@ -179,13 +179,12 @@ FAULTS = [
 ]
 
 def caught(file, old, new):
-    """Whether the tests fail with the fault; None if the text is not there."""
+    """Whether the tests fail with the fault."""
     with tempfile.TemporaryDirectory() as folder:
         copy = os.path.join(folder, "certify")
         shutil.copytree(SOURCE, copy, ignore=shutil.ignore_patterns("__pycache__"))
         name = os.path.join(copy, file)
         with open(name, encoding="utf-8") as stream: text = stream.read()
-        if old not in text: return None
         with open(name, "w", encoding="utf-8") as stream: stream.write(text.replace(old, new, 1))
         environment = dict(os.environ, CERTIFY=copy, CERTIFY_DIGITS="12")
         try:
@@ -196,14 +195,20 @@ def caught(file, old, new):
         return done.returncode != 0
 
 def main():
+    """All faults, or so many of them as CERTIFY_FAULTS says; the texts of all must be there."""
     missed = 0
+    step = -(-len(FAULTS) // int(os.environ.get("CERTIFY_FAULTS", len(FAULTS))))
+    planted = FAULTS[::step]
     for what, file, old, new in FAULTS:
-        found = caught(file, old, new)
+        with open(os.path.join(SOURCE, file), encoding="utf-8") as stream:
+            there = old in stream.read()
+        if there and (what, file, old, new) not in planted: continue
+        found = caught(file, old, new) if there else None
         if not found:
             missed += 1
             print("%s: %s (%s)" % ("not there" if found is None else "NOT CAUGHT", what, file))
             sys.stdout.flush()
-    print("%d faults planted, %d not caught" % (len(FAULTS), missed))
+    print("%d faults planted, %d not caught" % (len(planted), missed))
     return 1 if missed else 0
 
 if __name__ == "__main__":
