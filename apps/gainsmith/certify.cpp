@@ -57,7 +57,7 @@ Command certify_command() {
   return {
       "certify",
       "Prove what gain files say by a second program, which shares no code with this one",
-      {Option("gains", options->files, "gain files (JSON)").required(),
+      {Option("gains", options->files, "gain files (JSON); - for standard input").required(),
        Option("--claims", options->claims, "a line for each claim"),
        Option("--json", options->json, "print the report as JSON"),
        Option("--time", options->seconds, "seconds of a file, after which it is open")

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
@@ -28,9 +29,19 @@ std::optional<int> run_program(std::vector<std::string> arguments,
   for (std::string& one : environment)
     if (std::getenv(one.substr(0, one.find('=')).c_str()) == nullptr) envp.push_back(one.data());
   envp.push_back(nullptr);
+  // The threads of this program block the signals that one of them waits for; Ctrl-C is to end the
+  // other program too.
+  sigset_t none;
+  ::sigemptyset(&none);
+  posix_spawnattr_t attributes;
+  ::posix_spawnattr_init(&attributes);
+  ::posix_spawnattr_setsigmask(&attributes, &none);
+  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
   pid_t child = 0;
-  if (::posix_spawnp(&child, argv.front(), nullptr, nullptr, argv.data(), envp.data()) != 0)
-    return std::nullopt;
+  const int failed =
+      ::posix_spawnp(&child, argv.front(), nullptr, &attributes, argv.data(), envp.data());
+  ::posix_spawnattr_destroy(&attributes);
+  if (failed != 0) return std::nullopt;
   int status = 0;
   while (::waitpid(child, &status, 0) < 0)
     if (errno != EINTR) return std::nullopt;

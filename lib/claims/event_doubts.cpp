@@ -217,7 +217,7 @@ bool EventDoubts::leads_exactly_to_zero(EventFunction& guard, Index e, const Twi
   try {
     return element(guard, maps_(own.jump->event, own.jump->lost, before + 64 * errors), e) == 0;
   } catch (const std::exception&) {
-    return true;
+    return false;
   }
 }
 
@@ -248,6 +248,18 @@ bool EventDoubts::becomes_due(std::size_t event, std::size_t jump) {
     return element(*crossing, before, 0) * element(*crossing, after, 0) < 0;
   auto& when = watch_.when[event];
   return when && !(*when)(before) && (*when)(after);
+}
+
+std::string EventDoubts::tie(std::size_t event, std::size_t jump) {
+  const std::string& name = system_->dynamics.events[event].name;
+  if (watch_.when[event] && leads_to_a_tie(*watch_.when[event], jump))
+    return "the condition of " + name + " to a tie";
+  if (watch_.only_if[event] && becomes_due(event, jump) &&
+      leads_to_a_tie(*watch_.only_if[event], jump))
+    return "the 'if' of " + name + ", which is due, to a tie";
+  if (watch_.crossing[event] && leads_to_zero(*watch_.crossing[event], jump))
+    return "that of which " + name + " is a crossing to 0";
+  return "";
 }
 
 /// Those that a flow changes, of a condition all its elements.
@@ -395,22 +407,10 @@ std::optional<std::string> EventDoubts::of_jump(std::size_t jump) {
   const std::size_t own = std::get<TwinJump>(twins_->parts[jump]).jump->event;
   if (events.size() < 2 && breaks_[own].empty()) return std::nullopt;
   for (std::size_t other = 0; other < events.size(); ++other)
-    if (watch_.when[other] && leads_to_a_tie(*watch_.when[other], jump))
-      return fmt::format(
-          "t = {}: the jump of {} leads the condition of {} to a tie, up to its error",
-          brief(std::get<TwinJump>(twins_->parts[jump]).jump->t, 12), events[own].name,
-          events[other].name);
-    else if (watch_.only_if[other] && becomes_due(other, jump) &&
-             leads_to_a_tie(*watch_.only_if[other], jump))
-      return fmt::format(
-          "t = {}: the jump of {} leads the 'if' of {} to a tie, up to its error, and {} is due",
-          brief(std::get<TwinJump>(twins_->parts[jump]).jump->t, 12), events[own].name,
-          events[other].name, events[other].name);
-    else if (watch_.crossing[other] && leads_to_zero(*watch_.crossing[other], jump))
-      return fmt::format(
-          "t = {}: the jump of {} leads that of which {} is a crossing to 0, up to its error",
-          brief(std::get<TwinJump>(twins_->parts[jump]).jump->t, 12), events[own].name,
-          events[other].name);
+    if (const std::string what = tie(other, jump); !what.empty())
+      return fmt::format("t = {}: the jump of {} leads {}, up to its error",
+                         brief(std::get<TwinJump>(twins_->parts[jump]).jump->t, 12),
+                         events[own].name, what);
   auto at = instant(jump);
   if (!at) return std::nullopt;
   if (is_on_step(*at))

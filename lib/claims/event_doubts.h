@@ -82,6 +82,8 @@ class EventDoubts {
   /// Whether a jump leads values to where the condition is another one within their error.
   bool leads_to_a_tie(hybrid::EventCondition& condition, std::size_t jump);
   bool becomes_due(std::size_t event, std::size_t jump);
+  /// What of an event a jump leads to where its error decides, in words; empty: nothing.
+  std::string tie(std::size_t event, std::size_t jump);
   std::optional<std::string> clocks_after(std::size_t jump, const Instant& at);
   bool fires(std::size_t event, const std::vector<Guard>& guards, const Instant& at,
              const Eigen::VectorXd& values);

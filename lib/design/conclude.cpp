@@ -1,6 +1,7 @@
 // What the attempts of a synthesis mean together.
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "base/number.h"
 #include "base/scalars.h"
@@ -78,21 +79,23 @@ void mark_free_gains(const Attempt& tighter, const lmi::Lmi& lmi, model::Gains& 
   }
 }
 
-/// What follows `before`, up to the next comma, in other digits.
-std::string with_value(const std::string& text, const std::string& before,
-                       const std::string& value) {
-  const std::size_t at = text.find(before);
-  if (at == std::string::npos || (at > 0 && text[at - 1] != ' ')) return text;
-  const std::size_t end = std::min(text.find(',', at), text.size());
-  return text.substr(0, at + before.size()) + value + text.substr(end);
-}
-
-/// With the point in all its decimals.
+/// "flow at i = 1, tau = 0.7683593750000002": with the numbers of its point in all decimals.
 std::string name_of(const lmi::Block& block) {
-  std::string at = block.point;
-  for (const auto& [variable, value] : block.where ? block.where->values : numbers::Values())
-    if (value.size() == 1) at = with_value(at, variable + " = ", model::printed(value(0, 0)));
-  return block.name + (at.empty() ? "" : " at " + at);
+  std::string name = block.name;
+  std::string_view rest = block.point;
+  for (const char* mark = " at "; !rest.empty(); mark = ", ") {
+    const std::string_view part = rest.substr(0, rest.find(", "));
+    rest.remove_prefix(std::min(part.size() + 2, rest.size()));
+    const std::string variable(part.substr(0, part.find(" = ")));
+    const numbers::Matrix* value = nullptr;
+    if (block.where)
+      if (const auto found = block.where->values.find(variable);
+          found != block.where->values.end() && found->second.size() == 1)
+        value = &found->second;
+    name += mark;
+    name += value ? variable + " = " + model::printed((*value)(0, 0)) : std::string(part);
+  }
+  return name;
 }
 
 /// Those of the bounds on gains come last.

@@ -44,9 +44,10 @@ class IntegratedFlow : public Flow {
       values.col(k) = y_;
     }
     // Of a short step what changes is small beside the values, and so is then its rounding.
-    integrator_.within(step.from, y_);
-    numbers::Matrix series = ode::chebyshev::coefficients(values.colwise() - y_);
-    series.col(0) += y_;
+    const Eigen::VectorXd start = values.col(0);
+    values.colwise() -= start;
+    numbers::Matrix series = ode::chebyshev::coefficients(values);
+    series.col(0) += start;
     return field_->step(step.from, step.to, series);
   }
 

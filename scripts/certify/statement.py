@@ -32,8 +32,10 @@ def expect(condition, what):
 def read_gain_file(path):
     """The JSON object, with numbers as Numeral; its form is checked as far as it is used."""
     try:
-        if os.path.getsize(path) > LARGEST_FILE: raise Damaged("more than %d bytes" % LARGEST_FILE)
-        with open(path, encoding="utf-8") as stream:
+        source = 0 if path == "-" else path         # standard input
+        if os.path.getsize(source) > LARGEST_FILE:
+            raise Damaged("more than %d bytes" % LARGEST_FILE)
+        with open(source, encoding="utf-8") as stream:
             gain = json.load(stream, parse_float=Numeral, parse_int=Numeral,
                              parse_constant=decimal, object_pairs_hook=unique_keys)
     except (OSError, ValueError, RecursionError, Unsupported) as error:

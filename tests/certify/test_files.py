@@ -505,8 +505,9 @@ class Hash(unittest.TestCase):
                 with self.assertRaisesRegex(Damaged, "they were edited"): read_gain_file(name)
 
 class Program(unittest.TestCase):
-    def run_program(self, *arguments):
-        done = subprocess.run([sys.executable, CERTIFY, *arguments], capture_output=True, text=True)
+    def run_program(self, *arguments, stdin=None):
+        done = subprocess.run([sys.executable, CERTIFY, *arguments], capture_output=True, text=True,
+                              stdin=stdin)
         self.assertEqual(done.stderr, "")
         return done.returncode, done.stdout
 
@@ -514,6 +515,8 @@ class Program(unittest.TestCase):
         code, out = self.run_program(path("lyapunov"))
         self.assertEqual(code, 0)
         self.assertRegex(out, r"^proved .*2 claims \(2 in fractions\)")
+        with open(path("lyapunov"), encoding="utf-8") as stream:
+            self.assertEqual(self.run_program("-", stdin=stream)[0], 0)
         code, out = self.run_program(path("regulator"))
         self.assertEqual(code, 0)
         self.assertIn("nothing to prove", out)

@@ -125,7 +125,7 @@ TEST(EventDoubts, AJumpToATieOfAnIfIsUncertain) {
   };
   const auto doubt = with("p + p + 0.3");
   ASSERT_TRUE(doubt);
-  EXPECT_NE(doubt->find("'if' of second to a tie"), std::string::npos) << *doubt;
+  EXPECT_NE(doubt->find("'if' of second, which is due, to a tie"), std::string::npos) << *doubt;
   EXPECT_FALSE(with("0.9"));
   EXPECT_FALSE(with("p + 0.7"));
   EXPECT_FALSE(with("p - 0.2"));
