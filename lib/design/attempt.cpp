@@ -177,18 +177,6 @@ void refute(const Posed& posed, const Solve& solve, Interior& interior, Interior
     const bool better = !result.refutation || found.exact ||
                         found.backward_error < result.refutation->backward_error;
     if (better) result.refutation = found;
-    if (result.refuted() && !result.refutation->exact && k == 0)
-      if (const auto few = lmi::rows_of_multipliers(solved.formulation, solved.solution);
-          !few.empty()) {
-        // On the coordinates that they live on certificates are exact, as a rule.
-        Interior::Solved inner = interior({}, few);
-        const verdict::Refutation exact =
-            find_exact_certificate(posed, inner.formulation, inner.solution);
-        if (exact.exact) {
-          result.refutation = exact;
-          solved = std::move(inner);
-        }
-      }
     if (result.refuted()) {
       result.formulation = std::move(solved.formulation);
       result.solution = std::move(solved.solution);

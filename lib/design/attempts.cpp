@@ -88,7 +88,9 @@ struct Attempts {
     return digits_are_due(climb) && !is_large(climb);
   }
   static bool faces_are_due(const Climb& climb) {
-    return climb.posed_.lmi.represents_points() && nothing_holds_at_all(climb) &&
+    const Attempt* refuted = climb.refutation();
+    const bool inexact = refuted != nullptr && !refuted->refutation->exact && climb.posed_.wide;
+    return climb.posed_.lmi.represents_points() && (nothing_holds_at_all(climb) || inexact) &&
            climb.find(AttemptKind::on_equations) == nullptr && !climb.waits_for_points();
   }
   static bool equations_are_due(const Climb& climb) {
@@ -306,9 +308,13 @@ const Attempt* Climb::point() const {
 }
 
 const Attempt* Climb::refutation() const {
-  for (const auto& [kind, attempt] : tried_)
-    if (attempt.refuted()) return &attempt;
-  return nullptr;
+  const Attempt* first = nullptr;
+  for (const auto& [kind, attempt] : tried_) {
+    if (!attempt.refuted()) continue;
+    if (attempt.refutation->exact) return &attempt;
+    if (first == nullptr) first = &attempt;
+  }
+  return first;
 }
 
 const Attempt& Climb::last() const {

@@ -1,5 +1,7 @@
 #include "design/certificates.h"
 
+#include <functional>
+#include <initializer_list>
 #include <limits>
 #include <utility>
 
@@ -31,6 +33,13 @@ class Certificates {
       found =
           verdict::refute<Decimal100>(posed_.inequalities, posed_.lmi, formulation_, Y, exactness);
     return found;
+  }
+
+  verdict::Refutation by_eigenvalue() const {
+    auto found = verdict::algebraic_certificate(posed_.inequalities, posed_.lmi);
+    if (!found) return {};
+    return {true, 0, kWideDigits,
+            std::make_shared<const verdict::AlgebraicCertificate>(*std::move(found))};
   }
 
   verdict::Refutation on_boundary(const sdp::Solution& solution) const {
@@ -105,26 +114,28 @@ verdict::Refutation find_certificate(const Posed& posed, const Effort& effort,
   // With more of a margin than this no certificate is near.
   constexpr double kNear = 1e-6;
   const Certificates certificates(posed, effort, formulation);
-  const bool near = lmi::interior_margin(solution) <= kNear;
+  verdict::Refutation first;  // that excludes but is not exact
+  const auto decides = [&](const verdict::Refutation& found) {
+    if (excludes(found) && !excludes(first)) first = found;
+    return found.exact;
+  };
   verdict::Refutation found = certificates.exact(solution, verdict::Exactness::in_double);
   if (found.exact) return found;
-  if (posed.wide && near) {
-    if (const auto boundary = certificates.on_boundary(solution); excludes(boundary))
-      return boundary;
-    if (const auto violated = certificates.by_violation(solve); excludes(violated)) return violated;
-    if (const auto inside = certificates.inside(solution); excludes(inside)) return inside;
-    if (const auto violated = certificates.by_violation_in_scale(solve); excludes(violated))
-      return violated;
-  }
+  const bool near = lmi::interior_margin(solution) <= kNear;
+  if (posed.wide && near)
+    for (const auto& make : std::initializer_list<std::function<verdict::Refutation()>>{
+             [&] { return certificates.by_eigenvalue(); },
+             [&] { return certificates.on_boundary(solution); },
+             [&] { return certificates.by_violation(solve); },
+             [&] { return certificates.inside(solution); },
+             [&] { return certificates.by_violation_in_scale(solve); }})
+      if (const auto made = make(); decides(made)) return made;
   found = certificates.exact(solution, verdict::Exactness::in_wide);
-  if (found.exact || !posed.wide || !near) return found;
+  if (found.exact) return found;
+  if (excludes(first)) return first;
+  if (!posed.wide || !near) return found;
   if (const auto refined = certificates.refined(solution); excludes(refined)) return refined;
   return certificates.in_double() ? found : certificates.in_100_digits(solution);
-}
-
-verdict::Refutation find_exact_certificate(const Posed& posed, const lmi::Formulation& formulation,
-                                           const sdp::Solution& solution) {
-  return Certificates(posed, {}, formulation).exact(solution, verdict::Exactness::in_double);
 }
 
 }  // namespace gainsmith::design

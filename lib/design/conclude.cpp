@@ -277,6 +277,28 @@ void accept_point(const Climb& climb, const Attempt& point, model::Gains& gains)
     mark_free_gains(*tighter, lmi, gains);
 }
 
+model::EigenvalueRecord record_of(const verdict::AlgebraicCertificate& certificate,
+                                  const lmi::Lmi& lmi) {
+  model::EigenvalueRecord record{certificate.matrix,
+                                 nearest_double(certificate.root.re),
+                                 nearest_double(certificate.root.im),
+                                 {},
+                                 {},
+                                 {}};
+  for (const Rational& c : certificate.p) record.polynomial.push_back(c.str());
+  for (const verdict::AlgebraicMultiplier& multiplier : certificate.multipliers) {
+    const std::string name = name_of(lmi.blocks[multiplier.block]);
+    const auto& [block, Z, W] = multiplier;
+    auto& rows = record.vectors.emplace_back(name, std::vector<std::vector<std::string>>()).second;
+    for (Eigen::Index i = 0; i < Z.rows(); ++i) {
+      auto& row = rows.emplace_back();
+      for (Eigen::Index j = 0; j < Z.cols(); ++j) row.push_back(Z(i, j).str());
+    }
+    record.weights.emplace_back(name, std::vector{W(0, 0).str(), W(0, 1).str(), W(1, 1).str()});
+  }
+  return record;
+}
+
 void accept_refutation(const Climb& climb, const Attempt& refuted, model::Gains& gains) {
   gains.verdict = model::Verdict::no;
   if (!refuted.chain.empty()) {
@@ -288,9 +310,17 @@ void accept_refutation(const Climb& climb, const Attempt& refuted, model::Gains&
     gains.solver.add_message(refuted.chain);
     return;
   }
-  gains.certificate =
-      model::CertificateRecord{refuted.refutation->exact, refuted.refutation->backward_error,
-                               refuted.refutation->digits, named_multipliers(climb, refuted)};
+  const verdict::Refutation& found = *refuted.refutation;
+  gains.certificate = model::CertificateRecord{found.exact, found.backward_error, found.digits, {}};
+  if (!found.algebraic) {
+    gains.certificate->multipliers = named_multipliers(climb, refuted);
+    return;
+  }
+  const lmi::Lmi& lmi = climb.posed().lmi;
+  gains.certificate->eigenvalue = record_of(*found.algebraic, lmi);
+  for (const verdict::AlgebraicMultiplier& multiplier : found.algebraic->multipliers)
+    gains.certificate->multipliers.emplace_back(
+        name_of(lmi.blocks[multiplier.block]), verdict::rounded(multiplier, found.algebraic->root));
 }
 
 /// What is known where neither a point nor a certificate decides.

@@ -61,7 +61,15 @@ constexpr std::array kKeysOfCertificate = {
     Key{"about", "text"},
     Key{"backward_error", "number", "", kRequired},
     Key{"digits", "whole", "", kRequired},
-    Key{"multipliers", "{rows}", "", kRequired}};
+    Key{"multipliers", "{rows}", "", kRequired},
+    Key{"eigenvalue", "eigenvalue", "that the no hangs on"}};
+
+constexpr std::array kKeysOfEigenvalue = {
+    Key{"of", "text", "the matrix", kRequired},
+    Key{"near", "[number, number]", "its real and imaginary part", kRequired},
+    Key{"polynomial", "[text]", "of which it is a root: fractions, the constant first", kRequired},
+    Key{"vectors", "{[[text]]}", "Z of each inequality", kRequired},
+    Key{"weights", "{[text]}", "of 1, l + m and l m", kRequired}};
 
 constexpr std::array kKeysOfRefinement = {
     Key{"before", "number", "", kRequired}, Key{"after", "number | nothing", "", kRequired},
@@ -113,6 +121,7 @@ const Level kGainFunctionLevel = {"gain function", "A gain that is a function",
 const Level kMarginLevel = {"margin", "How well an inequality holds", kKeysOfMargin};
 const Level kBoundLevel = {"bound", "A bound on a gain", kKeysOfBound};
 const Level kCertificateLevel = {"certificate", "The certificate of a no", kKeysOfCertificate};
+const Level kEigenvalueLevel = {"eigenvalue", "Multipliers at an eigenvalue", kKeysOfEigenvalue};
 const Level kRefinementLevel = {"refinement", "Scalars and unknowns moved together",
                                 kKeysOfRefinement};
 const Level kSearchLevel = {"search", "How a search ended", kKeysOfSearch};
@@ -127,7 +136,7 @@ std::span<const Level* const> gain_file_levels() {
   static constexpr std::array kLevels = {&kDocumentLevel, &kGainFunctionLevel, &kMarginLevel,
                                          &kBoundLevel,    &kCertificateLevel,  &kRefinementLevel,
                                          &kSearchLevel,   &kSolverLevel,       &kStatementLevel,
-                                         &kProofLevel,    &kFileLevel};
+                                         &kProofLevel,    &kFileLevel,         &kEigenvalueLevel};
   return kLevels;
 }
 

@@ -88,14 +88,28 @@ Json gain_function_json(const model::Gains& gains, const model::GainFunction& ga
   return result;
 }
 
+Json eigenvalue_json(const model::EigenvalueRecord& eigenvalue) {
+  Json vectors = Json::object(), weights = Json::object();
+  for (const auto& [name, Z] : eigenvalue.vectors) vectors[name] = Z;
+  for (const auto& [name, c] : eigenvalue.weights) weights[name] = c;
+  return {{"of", eigenvalue.of},
+          {"near", {eigenvalue.re, eigenvalue.im}},
+          {"polynomial", eigenvalue.polynomial},
+          {"vectors", std::move(vectors)},
+          {"weights", std::move(weights)}};
+}
+
 Json certificate_json(const model::Gains& gains, const std::string& key,
                       const model::CertificateRecord& certificate) {
-  return {{"exact", certificate.exact},
-          {"shows", model::shown_by(certificate)},
-          {"about", certificate.about},
-          {"backward_error", certificate.backward_error},
-          {"digits", certificate.digits},
-          {"multipliers", matrices_json(gains, key + ".multipliers", certificate.multipliers)}};
+  Json result = {
+      {"exact", certificate.exact},
+      {"shows", model::shown_by(certificate)},
+      {"about", certificate.about},
+      {"backward_error", certificate.backward_error},
+      {"digits", certificate.digits},
+      {"multipliers", matrices_json(gains, key + ".multipliers", certificate.multipliers)}};
+  if (certificate.eigenvalue) result["eigenvalue"] = eigenvalue_json(*certificate.eigenvalue);
+  return result;
 }
 
 Json search_json(const model::Gains& gains, const model::SearchRecord& search) {
@@ -213,11 +227,33 @@ model::Margin margin_of(const JsonReader& reader) {
           reader.at("holds").truth()};
 }
 
+model::EigenvalueRecord eigenvalue_of(const JsonReader& reader) {
+  const auto fractions = [](const JsonReader& list) {
+    model::EigenvalueRecord::Fractions texts;
+    for (const JsonReader& item : list.items()) texts.push_back(item.text());
+    return texts;
+  };
+  const numbers::Matrix near = reader.at("near").matrix();
+  if (near.size() != 2) reader.at("near").fail("expected two numbers");
+  model::EigenvalueRecord result{
+      reader.at("of").text(), near(0), near(1), fractions(reader.at("polynomial")), {}, {}};
+  for (const auto& [name, Z] : reader.at("vectors").members()) {
+    auto& rows = result.vectors.emplace_back(name, std::vector<std::vector<std::string>>()).second;
+    for (const JsonReader& row : Z.items()) rows.push_back(fractions(row));
+  }
+  for (const auto& [name, weight] : reader.at("weights").members())
+    result.weights.emplace_back(name, fractions(weight));
+  return result;
+}
+
 model::CertificateRecord certificate_of(const JsonReader& reader, model::Gains& gains) {
   if (reader.has("shows")) (void)reader.at("shows").text();  // follows from the others
-  return {reader.at("exact").truth(), reader.at("backward_error").number(),
-          reader.at("digits").whole(), matrices_of(reader.at("multipliers"), gains),
-          reader.has("about") ? reader.at("about").text() : "problem"};
+  model::CertificateRecord result{reader.at("exact").truth(), reader.at("backward_error").number(),
+                                  reader.at("digits").whole(),
+                                  matrices_of(reader.at("multipliers"), gains),
+                                  reader.has("about") ? reader.at("about").text() : "problem"};
+  if (reader.has("eigenvalue")) result.eigenvalue = eigenvalue_of(reader.at("eigenvalue"));
+  return result;
 }
 
 model::SearchRecord search_of(const JsonReader& reader, model::Gains& gains) {

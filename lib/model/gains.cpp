@@ -37,6 +37,12 @@ std::string shown_by(const CertificateRecord& certificate) {
          " of the coefficients";
 }
 
+std::string to_string(const EigenvalueRecord& eigenvalue) {
+  std::string text = "the eigenvalue " + brief(eigenvalue.re);
+  if (eigenvalue.im != 0) text += " + " + brief(std::abs(eigenvalue.im)) + "i";
+  return text + " of " + eigenvalue.of;
+}
+
 std::string limits_of(const CertificateRecord& certificate) {
   if (certificate.is_about_problem()) return "";
   return certificate.about == "hull" ? " for the hull only" : " for the vertex test only";
@@ -102,9 +108,22 @@ std::string results_hash(const Gains& gains) {
   for (const auto& [name, value] : gains.searched)
     add("searched." + name, Matrix::Constant(1, 1, value));
   add_all("optimum", gains.optimum_multipliers);
-  if (gains.certificate) add_all("certificate.multipliers", gains.certificate->multipliers);
+  const auto add_certificate = [&](const CertificateRecord& certificate, const std::string& key) {
+    add_all(key + ".multipliers", certificate.multipliers);
+    if (!certificate.eigenvalue) return;
+    const auto add_fractions = [&](const EigenvalueRecord::Fractions& fractions) {
+      for (const std::string& fraction : fractions) (text += '\0') += fraction;
+    };
+    add_fractions(certificate.eigenvalue->polynomial);
+    for (const auto& [name, rows] : certificate.eigenvalue->vectors) {
+      (text += '\0') += name;
+      for (const EigenvalueRecord::Fractions& row : rows) add_fractions(row);
+    }
+    for (const auto& [name, weight] : certificate.eigenvalue->weights) add_fractions(weight);
+  };
+  if (gains.certificate) add_certificate(*gains.certificate, "certificate");
   if (gains.search && gains.search->certificate)
-    add_all("search.certificate.multipliers", gains.search->certificate->multipliers);
+    add_certificate(*gains.search->certificate, "search.certificate");
   return sha256(text);
 }
 

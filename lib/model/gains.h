@@ -45,6 +45,18 @@ struct GainBound {
   bool is_balanced = false;  ///< the default, in balanced units; otherwise in those of the file
 };
 
+/// Multipliers c z z* at an eigenvalue of a matrix, in fractions
+/// (verdict/algebraic_multipliers.h).
+struct EigenvalueRecord {
+  using Fractions = std::vector<std::string>;
+  std::string of;  ///< "A"
+  double re = 0, im = 0;
+  Fractions polynomial;
+  /// By inequality and point: the rows of Z, and the coefficients of 1, l + m and l m in c.
+  std::vector<std::pair<std::string, std::vector<Fractions>>> vectors;
+  std::vector<std::pair<std::string, Fractions>> weights;
+};
+
 /// The certificate of a no, as it was checked on the decimals of the file (verdict/refutation.h),
 /// or of what is only sufficient for the inequalities.
 struct CertificateRecord {
@@ -58,6 +70,7 @@ struct CertificateRecord {
   /// What it is about: the "problem", or a condition that is only sufficient for its inequalities:
   /// their "hull", or the test at the "vertices" (docs/gain-file.md).
   std::string about = "problem";
+  std::optional<EigenvalueRecord> eigenvalue{};  ///< of an exact one that hangs on it
 
   bool is_about_problem() const { return about == "problem"; }
 };
@@ -65,6 +78,9 @@ struct CertificateRecord {
 /// What it shows: "no solution exists"; of one that is not exact, "no solution survives a relative
 /// change of 1.2e-94 of the coefficients".
 std::string shown_by(const CertificateRecord& certificate);
+
+/// "the eigenvalue 0.1 + 2i of A".
+std::string to_string(const EigenvalueRecord& eigenvalue);
 
 /// What is added to "infeasible": "", " for the hull only", " for the vertex test only".
 std::string limits_of(const CertificateRecord& certificate);

@@ -129,7 +129,6 @@ namespace enclosed {
 template <class S>
 bool scales_exactly(const S& x) {
   int exponent = 0;
-  if constexpr (std::is_same_v<S, Decimal100>) return abs(x) == S(1);
   const auto rounded = static_cast<double>(x);
   return std::abs(std::frexp(rounded, &exponent)) == 0.5 && x == S(rounded);
 }
@@ -221,9 +220,19 @@ void multiply(const Enclosed<S>& x, const Enclosed<S>& y, Enclosed<S>& out) {
   };
   const bool may_underflow =
       least(room.left, x.rad) * least(room.right, y.rad) < kLeastNormal / unit_roundoff<S>();
+  // What has only products that are 0 by themselves stays so.
+  const auto has_product = [&](Eigen::Index i, Eigen::Index j) {
+    for (Eigen::Index l = 0; l < inner; ++l)
+      if (!x.ball(i, l).is_zero() && !y.ball(l, j).is_zero()) return true;
+    return false;
+  };
   const double slack = up(1, 2 * k + 8);
-  for (double& r : out.rad.reshaped())
-    r = bound_or_nothing(r * slack + (may_underflow || r != 0 ? (k + 1) * kTiny : 0));
+  for (Eigen::Index j = 0; j < cols; ++j)
+    for (Eigen::Index i = 0; i < rows; ++i) {
+      double& r = out.rad(i, j);
+      const bool tiny = r != 0 || (may_underflow && has_product(i, j));
+      r = bound_or_nothing(r * slack + (tiny ? (k + 1) * kTiny : 0));
+    }
 }
 
 template <class S>

@@ -111,6 +111,24 @@ Echelon reduced_echelon(RationalMatrix M) {
   return result;
 }
 
+RationalMatrix rational_kernel(const RationalMatrix& M) {
+  const Echelon echelon = reduced_echelon(M);
+  const auto rank = static_cast<Eigen::Index>(echelon.pivots.size());
+  RationalMatrix result = RationalMatrix::Constant(M.cols(), M.cols() - rank, Rational(0));
+  Eigen::Index column = 0, row = 0;
+  for (Eigen::Index j = 0; j < M.cols(); ++j) {
+    if (row < rank && echelon.pivots[static_cast<std::size_t>(row)] == j) {
+      ++row;
+      continue;
+    }
+    result(j, column) = 1;
+    for (Eigen::Index r = 0; r < row; ++r)
+      result(echelon.pivots[static_cast<std::size_t>(r)], column) = -echelon.rows(r, j);
+    ++column;
+  }
+  return result;
+}
+
 std::optional<RationalMatrix> rational_solution(const RationalMatrix& M, const RationalMatrix& B) {
   RationalMatrix whole(M.rows(), M.cols() + B.cols());
   whole << M, B;

@@ -21,6 +21,9 @@ struct Echelon {
 };
 Echelon reduced_echelon(RationalMatrix M);
 
+/// Columns that are a basis of {x : M x = 0}: each has a 1 where the others have 0.
+RationalMatrix rational_kernel(const RationalMatrix& M);
+
 /// Whether the columns of M are independent, told by their images in the numbers modulo a prime:
 /// true is certain, and false means that they may be dependent.
 bool are_surely_independent(const RationalMatrix& M);

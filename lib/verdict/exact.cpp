@@ -85,17 +85,39 @@ EnclosedValues<S> ExactBlocks<S>::values_at(const lmi::Block& block) const {
 }
 
 template <class S>
-std::vector<std::pair<int, ExactElements<S>>> ExactBlocks<S>::terms(
-    const expr::Program& program, const EnclosedValues<S>& values) const {
+std::vector<std::pair<int, ExactElements<S>>> ExactBlocks<S>::terms(const expr::Program& program,
+                                                                    const EnclosedValues<S>& values,
+                                                                    const Form& form) const {
   std::vector<ExactForm<S>> inputs;
   for (const expr::Input& input : program.inputs) {
     const lmi::Unknown* unknown = of_.unknowns.find(input.name);
-    inputs.push_back(unknown != nullptr ? exact_unknown<S>(*unknown)
+    inputs.push_back(unknown != nullptr ? form(*unknown)
                                         : exact_constant<S>(values.at(input.name)));
   }
   expr::Evaluator<ExactAlgebra<S>> evaluator(program);
   for (std::size_t k = 0; k < inputs.size(); ++k) evaluator.fix(program.inputs[k].name, inputs[k]);
   return terms_of(evaluator.run());
+}
+
+/// With the unknown matrices in the direction times one scalar, x_1.
+template <class S>
+bool ExactBlocks<S>::vanishes(const lmi::Block& block, const std::vector<int>& kept,
+                              const std::vector<double>& d) const {
+  const auto form = [&](const lmi::Unknown& unknown) {
+    numbers::MatrixOf<S> value = numbers::MatrixOf<S>::Zero(unknown.shape.rows, unknown.shape.cols);
+    for (int k = 0; k < unknown.count; ++k)
+      for (const auto& [row, column] : unknown.places(k))
+        value(row, column) = S(d[static_cast<std::size_t>(unknown.first + k) - 1]);
+    auto terms = terms_of(exact_constant(numbers::exactly<S>(std::move(value))));
+    for (auto& [i, elements] : terms) i = 1;
+    return ExactForm<S>{unknown.shape, false, {}, std::move(terms)};
+  };
+  const auto is_kept = [&](int row) { return std::ranges::find(kept, row) != kept.end(); };
+  for (const auto& [i, elements] : terms(
+           of_.statements[block.inequality].differences[block.comparison], values_at(block), form))
+    for (const ExactElement<S>& e : elements)
+      if (i == 1 && is_kept(e.row) && is_kept(e.column)) return false;
+  return true;
 }
 
 template <class S>

@@ -3,6 +3,7 @@
 // printed of it, so that a kink at 0.3 is met.
 #pragma once
 
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -36,12 +37,17 @@ class ExactBlocks {
 
   /// The rows `kept` of a block; `at` is its place in the balance.
   ExactBlock<S> block(const lmi::Block& block, std::size_t at, const std::vector<int>& kept) const;
+  /// Whether the same rows of sum_i d_i B_i are 0 without rounding; d_1 is first.
+  bool vanishes(const lmi::Block& block, const std::vector<int>& kept,
+                const std::vector<double>& d) const;
   /// c_0 ... c_m of the objective, which there is.
   std::vector<numbers::Ball<S>> objective() const;
 
  private:
-  std::vector<std::pair<int, ExactElements<S>>> terms(
-      const expr::Program& program, const numbers::EnclosedValues<S>& values) const;
+  using Form = std::function<ExactForm<S>(const lmi::Unknown&)>;
+  std::vector<std::pair<int, ExactElements<S>>> terms(const expr::Program& program,
+                                                      const numbers::EnclosedValues<S>& values,
+                                                      const Form& form = exact_unknown<S>) const;
   numbers::EnclosedValues<S> values_at(const lmi::Block& block) const;
 
   const lmi::Inequalities& of_;

@@ -3,7 +3,8 @@
 // Y_k = L_k L_k' > 0 with residuals r_i = sum_k <B_ki, Y_k>. With g_i the elements of all L_k' B_ki
 // L_k (and of v for i = 0), H_ij = g_i' g_j. When r' H^-1 r < 1 the correction
 //   dY_k = -sum_j (H^-1 r)_j Y_k B_kj Y_k
-// is smaller than Y_k, so that Y + dY is a certificate without any residual.
+// is smaller than Y_k, so that Y + dY is a certificate without any residual. L_k may have fewer
+// columns than rows: whatever it is, it defines Y_k.
 #pragma once
 
 #include <optional>

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "verdict/boundary_pair.h"
+#include "verdict/implied_equations.h"
 #include "verdict/refined_multipliers.h"
 #include "verdict/wide_algebra.h"
 
@@ -189,7 +190,8 @@ Refutation refute_refined(const lmi::Inequalities& of, const lmi::Lmi& lmi,
   constexpr double kRanges[] = {1e-4, 1e-7, 1e-2, 1e-10};
   Refutation best;
   if (!lmi.represents_points()) return best;
-  const auto blocks = exact_blocks<Decimal100>(of, lmi, formulation);
+  auto blocks = exact_blocks<Decimal100>(of, lmi, formulation);
+  drop_implied(of, lmi, formulation, blocks);
   double whole = 0;
   for (const auto& y : Y) whole += trace_of(y);
   const auto excludes = [&](const Kept& kept) {

@@ -10,6 +10,7 @@
 #include "base/stop.h"
 #include "numbers/dense.h"
 #include "verdict/exactness.h"
+#include "verdict/implied_equations.h"
 #include "verdict/wide_algebra.h"
 
 namespace gainsmith::verdict {
@@ -155,42 +156,51 @@ std::vector<MatrixOf<S>> converted(const Multipliers& Y) {
   return result;
 }
 
+/// L with Y = L L' but for what is left after pivots above a small share of the largest one.
+numbers::Matrix factor_of(numbers::Matrix Y, double small) {
+  const Eigen::Index n = Y.rows();
+  numbers::Matrix L(n, n);
+  Eigen::Index rank = 0, best = 0;
+  const double least = small * Y.diagonal().maxCoeff();
+  while (rank < n && Y.diagonal().maxCoeff(&best) > least) {
+    L.col(rank) = Y.col(best) / std::sqrt(Y(best, best));
+    Y -= L.col(rank) * L.col(rank).transpose();
+    ++rank;
+  }
+  return L.leftCols(rank);
+}
+
 /// Whether a certificate without any residual is near the multipliers (exactness.h).
 template <class S>
 bool is_exact(const std::vector<Weighed<S>>& blocks, const Sums<S>& sums, Eigen::Index m,
               Exactness exactness) {
-  constexpr double kSingular = 1e-9;  // of the pivots: double is not enough
+  constexpr double kSmall =
+      1e-13;  // of the largest pivot: what is rounding of multipliers in double
   bool constant = false;
   std::vector<FactoredBlock<S>> factored;
   for (const Weighed<S>& one : blocks) {
     for (const auto& term : one.block->terms) constant |= term.first == 0;
-    const numbers::Cholesky factor(one.Y->unaryExpr([](const S& y) { return as<double>(y); }));
-    if (!factor) continue;
-    numbers::Matrix L = factor.lower();
-    if (L.diagonal().minCoeff() >= std::sqrt(kSingular) * L.diagonal().maxCoeff())
-      factored.push_back({one.block, std::move(L)});
+    factored.push_back(
+        {one.block, factor_of(one.Y->unaryExpr([](const S& y) { return as<double>(y); }), kSmall)});
   }
   const double v = as<double>(S(-sums.r[0]));
   if (sums.whole == 0 || (constant && !(v > sums.error[0])) ||
       !(sums.strict > 0 || v > sums.error[0]))
     return false;
-  if (factored.size() == blocks.size()) {
-    // Those of the products of the factors, which are other multipliers by their rounding.
-    Sums<S> of_factors(m);
-    for (std::size_t k = 0; k < blocks.size(); ++k) {
-      const MatrixOf<S> L = factored[k].L.template cast<S>();
-      spend(std::pow(static_cast<double>(L.rows()), 3) * work_of<S>());
-      add_block(*blocks[k].block, numbers::times<S>(L, L.transpose()), blocks[k].strict,
-                of_factors);
-    }
-    const double value = as<double>(S(-of_factors.r[0]));
-    const bool counts = !constant || value > of_factors.error[0];
-    const ResidualsInDouble residuals{
-        of_factors.r.unaryExpr([](const S& r) { return as<double>(r) * (1 + 1e-15); }),
-        of_factors.error};
-    if (counts && of_factors.is_in_range() && is_exact_in_double(factored, residuals, constant))
-      return true;
+  // Those of the products of the factors, which are other multipliers.
+  Sums<S> of_factors(m);
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    const MatrixOf<S> L = factored[k].L.template cast<S>();
+    spend(std::pow(static_cast<double>(L.rows()), 3) * work_of<S>());
+    add_block(*blocks[k].block, numbers::times<S>(L, L.transpose()), blocks[k].strict, of_factors);
   }
+  const double value = as<double>(S(-of_factors.r[0]));
+  const bool counts = constant ? value > of_factors.error[0] : of_factors.strict > 0;
+  const ResidualsInDouble residuals{
+      of_factors.r.unaryExpr([](const S& r) { return as<double>(r) * (1 + 1e-15); }),
+      of_factors.error};
+  if (counts && of_factors.is_in_range() && is_exact_in_double(factored, residuals, constant))
+    return true;
   if (exactness == Exactness::in_double) return false;
   std::vector<WeighedBlock<S>> weighed;
   for (const Weighed<S>& one : blocks) {
@@ -284,7 +294,9 @@ template <class S>
 Refutation refute(const lmi::Inequalities& of, const lmi::Lmi& lmi,
                   const lmi::Formulation& formulation, const Multipliers& Y, Exactness exactness) {
   if (!lmi.represents_points()) return {};
-  return refute<S>(lmi, exact_blocks<S>(of, lmi, formulation), converted<S>(Y), exactness);
+  auto blocks = exact_blocks<S>(of, lmi, formulation);
+  drop_implied(of, lmi, formulation, blocks);
+  return refute<S>(lmi, blocks, converted<S>(Y), exactness);
 }
 
 template std::vector<ExactBlock<Decimal100>> exact_blocks<Decimal100>(const lmi::Inequalities&,

@@ -15,19 +15,22 @@
 //           is none.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "lmi/compile.h"
 #include "lmi/formulation.h"
+#include "verdict/algebraic_multipliers.h"
 #include "verdict/exact.h"
 #include "verdict/solved_multipliers.h"
 
 namespace gainsmith::verdict {
 
 struct Refutation {
-  bool exact = false;  ///< no solution, shown
+  bool exact = false;         ///< no solution, shown
   double backward_error = 1;  ///< rounded upward
-  int digits = 0;      ///< of the arithmetic that found it
+  int digits = 0;             ///< of the arithmetic that found it
+  std::shared_ptr<const AlgebraicCertificate> algebraic = nullptr;  ///< in fractions
 };
 
 /// In which arithmetic an exact certificate is searched for beside the multipliers.

@@ -80,12 +80,18 @@ def check_results(gain):
         groups["gain_functions." + name] = {"coefficients[%d]" % k: x for k, x in
                                             enumerate(entry.get("coefficients", []))}
     for key in ("unknowns", "parameters", "bases", "searched", "optimum"): groups[key] = gain[key]
-    for key, part in (("", gain), ("search.", gain["search"])):
-        groups[key + "certificate.multipliers"] = part.get("certificate", {}).get("multipliers", {})
     parts = [gain["statement"]["sha256"]]
-    for key, matrices in groups.items():
+    def add(key, matrices):
         for name, x in matrices.items():
-            parts += ["%s.%s" % (key, name)] + [str(y) for row in listed(x) for y in listed(row)]
+            parts.extend([key + name] + [str(y) for row in listed(x) for y in listed(row)])
+    for key, matrices in groups.items(): add(key + ".", matrices)
+    for key, part in (("", gain), ("search.", gain["search"])):
+        certificate = part.get("certificate", {})
+        add(key + "certificate.multipliers.", certificate.get("multipliers", {}))
+        eigenvalue = certificate.get("eigenvalue", {})
+        parts.extend(map(str, eigenvalue.get("polynomial", [])))
+        add("", eigenvalue.get("vectors", {}))
+        parts.extend(str(y) for x in eigenvalue.get("weights", {}).values() for y in listed(x))
     expect(isinstance(gain["proof"], dict), "proof: an object")
     expect_sha256(gain["proof"].get("sha256"), parts, "results with their sha256: they "
                   "were edited (without the key proof the file is taken as it is)")
@@ -418,8 +424,9 @@ def checked(values, name, rows, cols, kind="full"):
     raise Unsupported("%s, which is not %s" % (name, kind))
 
 class Symbols:
-    """unknown_value with a new scalar x_i for each free element."""
-    def __init__(self): self.new = (Affine({i: Fraction(1)}) for i in count(1))
+    """unknown_value with a new scalar x_i for each free element: x_i, or by `moved` x_i + f x_j."""
+    def __init__(self, moved=()):
+        self.new = (Affine({i: Fraction(1), **dict(moved).get(i, {})}) for i in count(1))
     def __call__(self, name, rows, cols, kind):
         result = zeros(rows, cols)
         for i, j in product(range(rows), range(cols)):

@@ -260,6 +260,18 @@ class No(unittest.TestCase):
             claim = prove_no(found, found["certificate"])
             self.assertEqual(claim.result, "open", (name, change))
 
+    def test_unknowns_with_one_effect(self):
+        """x and y enter as x + 3*y alone, before the root of 2: two equations that are one."""
+        text = ("problem: p\nmethod:\n  unknowns: {x: scalar, y: scalar, z: scalar}\n  require:\n"
+                "    a: \"(x + 3*y + 0*z)*sqrt(2) >= sqrt(3)\"\n"
+                "    b: \"-(%s)*sqrt(2) >= 0\"\n    c: z >= 1\n")
+        certificate = {"multipliers": {"a": helper.Numeral("1"), "b": helper.Numeral("1"),
+                                       "c": helper.Numeral("0")}}
+        for that, expected in (("x + 3*y", "proved"), ("x + 3.0000001*y", "open"),
+                               ("x + 2*y", "open"), ("x + 3*y - z", "open")):
+            claim = prove_no(problem(text % that, {}), certificate)
+            self.assertEqual(claim.result, expected, (that, claim.how))
+
     def test_constant_parts_count(self):
         text = ("problem: p\nmethod:\n  unknowns: {x: scalar}\n"
                 "  require: {a: x >= %s, b: x <= %s}\n")

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <random>
+#include <set>
 #include <string>
 
 #include "base/eigen_scalars.h"
@@ -13,6 +14,7 @@
 #include "support/linear_algebra.h"
 #include "support/yaml_problem.h"
 #include "verdict/boundary_pair.h"
+#include "verdict/implied_equations.h"
 #include "verdict/plants.h"
 #include "verdict/refined_refutation.h"
 #include "verdict/refutation.h"
@@ -194,6 +196,43 @@ TEST(Certificates, EndWithTheirAllowance) {
   const PosedInDouble posed(lyapunov(with_abscissa(random_matrix(8, 8, generator), 0.1)));
   const Allowance allowance(1e-4);
   EXPECT_THROW(static_cast<void>(posed.on_boundary()), OutOfAllowance);
+}
+
+/// Gains that add the same to every inequality: their equations depend on each other, and what
+/// meets expm() is 0 before.
+TEST(ImpliedEquations, OfWhatCancelsAreDropped) {
+  const PosedInDouble posed(
+      "  data: {A: 2 x 2, C: 1 x 2, T: scalar}\n  unknowns: {Q: symmetric 2, Y: 2 x 1, Z: 2 x 1}\n "
+      " require: "
+      "{size: \"I <= Q <= 10*I\", contraction: \"[0.01*Q, ((Q - Y*C - 2*Z*C)*expm(A*T))'; *, Q] > "
+      "0\"}\ndata: "
+      "{A: [[0.1, 1], [-1, 0.3]], C: [1, 0], T: 0.3}\n");
+  auto blocks = exact_blocks<Decimal100>(posed.of, posed.lmi, posed.formulation);
+  drop_implied(posed.of, posed.lmi, posed.formulation, blocks);
+  std::set<int> used;
+  for (const auto& block : blocks)
+    for (const auto& [i, elements] : block.terms) used.insert(i);
+  // Q has the scalars 1 to 3; of Y and Z one is left of each pair.
+  EXPECT_EQ(used.size(), 1U + 3 + 2);
+  const auto solution = sdp::solve(posed.formulation.problem);
+  const auto Y = multipliers_of(posed.formulation, posed.lmi.blocks.size(), solution);
+  EXPECT_TRUE(refute<DoubleDouble>(posed.of, posed.lmi, posed.formulation, Y).exact);
+}
+
+/// The same gains beside two matrices that differ in their last decimal imply nothing.
+TEST(ImpliedEquations, OfWhatNearlyCancelsStay) {
+  const PosedInDouble posed(
+      "  data: {A: 2 x 2, C: 1 x 2, D: 1 x 2}\n  unknowns: {Q: symmetric 2, Y: 2 x 1, Z: 2 x 1}\n  "
+      "require: "
+      "{size: \"I <= Q <= 10*I\", contraction: \"[0.01*Q, ((Q - Y*C - Z*D)*expm(A))'; *, Q] > "
+      "0\"}\ndata: "
+      "{A: [[0.1, 1], [-1, 0.3]], C: [1, 0], D: [1, 1e-30]}\n");
+  auto blocks = exact_blocks<Decimal100>(posed.of, posed.lmi, posed.formulation);
+  drop_implied(posed.of, posed.lmi, posed.formulation, blocks);
+  std::set<int> used;
+  for (const auto& block : blocks)
+    for (const auto& [i, elements] : block.terms) used.insert(i);
+  EXPECT_EQ(used.size(), 1U + 3 + 4);
 }
 
 }  // namespace

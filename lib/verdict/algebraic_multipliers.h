@@ -1,0 +1,45 @@
+// A no on the boundary of the cone, by an eigenvalue on the wrong side.
+//
+// Feasibility may hang on an eigenvalue, as with an unstable A and P > 0, He(P*A) < 0. Then every
+// certificate is singular, and no digits of it are a proof. With A w = l w, m the conjugate of l,
+//   w*(-He(P*A))w + (l + m) w*P w = 0   for every P:
+// w w* and (l + m) w w* are multipliers of both inequalities if l + m >= 0. In general
+//   Y_k = c_k z_k z_k*,   c_k = e*W_k e, z_k = Z_k e,   e = (1, l, ..., l^(d-1))', p(l) = 0
+// with rational W_k, Z_k and p of degree d. A matrix X stands for e*X e in the ring
+// Q[l, m]/(p(l), p(m)), and for 0 only if X = 0; l e = C e with the companion matrix C of p, so
+// that times l is X C and times m is C'X. All equations are checked in this ring, in fractions.
+// What remains are signs at one root.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lmi/compile.h"
+#include "lmi/inequalities.h"
+#include "verdict/algebraic_root.h"
+
+namespace gainsmith::verdict {
+
+struct AlgebraicMultiplier {
+  std::size_t block = 0;
+  numerics::RationalMatrix Z;  ///< n_k x d
+  numerics::RationalMatrix W;  ///< 2 x 2: of 1, l + m and l m
+};
+
+/// Its real part in double, n_k x n_k: B_ki are real.
+numbers::Matrix rounded(const AlgebraicMultiplier& multiplier, const Root& root);
+
+struct AlgebraicCertificate {
+  std::string matrix;  ///< whose eigenvalue it is: "A", "A'", "a matrix of decrease"
+  Polynomial p;
+  Root root;
+  std::vector<AlgebraicMultiplier> multipliers;
+};
+
+/// One that excludes every solution; the eigenvalues of all constant matrices of the inequalities
+/// are tried. None where no eigenvalue decides.
+std::optional<AlgebraicCertificate> algebraic_certificate(const lmi::Inequalities& of,
+                                                          const lmi::Lmi& lmi);
+
+}  // namespace gainsmith::verdict

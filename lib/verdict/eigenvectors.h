@@ -1,0 +1,33 @@
+// Eigenvectors of the constant matrices of inequalities, as polynomials in the eigenvalue.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lmi/inequalities.h"
+#include "verdict/algebraic_root.h"
+
+namespace gainsmith::verdict {
+
+struct NamedMatrix {
+  std::string name;  ///< "A", "A'", "a matrix of decrease"
+  numerics::RationalMatrix value;
+};
+
+/// The constant matrices and scalars that the inequalities are made of, each once.
+std::vector<NamedMatrix> constant_matrices(const lmi::Inequalities& of);
+
+/// w = V e is an eigenvector of A at each root l of p, e = (1, l, ..., l^(d-1))'.
+struct Eigenvector {
+  Polynomial p;
+  numerics::RationalMatrix V;  ///< n x d, independent columns
+};
+
+/// For vectors b: with the p of least degree such that p(A) b = 0, (l - A) w(l) = p(l) b for
+/// w(l) = (p(l) - p(A))/(l - A) b. The b are the unit vectors and bases of what each of `others`
+/// with fitting columns, or its transpose, does not observe; p are factors that a limit may hang
+/// on.
+std::vector<Eigenvector> eigenvectors_of(const numerics::RationalMatrix& A,
+                                         const std::vector<NamedMatrix>& others);
+
+}  // namespace gainsmith::verdict
