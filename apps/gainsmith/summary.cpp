@@ -119,9 +119,9 @@ std::string certificate_text(const model::Gains& gains) {
   const std::string of = c.is_about_problem() ? "the decimals of the file"
                          : c.about == "hull"  ? "the hull"
                                               : "the vertex test";
-  if (c.eigenvalue)
+  if (c.algebraic)
     return fmt::format("certificate {}, exact in fractions of {}:\n            {}\n",
-                       to_string(*c.eigenvalue), of, model::shown_by(c));
+                       to_string(*c.algebraic), of, model::shown_by(c));
   if (c.exact && c.multipliers.empty())
     return fmt::format("certificate exact steps on {}, as above: {}\n", of, model::shown_by(c));
   if (c.exact)

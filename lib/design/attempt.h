@@ -71,8 +71,8 @@ struct Attempt {
   bool out_of_allowance = false;
   /// Made by facial reduction (facial_reduction.h): the solution says nothing of margins there.
   bool on_face = false;
-  /// Of a facial reduction that excludes every solution: the exact steps, as text, and
-  /// the multipliers of the blocks where one step was enough.
+  /// Of a facial reduction that excludes every solution: the exact steps, as text. Where
+  /// one step was enough, the refutation has its multipliers.
   std::string chain;
   /// Of those that lead to a face, but to no point on it: what is known.
   std::string left_open;
@@ -81,7 +81,6 @@ struct Attempt {
   /// On a face: no solution has an objective below it, and what the solver found.
   std::optional<double> least, reached;
   bool unbounded = false;  ///< on a face the solver finds no least objective
-  std::vector<numbers::Matrix> multipliers;
   /// Of a point that was found without the gain bounds of the problem: its largest gain.
   double largest_gain = 0;
   double reached_gain = 0;  ///< the same as the bound measures it (lmi::GainBounds)

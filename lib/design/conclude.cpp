@@ -277,50 +277,53 @@ void accept_point(const Climb& climb, const Attempt& point, model::Gains& gains)
     mark_free_gains(*tighter, lmi, gains);
 }
 
-model::EigenvalueRecord record_of(const verdict::AlgebraicCertificate& certificate,
-                                  const lmi::Lmi& lmi) {
-  model::EigenvalueRecord record{certificate.matrix,
-                                 nearest_double(certificate.root.re),
-                                 nearest_double(certificate.root.im),
-                                 {},
-                                 {},
-                                 {}};
+model::AlgebraicRecord record_of(const verdict::AlgebraicCertificate& certificate,
+                                 const lmi::Lmi& lmi) {
+  model::AlgebraicRecord record{certificate.matrix,
+                                nearest_double(certificate.root.re),
+                                nearest_double(certificate.root.im),
+                                {},
+                                {}};
   for (const Rational& c : certificate.p) record.polynomial.push_back(c.str());
-  for (const verdict::AlgebraicMultiplier& multiplier : certificate.multipliers) {
-    const std::string name = name_of(lmi.blocks[multiplier.block]);
-    const auto& [block, Z, W] = multiplier;
-    auto& rows = record.vectors.emplace_back(name, std::vector<std::vector<std::string>>()).second;
-    for (Eigen::Index i = 0; i < Z.rows(); ++i) {
-      auto& row = rows.emplace_back();
-      for (Eigen::Index j = 0; j < Z.cols(); ++j) row.push_back(Z(i, j).str());
+  for (const auto& [block, Z, W] : certificate.multipliers) {
+    model::AlgebraicRecord::Term term{
+        name_of(lmi.blocks[block]), {}, {W(0, 0).str(), W(0, 1).str(), W(1, 1).str()}};
+    for (const auto& row : Z.rowwise()) {
+      auto& texts = term.vector.emplace_back();
+      for (const Rational& x : row) texts.push_back(x.str());
     }
-    record.weights.emplace_back(name, std::vector{W(0, 0).str(), W(0, 1).str(), W(1, 1).str()});
+    record.terms.push_back(std::move(term));
   }
   return record;
 }
 
+/// Their sums by blocks, in double.
+model::NamedMatrices rounded_multipliers(const verdict::AlgebraicCertificate& certificate,
+                                         const lmi::Lmi& lmi) {
+  model::NamedMatrices result;
+  for (const verdict::AlgebraicMultiplier& multiplier : certificate.multipliers) {
+    const std::string name = name_of(lmi.blocks[multiplier.block]);
+    const numbers::Matrix Y = verdict::rounded(multiplier, certificate.root);
+    if (!result.empty() && result.back().first == name)
+      result.back().second += Y;
+    else
+      result.emplace_back(name, Y);
+  }
+  return result;
+}
+
 void accept_refutation(const Climb& climb, const Attempt& refuted, model::Gains& gains) {
-  gains.verdict = model::Verdict::no;
-  if (!refuted.chain.empty()) {
-    model::NamedMatrices multipliers;
-    for (std::size_t k = 0; k < refuted.multipliers.size(); ++k)
-      multipliers.emplace_back(name_of(climb.posed().lmi.blocks[k]), refuted.multipliers[k]);
-    gains.certificate = model::CertificateRecord{true, 0, refuted.refutation->digits,
-                                                 std::move(multipliers), "problem"};
-    gains.solver.add_message(refuted.chain);
-    return;
-  }
   const verdict::Refutation& found = *refuted.refutation;
-  gains.certificate = model::CertificateRecord{found.exact, found.backward_error, found.digits, {}};
-  if (!found.algebraic) {
-    gains.certificate->multipliers = named_multipliers(climb, refuted);
-    return;
-  }
   const lmi::Lmi& lmi = climb.posed().lmi;
-  gains.certificate->eigenvalue = record_of(*found.algebraic, lmi);
-  for (const verdict::AlgebraicMultiplier& multiplier : found.algebraic->multipliers)
-    gains.certificate->multipliers.emplace_back(
-        name_of(lmi.blocks[multiplier.block]), verdict::rounded(multiplier, found.algebraic->root));
+  gains.verdict = model::Verdict::no;
+  gains.certificate = model::CertificateRecord{found.exact, found.backward_error, found.digits, {}};
+  if (!refuted.chain.empty()) gains.solver.add_message(refuted.chain);
+  if (found.algebraic) {
+    gains.certificate->algebraic = record_of(*found.algebraic, lmi);
+    gains.certificate->multipliers = rounded_multipliers(*found.algebraic, lmi);
+  } else if (refuted.chain.empty()) {
+    gains.certificate->multipliers = named_multipliers(climb, refuted);
+  }
 }
 
 /// What is known where neither a point nor a certificate decides.

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include "base/rational.h"
 #include "design/gain_values.h"
 #include "design/minimum.h"
 #include "numbers/dense.h"
+#include "numbers/rational_algebra.h"
+#include "verdict/algebraic_multipliers.h"
 #include "verdict/face_multipliers.h"
 #include "verdict/faces.h"
 #include "verdict/printable.h"
@@ -129,7 +132,7 @@ class FacialReduction {
   Attempt finished() {
     if (excludes()) {
       result_.point = false;
-      result_.refutation = verdict::Refutation{true, 0, kWideDigits};
+      result_.refutation = verdict::Refutation{true, 0, kWideDigits, kept_};
       result_.chain = faces_.why();
     }
     result_.on_face = true;
@@ -462,23 +465,23 @@ class FacialReduction {
     faces_.restrict_to(exact.faces);
   }
 
-  /// Those of the blocks themselves, in the units of the data.
+  /// Those of the blocks themselves, which are V S V'.
   void keep_multipliers(const verdict::ExactMultipliers& exact) {
-    for (const RationalBlock& block : stated_)
-      result_.multipliers.push_back(numbers::Matrix::Zero(block.size, block.size));
-    for (std::size_t k = 0; k < exact.faces.size(); ++k) {
-      const verdict::FaceOfBlock& face = exact.faces[k];
-      const numbers::RationalMatrix half = face.V.lazyProduct(exact.S[k]);
-      const numbers::RationalMatrix Y = half.lazyProduct(face.V.transpose());
-      result_.multipliers[face.block] =
-          Y.unaryExpr([](const Rational& y) { return nearest_double(y); });
-    }
+    auto kept = std::make_shared<verdict::AlgebraicCertificate>();
+    kept->p = {0, 1};
+    kept->root = verdict::roots(kept->p).front();
+    for (std::size_t k = 0; k < exact.faces.size(); ++k)
+      for (auto& [weight, column] : numbers::rational_squares(exact.S[k]))
+        kept->multipliers.push_back(
+            {exact.faces[k].block, exact.faces[k].V.lazyProduct(column), verdict::weight(weight)});
+    kept_ = std::move(kept);
   }
 
   const Posed& posed_;
   const Solve& solve_;
   std::vector<RationalBlock> stated_;
   Faces faces_;
+  std::shared_ptr<const verdict::AlgebraicCertificate> kept_;
   Attempt result_;
   sdp::Solution solved_;         ///< the first round of what was left last
   lmi::Formulation posed_left_;  ///< and its program

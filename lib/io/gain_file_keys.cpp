@@ -62,14 +62,18 @@ constexpr std::array kKeysOfCertificate = {
     Key{"backward_error", "number", "", kRequired},
     Key{"digits", "whole", "", kRequired},
     Key{"multipliers", "{rows}", "", kRequired},
-    Key{"eigenvalue", "eigenvalue", "that the no hangs on"}};
+    Key{"algebraic", "algebraic", "exact multipliers, at an eigenvalue or rational ones"}};
 
-constexpr std::array kKeysOfEigenvalue = {
-    Key{"of", "text", "the matrix", kRequired},
-    Key{"near", "[number, number]", "its real and imaginary part", kRequired},
-    Key{"polynomial", "[text]", "of which it is a root: fractions, the constant first", kRequired},
-    Key{"vectors", "{[[text]]}", "Z of each inequality", kRequired},
-    Key{"weights", "{[text]}", "of 1, l + m and l m", kRequired}};
+constexpr std::array kKeysOfAlgebraic = {
+    Key{"of", "text", "the matrix whose eigenvalue l is"},
+    Key{"near", "[number, number]", "the real and imaginary part of l", kRequired},
+    Key{"polynomial", "[text]", "of which l is a root: fractions, the constant first", kRequired},
+    Key{"terms", "[algebraic term]", "c z z*", kRequired}};
+
+constexpr std::array kKeysOfTerm = {
+    Key{"block", "text", "inequality and point", kRequired},
+    Key{"vector", "[[text]]", "Z, z = Z (1, l, ...)'", kRequired},
+    Key{"weight", "[text]", "of 1, l + m and l m in c, m the conjugate of l", kRequired}};
 
 constexpr std::array kKeysOfRefinement = {
     Key{"before", "number", "", kRequired}, Key{"after", "number | nothing", "", kRequired},
@@ -121,7 +125,8 @@ const Level kGainFunctionLevel = {"gain function", "A gain that is a function",
 const Level kMarginLevel = {"margin", "How well an inequality holds", kKeysOfMargin};
 const Level kBoundLevel = {"bound", "A bound on a gain", kKeysOfBound};
 const Level kCertificateLevel = {"certificate", "The certificate of a no", kKeysOfCertificate};
-const Level kEigenvalueLevel = {"eigenvalue", "Multipliers at an eigenvalue", kKeysOfEigenvalue};
+const Level kAlgebraicLevel = {"algebraic", "Multipliers in fractions", kKeysOfAlgebraic};
+const Level kTermLevel = {"algebraic term", "A part of a multiplier", kKeysOfTerm};
 const Level kRefinementLevel = {"refinement", "Scalars and unknowns moved together",
                                 kKeysOfRefinement};
 const Level kSearchLevel = {"search", "How a search ended", kKeysOfSearch};
@@ -133,10 +138,10 @@ const Level kFileLevel = {"file", "A file that was read", kKeysOfFile};
 }  // namespace
 
 std::span<const Level* const> gain_file_levels() {
-  static constexpr std::array kLevels = {&kDocumentLevel, &kGainFunctionLevel, &kMarginLevel,
-                                         &kBoundLevel,    &kCertificateLevel,  &kRefinementLevel,
-                                         &kSearchLevel,   &kSolverLevel,       &kStatementLevel,
-                                         &kProofLevel,    &kFileLevel,         &kEigenvalueLevel};
+  static constexpr std::array kLevels = {
+      &kDocumentLevel,   &kGainFunctionLevel, &kMarginLevel, &kBoundLevel,     &kCertificateLevel,
+      &kRefinementLevel, &kSearchLevel,       &kSolverLevel, &kStatementLevel, &kProofLevel,
+      &kFileLevel,       &kAlgebraicLevel,    &kTermLevel};
   return kLevels;
 }
 

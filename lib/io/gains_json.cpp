@@ -88,15 +88,15 @@ Json gain_function_json(const model::Gains& gains, const model::GainFunction& ga
   return result;
 }
 
-Json eigenvalue_json(const model::EigenvalueRecord& eigenvalue) {
-  Json vectors = Json::object(), weights = Json::object();
-  for (const auto& [name, Z] : eigenvalue.vectors) vectors[name] = Z;
-  for (const auto& [name, c] : eigenvalue.weights) weights[name] = c;
-  return {{"of", eigenvalue.of},
-          {"near", {eigenvalue.re, eigenvalue.im}},
-          {"polynomial", eigenvalue.polynomial},
-          {"vectors", std::move(vectors)},
-          {"weights", std::move(weights)}};
+Json algebraic_json(const model::AlgebraicRecord& algebraic) {
+  Json terms = Json::array();
+  for (const auto& [block, vector, weight] : algebraic.terms)
+    terms.push_back({{"block", block}, {"vector", vector}, {"weight", weight}});
+  Json result = {{"near", {algebraic.re, algebraic.im}},
+                 {"polynomial", algebraic.polynomial},
+                 {"terms", std::move(terms)}};
+  if (!algebraic.of.empty()) result["of"] = algebraic.of;
+  return result;
 }
 
 Json certificate_json(const model::Gains& gains, const std::string& key,
@@ -108,7 +108,7 @@ Json certificate_json(const model::Gains& gains, const std::string& key,
       {"backward_error", certificate.backward_error},
       {"digits", certificate.digits},
       {"multipliers", matrices_json(gains, key + ".multipliers", certificate.multipliers)}};
-  if (certificate.eigenvalue) result["eigenvalue"] = eigenvalue_json(*certificate.eigenvalue);
+  if (certificate.algebraic) result["algebraic"] = algebraic_json(*certificate.algebraic);
   return result;
 }
 
@@ -227,22 +227,25 @@ model::Margin margin_of(const JsonReader& reader) {
           reader.at("holds").truth()};
 }
 
-model::EigenvalueRecord eigenvalue_of(const JsonReader& reader) {
+model::AlgebraicRecord algebraic_of(const JsonReader& reader) {
   const auto fractions = [](const JsonReader& list) {
-    model::EigenvalueRecord::Fractions texts;
+    model::AlgebraicRecord::Fractions texts;
     for (const JsonReader& item : list.items()) texts.push_back(item.text());
     return texts;
   };
-  const numbers::Matrix near = reader.at("near").matrix();
+  const std::vector<JsonReader> near = reader.at("near").items();
   if (near.size() != 2) reader.at("near").fail("expected two numbers");
-  model::EigenvalueRecord result{
-      reader.at("of").text(), near(0), near(1), fractions(reader.at("polynomial")), {}, {}};
-  for (const auto& [name, Z] : reader.at("vectors").members()) {
-    auto& rows = result.vectors.emplace_back(name, std::vector<std::vector<std::string>>()).second;
-    for (const JsonReader& row : Z.items()) rows.push_back(fractions(row));
+  model::AlgebraicRecord result{reader.has("of") ? reader.at("of").text() : "",
+                                near[0].number(),
+                                near[1].number(),
+                                fractions(reader.at("polynomial")),
+                                {}};
+  for (const JsonReader& term : reader.at("terms").items()) {
+    std::vector<model::AlgebraicRecord::Fractions> rows;
+    for (const JsonReader& row : term.at("vector").items()) rows.push_back(fractions(row));
+    result.terms.push_back(
+        {term.at("block").text(), std::move(rows), fractions(term.at("weight"))});
   }
-  for (const auto& [name, weight] : reader.at("weights").members())
-    result.weights.emplace_back(name, fractions(weight));
   return result;
 }
 
@@ -252,7 +255,7 @@ model::CertificateRecord certificate_of(const JsonReader& reader, model::Gains& 
                                   reader.at("digits").whole(),
                                   matrices_of(reader.at("multipliers"), gains),
                                   reader.has("about") ? reader.at("about").text() : "problem"};
-  if (reader.has("eigenvalue")) result.eigenvalue = eigenvalue_of(reader.at("eigenvalue"));
+  if (reader.has("algebraic")) result.algebraic = algebraic_of(reader.at("algebraic"));
   return result;
 }
 

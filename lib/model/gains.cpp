@@ -37,10 +37,11 @@ std::string shown_by(const CertificateRecord& certificate) {
          " of the coefficients";
 }
 
-std::string to_string(const EigenvalueRecord& eigenvalue) {
-  std::string text = "the eigenvalue " + brief(eigenvalue.re);
-  if (eigenvalue.im != 0) text += " + " + brief(std::abs(eigenvalue.im)) + "i";
-  return text + " of " + eigenvalue.of;
+std::string to_string(const AlgebraicRecord& algebraic) {
+  if (algebraic.of.empty()) return "rational multipliers";
+  std::string text = "multipliers at the eigenvalue " + brief(algebraic.re);
+  if (algebraic.im != 0) text += " + " + brief(std::abs(algebraic.im)) + "i";
+  return text + " of " + algebraic.of;
 }
 
 std::string limits_of(const CertificateRecord& certificate) {
@@ -110,16 +111,16 @@ std::string results_hash(const Gains& gains) {
   add_all("optimum", gains.optimum_multipliers);
   const auto add_certificate = [&](const CertificateRecord& certificate, const std::string& key) {
     add_all(key + ".multipliers", certificate.multipliers);
-    if (!certificate.eigenvalue) return;
-    const auto add_fractions = [&](const EigenvalueRecord::Fractions& fractions) {
+    if (!certificate.algebraic) return;
+    const auto add_fractions = [&](const AlgebraicRecord::Fractions& fractions) {
       for (const std::string& fraction : fractions) (text += '\0') += fraction;
     };
-    add_fractions(certificate.eigenvalue->polynomial);
-    for (const auto& [name, rows] : certificate.eigenvalue->vectors) {
-      (text += '\0') += name;
-      for (const EigenvalueRecord::Fractions& row : rows) add_fractions(row);
+    add_fractions(certificate.algebraic->polynomial);
+    for (const auto& [block, rows, weight] : certificate.algebraic->terms) {
+      (text += '\0') += block;
+      for (const AlgebraicRecord::Fractions& row : rows) add_fractions(row);
+      add_fractions(weight);
     }
-    for (const auto& [name, weight] : certificate.eigenvalue->weights) add_fractions(weight);
   };
   if (gains.certificate) add_certificate(*gains.certificate, "certificate");
   if (gains.search && gains.search->certificate)

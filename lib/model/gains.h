@@ -45,16 +45,19 @@ struct GainBound {
   bool is_balanced = false;  ///< the default, in balanced units; otherwise in those of the file
 };
 
-/// Multipliers c z z* at an eigenvalue of a matrix, in fractions
+/// Multipliers that are sums of c z z* at a root of a polynomial, in fractions
 /// (verdict/algebraic_multipliers.h).
-struct EigenvalueRecord {
+struct AlgebraicRecord {
   using Fractions = std::vector<std::string>;
-  std::string of;  ///< "A"
+  struct Term {
+    std::string block;              ///< inequality and point
+    std::vector<Fractions> vector;  ///< the rows of Z
+    Fractions weight;               ///< of 1, l + m and l m
+  };
+  std::string of;  ///< the matrix whose eigenvalue the root is, "A"; empty: all is rational
   double re = 0, im = 0;
   Fractions polynomial;
-  /// By inequality and point: the rows of Z, and the coefficients of 1, l + m and l m in c.
-  std::vector<std::pair<std::string, std::vector<Fractions>>> vectors;
-  std::vector<std::pair<std::string, Fractions>> weights;
+  std::vector<Term> terms;
 };
 
 /// The certificate of a no, as it was checked on the decimals of the file (verdict/refutation.h),
@@ -70,7 +73,7 @@ struct CertificateRecord {
   /// What it is about: the "problem", or a condition that is only sufficient for its inequalities:
   /// their "hull", or the test at the "vertices" (docs/gain-file.md).
   std::string about = "problem";
-  std::optional<EigenvalueRecord> eigenvalue{};  ///< of an exact one that hangs on it
+  std::optional<AlgebraicRecord> algebraic{};
 
   bool is_about_problem() const { return about == "problem"; }
 };
@@ -79,8 +82,8 @@ struct CertificateRecord {
 /// change of 1.2e-94 of the coefficients".
 std::string shown_by(const CertificateRecord& certificate);
 
-/// "the eigenvalue 0.1 + 2i of A".
-std::string to_string(const EigenvalueRecord& eigenvalue);
+/// "multipliers at the eigenvalue 0.1 + 2i of A", "rational multipliers".
+std::string to_string(const AlgebraicRecord& algebraic);
 
 /// What is added to "infeasible": "", " for the hull only", " for the vertex test only".
 std::string limits_of(const CertificateRecord& certificate);

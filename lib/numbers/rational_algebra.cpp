@@ -142,6 +142,18 @@ std::optional<RationalMatrix> rational_solution(const RationalMatrix& M, const R
   return X;
 }
 
+std::vector<std::pair<Rational, RationalMatrix>> rational_squares(RationalMatrix M) {
+  std::vector<std::pair<Rational, RationalMatrix>> result;
+  for (Eigen::Index k = 0; k < M.rows(); ++k) {
+    const Rational pivot = M(k, k);
+    if (pivot <= 0) return {};
+    const RationalMatrix column = M.col(k) / pivot;
+    result.emplace_back(pivot, column);
+    M -= rational_product(column, column.transpose()) * pivot;
+  }
+  return result;
+}
+
 std::optional<RationalMatrix> rational_inverse(const RationalMatrix& M) {
   return rational_solution(M, RationalMatrix::Identity(M.rows(), M.rows()));
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "numbers/rational.h"
@@ -33,6 +34,9 @@ std::optional<RationalMatrix> rational_solution(const RationalMatrix& M, const R
 
 /// None for a singular matrix.
 std::optional<RationalMatrix> rational_inverse(const RationalMatrix& M);
+
+/// M = sum of d v v' with d > 0, for M > 0; empty for other symmetric matrices.
+std::vector<std::pair<Rational, RationalMatrix>> rational_squares(RationalMatrix M);
 
 /// Of a symmetric matrix, by elimination: v'Mv > 0 (>= 0) for all v != 0. Empty matrices are both.
 bool is_rational_definite(RationalMatrix M);

@@ -245,6 +245,12 @@ class Search {
 
 }  // namespace
 
+RationalMatrix weight(const Rational& c) {
+  RationalMatrix W = RationalMatrix::Constant(2, 2, Rational(0));
+  W(0, 0) = c;
+  return W;
+}
+
 numbers::Matrix rounded(const AlgebraicMultiplier& multiplier, const Root& root) {
   const std::complex<double> l = rounded(root);
   const RationalMatrix& W = multiplier.W;

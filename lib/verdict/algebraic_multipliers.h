@@ -27,6 +27,9 @@ struct AlgebraicMultiplier {
   numerics::RationalMatrix W;  ///< 2 x 2: of 1, l + m and l m
 };
 
+/// W of the weight c alone.
+numerics::RationalMatrix weight(const Rational& c);
+
 /// Its real part in double, n_k x n_k: B_ki are real.
 numbers::Matrix rounded(const AlgebraicMultiplier& multiplier, const Root& root);
 

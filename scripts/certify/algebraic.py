@@ -1,4 +1,4 @@
-"""A no on the boundary: multipliers Y_k = c_k z_k z_k* at an eigenvalue l, as the file has them.
+"""Exact multipliers of a no, as the file has them: sums of c z z* at an eigenvalue l, or rational.
 
 Feasibility may hang on an eigenvalue on the wrong side, as with an unstable A and P > 0,
 He(P*A) < 0. Then every multiplier is singular. With A w = l w and m the conjugate of l,
@@ -7,12 +7,12 @@ He(P*A) < 0. Then every multiplier is singular. With A w = l w and m the conjuga
 
 so that w w* and (l + m) w w* are multipliers of both inequalities if l + m >= 0.
 
-The file states a polynomial p, where a root l of it is near, and by block rows Z_k and three
-weights: z_k = Z_k e with e = (1, l, ..., l^(d-1))', and c_k = a + b (l + m) + c l m. Whose
-eigenvalue l is does not matter. So z*B z = e* (Z'B Z) e. In the ring Q[l, m]/(p(l), p(m)) a
-matrix X stands for e*X e, and for 0 if X = 0. With the companion matrix C, l e = C e: times l is
-X C, and times m is C'X. All equations are checked in this ring, so with fractions only. What
-remains are signs at the root, which is isolated by a disk.
+The file states a polynomial p, where a root l of it is near, and terms c z z* of the multipliers of
+blocks: matrices Z, z = Z e with e = (1, l, ..., l^(d-1))', and c = a_0 + a_1 (l + m) + a_2 l m.
+Whose eigenvalue l is does not matter; rational multipliers have p = l. So z*B z = e* (Z'B Z) e. In
+the ring Q[l, m]/(p(l), p(m)) a matrix X stands for e*X e, and for 0 if X = 0. With the companion
+matrix C, l e = C e: times l is X C, and times m is C'X. All equations are checked in this ring, so
+with fractions only. What remains are signs at the root, which is isolated by a disk.
 """
 from fractions import Fraction
 from arithmetic import Ball, Undecided, ball, is_exact, sign
@@ -76,18 +76,21 @@ def value_at(x, re, im):
     return a
 
 # The certificate.
-def prove_eigenvalue(given, blocks):
+def prove_algebraic(given, block_of):
     """None if the multipliers of `given` exclude a solution; else why not."""
-    expect(isinstance(given.get("weights"), dict), "weights: an object")
-    p = fractions(given.get("polynomial"), "polynomial")
+    expect(isinstance(given, dict), "algebraic: an object")
+    p, near, terms = (given.get(key) for key in ("polynomial", "near", "terms"))
+    p = fractions(p, "polynomial")
     expect(len(p) > 1 and p[-1] == 1, "polynomial: 1 as the last coefficient")
-    near = given.get("near")
     expect(isinstance(near, list) and len(near) == 2, "near: two numbers")
+    expect(isinstance(terms, list) and all(isinstance(t, dict) for t in terms), "terms: objects")
     re, im, square = root_near(p, *map(Fraction, near))
     c, sums, strict = companion(p), {}, False
-    for (label, rows), block in zip(given["vectors"].items(), blocks):
-        z = Matrix([fractions(row, label) for row in listed(rows)])
-        weight = fractions(given["weights"].get(label), label)
+    for term in terms:
+        label, rows = term.get("block"), term.get("vector")
+        expect(isinstance(label, str) and isinstance(rows, list), "terms: a block, a vector")
+        z = Matrix([fractions(row, label) for row in rows])
+        weight, block = fractions(term.get("weight"), label), block_of(label)
         expect(z.shape() == (block.shape[0], len(p) - 1) and len(weight) == 3, label + ": its size")
         size = block.sign != "==" and sign(weight[0] + weight[1] * (2 * re) + weight[2] * square)
         if size < 0: return "a multiplier that is negative"

@@ -2,7 +2,7 @@
 from fractions import Fraction
 from functools import cache
 from itertools import product
-from math import comb, prod
+from math import comb, lcm
 from arithmetic import (Ball, Undecided, Unsupported, ball, function, inverse, is_exact, is_zero,
                         level, middle, sign, sum_of_balls, typical, upper)
 
@@ -204,25 +204,36 @@ def rounded(x):         # x if it is short, else a fraction near it
     return Fraction((x.numerator << shift) // x.denominator, 1 << shift)
 @cache
 def bernstein_weights(degree):
-    """w[i][j] with b_i = sum_j w[i][j] c_j: Bernstein coefficients of sum_j c_j t^j on [-1, 1].
+    """(w, d) with b_i = sum_j w[i][j] c_j / d: Bernstein coefficients of sum_j c_j t^j on [-1, 1].
     With t = 2s - 1, t^j = sum_k p_jk s^k and b_i = sum_k C(i, k)/C(K, k) (coefficient of s^k)."""
     def power(j, k): return comb(j, k) * 2 ** k * (-1) ** (j - k)
-    places = range(degree + 1)
-    return [[sum(Fraction(comb(i, k), comb(degree, k)) * power(j, k)
-                 for k in range(min(i, j) + 1)) for j in places] for i in places]
+    places, d = range(degree + 1), lcm(*(comb(degree, k) for k in range(degree + 1)))
+    return [[sum(comb(i, k) * d // comb(degree, k) * power(j, k) for k in range(min(i, j) + 1))
+             for j in places] for i in places], d
 def is_positive_on_box(a):
-    """Whether a matrix of Taylor models is proved positive definite for all t in [-1, 1]^k. The
-    value at any t is a convex combination of the Bernstein coefficients, plus the rest. So it is
-    enough that each coefficient is positive definite with the rest as additional radius."""
-    exponents = {e for x in flat(a) for e in x.terms}
-    weights = [bernstein_weights(max(e)) for e in zip(*exponents)]
-    for rows in product(*weights):
-        factor = {e: prod(w[j] for w, j in zip(rows, e)) for e in exponents}
-        def coefficient(x):
-            total = sum((c * factor[e] for e, c in x.terms.items()), Fraction(0))
-            return total if x.rest == 0 else ball(total).widened(x.rest)
-        if classify(a.map(coefficient)) != POSITIVE: return False
+    """Whether a symmetric matrix of Taylor models is proved positive definite for all t in
+    [-1, 1]^k. The value at any t is a convex combination of the Bernstein coefficients, plus the
+    rest. So it is enough that each coefficient is positive definite with the rest as additional
+    radius."""
+    degrees = [max(e) for e in zip(*{e for x in flat(a) for e in x.terms})]
+    found = {(i, j): bernstein(a[i, j], degrees) for i in range(a.rows) for j in range(i + 1)}
+    for e in product(*[range(n + 1) for n in degrees]):
+        b = filled(a.rows, a.cols, lambda i, j: found[max(i, j), min(i, j)][e])
+        if classify(b) != POSITIVE: return False
     return True
+def bernstein(x, degrees):
+    """The Bernstein coefficients of a Taylor model, in balls: one variable after the other, in
+    whole numbers that are divided at the end."""
+    terms, scale = {x.origin(): (0, 0)}, 1
+    terms.update((e, (b.m, b.r)) for e, b in ((e, ball(c)) for e, c in x.terms.items()))
+    for k, degree in enumerate(degrees):
+        w, d = bernstein_weights(degree)
+        scale, parts = scale * d, {}
+        for e, c in terms.items(): parts.setdefault(e[:k] + e[k + 1:], []).append((e[k], c))
+        terms = {e[:k] + (i,) + e[k:]: (sum(row[j] * m for j, (m, _) in column),
+                                        sum(abs(row[j]) * r for j, (_, r) in column))
+                 for e, column in parts.items() for i, row in enumerate(w)}
+    return {e: Ball(m // scale, r // scale + 2 + x.rest) for e, (m, r) in terms.items()}
 def spectral_norm(a):
     """A ball around the largest singular value of a matrix of fractions and balls. It is below h if
     and only if [h I, a; a', h I] > 0. The interval [low, high] is halved."""

@@ -9,14 +9,14 @@ So v is a lower bound of the objective c_0 + c'x. With c = 0 there is no solutio
 v = 0 and a strict inequality has a Y_k that is not 0.
 
 The matrices Y_k of the file are rounded and satisfy no equation. Two rules find others: `near`
-shows that there are some near those of the file; algebraic.py checks those at an eigenvalue.
+shows that there are some near those of the file; algebraic.py checks those that are exact.
 """
 import math
 from collections import namedtuple
 from decimal import ROUND_FLOOR, Context, Decimal
 from fractions import Fraction
 from itertools import product
-from algebraic import STRICT, prove_eigenvalue
+from algebraic import STRICT, prove_algebraic
 from arithmetic import (Ball, Undecided, Unsupported, affine_terms, ball, function, is_exact,
                         middle, sum_of_balls, upper)
 from language import decimal, matrix, parse
@@ -37,11 +37,11 @@ def prove_no(gain, certificate, name="no solution"):
     """The claim that the inequalities of the file have no solution."""
     try:
         statement = Statement(gain, Symbols())
-        if given := certificate.get("eigenvalue"):
-            expect(isinstance(given, dict) and isinstance(given.get("vectors"), dict), "vectors")
-            why = prove_eigenvalue(given, blocks_of(statement, dict.fromkeys(given["vectors"])))
-            return Claim(name, "open", why) if why else \
-                Claim(name, "proved", "an eigenvalue of %s, exactly" % given.get("of"))
+        if given := certificate.get("algebraic"):
+            why = prove_algebraic(given, lambda label: blocks_of(statement, {label: None})[0])
+            how = "an eigenvalue of %(of)s, exactly" if "of" in given else "exact multipliers"
+            how %= given
+            return Claim(name, "open", why) if why else Claim(name, "proved", how)
         blocks = blocks_of(statement, certificate.get("multipliers"))
         if moved := equal_effects(blocks):
             blocks = blocks_of(Statement(gain, Symbols(moved)), certificate["multipliers"])

@@ -88,10 +88,11 @@ def check_results(gain):
     for key, part in (("", gain), ("search.", gain["search"])):
         certificate = part.get("certificate", {})
         add(key + "certificate.multipliers.", certificate.get("multipliers", {}))
-        eigenvalue = certificate.get("eigenvalue", {})
-        parts.extend(map(str, eigenvalue.get("polynomial", [])))
-        add("", eigenvalue.get("vectors", {}))
-        parts.extend(str(y) for x in eigenvalue.get("weights", {}).values() for y in listed(x))
+        algebraic = certificate.get("algebraic", {})
+        parts.extend(map(str, algebraic.get("polynomial", [])))
+        for term in algebraic.get("terms", []):
+            add("", {term.get("block"): term.get("vector", [])})
+            parts.extend(map(str, term.get("weight", [])))
     expect(isinstance(gain["proof"], dict), "proof: an object")
     expect_sha256(gain["proof"].get("sha256"), parts, "results with their sha256: they "
                   "were edited (without the key proof the file is taken as it is)")

@@ -15,7 +15,7 @@ from statement import (NOT_EVALUATED, Statement, checked, inequality, matrix_of_
 # result: proved, refuted or open. `how` says by what it was proved, or why it is open.
 Claim = namedtuple("Claim", "name result how pieces point vector", defaults=(0, {}, []))
 Gain = namedtuple("Gain", "name ulps how")      # ulps: None where the formula has no value here
-ORDERS = {1: 9, 2: 5}       # of Taylor models, by the number of variables; else 3
+ORDERS = {1: 9}     # of Taylor models, by the number of variables; else 5
 SMALLEST_PIECE = Fraction(1, 10 ** 12)      # of the interval
 
 def prove_requirements(statement):
@@ -84,7 +84,7 @@ def on_piece(domain, piece):
     """(scope with Taylor models of the variables on the piece, a number 0 of their space). An
     interval of one point has the value of this point."""
     wide = [k for k, (low, high) in enumerate(piece) if high > low]
-    zero = Taylor({}, 0, (len(wide), ORDERS.get(len(wide), 3)))
+    zero = Taylor({}, 0, (len(wide), ORDERS.get(len(wide), 5)))
     values = [zero.like({zero.origin(): (low + high) / 2, tuple(int(j == k) for j in wide):
                          (high - low) / 2}) if k in wide else low
               for k, (low, high) in enumerate(piece)]
@@ -96,12 +96,15 @@ def scope_at(domain, values):
         before = [] if not i.index else flat(names[i.name])
         names[i.name] = number(x) if i.index is None else column(before + [x])
     return Scope(domain.scope, names)
+PARTITIONS = {}     # pieces that cover a box: where the proof at the printed gains begins
 def prove_for_all(name, comparison, domain):
     """The box is halved until each piece is proved. Where the middle of a piece may fail, the
     matrix there is judged."""
     whole = [outward(x) for x in domain.intervals]
+    start = PARTITIONS.get((name, repr(whole)), [whole])
     lengths = [(high - low) or 1 for low, high in whole]
-    titles, todo, pieces = [i.title for i in domain.intervals], [whole], 0
+    titles, todo, pieces = [i.title for i in domain.intervals], list(start), 0
+    proved = []
     while todo:
         piece = todo.pop()
         pieces += 1
@@ -113,8 +116,11 @@ def prove_for_all(name, comparison, domain):
             if all(x.is_constant() for x in flat(a)):
                 found = judge(name, comparison, a.map(lambda x: x.constant()))
                 if found.result != "proved" or piece == whole: return found
+                proved.append(piece)
                 continue
-            if is_positive_on_box(a): continue
+            if is_positive_on_box(a):
+                proved.append(piece)
+                continue
             suspicious = not is_positive(a.map(lambda x: x.constant()))
         except Undecided as error:
             suspicious, why = True, str(error)
@@ -128,6 +134,7 @@ def prove_for_all(name, comparison, domain):
             return Claim(name, "open", "%s at %s" % (why, at), pieces)
         half = (low + high) / 2
         todo += [piece[:k] + [part] + piece[k + 1:] for part in ((half, high), (low, half))]
+    PARTITIONS[name, repr(whole)] = proved
     texts = ["%s in [%s, %s]" % (t, short(x), short(y)) for t, (x, y) in zip(titles, whole)]
     return Claim(name, "proved", "all " + ", ".join(texts), pieces)
 def longest_side(piece, lengths, a):

@@ -53,10 +53,10 @@ FAULTS = [
     ("a pivot 0 is positive", "matrices.py",
      "all(pivot.m > pivot.r for pivot", "all(pivot.m >= pivot.r for pivot"),
     ("the remainder of Bernstein coefficients is left out", "matrices.py",
-     "else ball(total).widened(x.rest)", "else ball(total)"),
-    ("semidefinite Bernstein coefficients are enough", "matrices.py",
-     "if classify(a.map(coefficient)) != POSITIVE:",
-     "if classify(a.map(coefficient)) in (NEGATIVE, UNKNOWN):"),
+     "r // scale + 2 + x.rest", "r // scale + 2"),
+    ("the last Bernstein coefficients are left out", "matrices.py",
+     "for e in product(*[range(n + 1) for n in degrees]):",
+     "for e in product(*[range(max(n, 1)) for n in degrees]):"),
     ("Bernstein weights of a wrong sign", "matrices.py", "* (-1) ** (j - k)", ""),
     ("norms from below are the norms", "matrices.py",
      "return ball((low + high) / 2).widened(ball((high - low) / 2).size() + 1)",
@@ -192,8 +192,8 @@ FAULTS = [
      "circle = inverted and", "circle = True or"),
     ("all roots near the axis are on it", "algebraic.py",
      "mirrored = all(c == 0 for c in p[-2::-2])", "mirrored = True"),
-    ("the eigenvalue is not in the hash", "statement.py",
-     'add("", eigenvalue.get("vectors", {}))', "pass"),
+    ("the algebraic multipliers are not in the hash", "statement.py",
+     'add("", {term.get("block"): term.get("vector", [])})', "pass"),
 ]
 
 def caught(file, old, new):

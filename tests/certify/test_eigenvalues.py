@@ -16,10 +16,10 @@ CONTINUOUS, DISCRETE = "He(P*A) %s 0", "A'*P*A - P %s 0"
 
 def certificate(p, near, vectors, weights):
     def texts(x): return [texts(y) for y in x] if isinstance(x, list) else str(x)
-    return {"eigenvalue": {
+    return {"algebraic": {
         "of": "A", "polynomial": texts(p), "near": [helper.Numeral(str(x)) for x in near],
-        "vectors": {k: texts(z) for k, z in vectors.items()},
-        "weights": {k: texts(w) for k, w in weights.items()}}}
+        "terms": [{"block": k, "vector": texts(z), "weight": texts(weights[k])}
+                  for k, z in vectors.items()]}}
 
 def answer(text, given): return prove_no(problem(text, {}), given).result
 
@@ -118,17 +118,33 @@ class Eigenvalues(unittest.TestCase):
         text = LYAPUNOV % (">", CONTINUOUS % "<", self.A)
         for key, value in (("polynomial", ["1", "x", "1"]), ("polynomial", ["1"]), ("near", ["1"]),
                            ("polynomial", ["1", "1/0", "1"]), ("polynomial", ["1", "2"]),
-                           ("vectors", {"positive": [["1"]], "decrease": [["1"]]}),
-                           ("vectors", {"positive": None, "decrease": None}),
-                           ("weights", {"positive": ["1"]}), ("weights", None), ("vectors", [])):
+                           ("terms", None), ("terms", [1]), ("terms", [{}])):
             given = self.given()
-            given["eigenvalue"][key] = value
+            given["algebraic"][key] = value
             with self.assertRaises(Damaged, msg=(key, value)): answer(text, given)
+        for key, value in (("vector", [["1"]]), ("vector", None), ("vector", [1, 2]),
+                           ("weight", ["1"]), ("weight", None), ("block", None)):
+            given = self.given()
+            given["algebraic"]["terms"][0][key] = value
+            with self.assertRaises(Damaged, msg=(key, value)): answer(text, given)
+        given["algebraic"]["terms"][0]["block"] = "another"
+        self.assertEqual(answer(text, given), "open")
+
+    def test_rational_multipliers(self):
+        # trace(P) <= 1 and P >= I: I of the second, 1 of the first; two terms of one block.
+        text = ("problem: p\nmethod:\n  unknowns: {P: symmetric 2}\n  require:\n"
+                "    most: trace(P) <= %s\n    least: P >= eye(2)\n")
+        given = certificate([0, 1], (0, 0), {"most": [["1"]]}, {"most": [1, 0, 0]})
+        for vector in ([["1"], ["0"]], [["0"], ["1"]]):
+            given["algebraic"]["terms"].append(
+                {"block": "least", "vector": vector, "weight": ["1", "0", "0"]})
+        for most, expected in (("1", "proved"), ("1.999", "proved"), ("2", "open"), ("3", "open")):
+            self.assertEqual(answer(text % most, given), expected, most)
 
     def test_files(self):
         for name in ("lyapunov-no", "undetectable", "uncontrollable"):
             found = gain(name)
-            self.assertIn("eigenvalue", found["certificate"])
+            self.assertIn("algebraic", found["certificate"])
             self.assertEqual(prove_no(found, found["certificate"]).result, "proved", name)
 
 if __name__ == "__main__":
