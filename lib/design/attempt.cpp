@@ -92,18 +92,17 @@ class Interior {
   /// More digits are worth having only for data that have them.
   bool is_wide() const { return asked_.effort.precision != "auto"; }
 
-  Solved operator()(const lmi::Round& round, const std::vector<std::vector<int>>& rows = {}) {
+  Solved operator()(const lmi::Round& round) {
     const lmi::Exactly exactly = [this](std::size_t k, const lmi::Balance& balance,
                                         const std::vector<int>& kept) {
       if (!exact_) exact_.emplace(posed_.inequalities, balance);
       return verdict::rounded(exact_->block(posed_.lmi.blocks[k], k, kept));
     };
     Solved result;
-    result.formulation =
-        rows.empty() ? of_all_rows() : lmi::pose_interior(posed_.lmi, asked_.bounds, rows);
+    result.formulation = of_all_rows();
     Effort effort = asked_.effort;
     std::optional<sdp::Solution> near;
-    if (!is_wide() && rows.empty()) {
+    if (!is_wide()) {
       effort.enough = enough_for(posed_, asked_, result.formulation, round);
       near = solve_in_matrices(posed_, asked_, result.formulation, round, effort.enough);
       if (near && near->cause == sdp::Cause::enough) {
@@ -167,26 +166,13 @@ std::optional<Interior::Solved> solve_interior(const Posed& posed, Interior& int
   return first;
 }
 
-/// The multipliers of the first round, and in more digits also those of the rows that they live on.
-void refute(const Posed& posed, const Solve& solve, Interior& interior, Interior::Solved solved,
-            Attempt& result) {
-  const int most_restrictions = result.question.single ? 0 : 3;
-  for (int k = 0;; ++k) {
-    const verdict::Refutation found =
-        find_certificate(posed, result.question.effort, solved.formulation, solved.solution, solve);
-    const bool better = !result.refutation || found.exact ||
-                        found.backward_error < result.refutation->backward_error;
-    if (better) result.refutation = found;
-    if (result.refuted()) {
-      result.formulation = std::move(solved.formulation);
-      result.solution = std::move(solved.solution);
-      return;
-    }
-    if (!interior.is_wide() || k == most_restrictions) return;
-    const auto rows = lmi::rows_of_multipliers(solved.formulation, solved.solution);
-    if (rows.empty()) return;
-    solved = interior({}, rows);
-  }
+/// The multipliers of the first round.
+void refute(const Posed& posed, const Solve& solve, Interior::Solved solved, Attempt& result) {
+  result.refutation =
+      find_certificate(posed, result.question.effort, solved.formulation, solved.solution, solve);
+  if (!result.refuted()) return;
+  result.formulation = std::move(solved.formulation);
+  result.solution = std::move(solved.solution);
 }
 
 }  // namespace
@@ -231,7 +217,7 @@ Attempt attempt(const Posed& posed, Question question, const Solve& solve) {
         posed.lmi, result.question.bounds, first->formulation, first->solution);
   if (!result.question.bounds.list.empty()) return result;
   try {
-    refute(posed, solve, interior, std::move(*first), result);
+    refute(posed, solve, std::move(*first), result);
   } catch (const OutOfAllowance&) {
     result.out_of_allowance = true;
   }

@@ -91,8 +91,7 @@ Formulation pose_objective(const Lmi& lmi, const GainBounds& bounds, double shif
   return result;
 }
 
-Formulation pose_interior(const Lmi& lmi, const GainBounds& bounds,
-                          const std::vector<std::vector<int>>& rows) {
+Formulation pose_interior(const Lmi& lmi, const GainBounds& bounds) {
   Formulation result;
   result.goal = Goal::interior;
   result.homogenised = !is_homogeneous(lmi, bounds);
@@ -100,7 +99,6 @@ Formulation pose_interior(const Lmi& lmi, const GainBounds& bounds,
   result.variables = own + (result.homogenised ? 2 : 1);
   result.balance = balance(all_blocks(lmi, bounds), own, {});
   result.free_variables = find_free_variables(lmi, bounds.blocks, false);
-  if (!rows.empty()) result.free_variables.kept = rows;
   result.sizes = sizes_of(result.free_variables, bounds);
   result.rows =
       std::accumulate(result.sizes.begin(), result.sizes.end(), 0) + (result.homogenised ? 1 : 0);
@@ -177,8 +175,8 @@ Formulation formulate_objective(const Lmi& lmi, const GainBounds& bounds, double
 }
 
 Formulation formulate_interior(const Lmi& lmi, const GainBounds& bounds, const Round& round,
-                               const Exactly& exactly, const std::vector<std::vector<int>>& rows) {
-  Formulation result = pose_interior(lmi, bounds, rows);
+                               const Exactly& exactly) {
+  Formulation result = pose_interior(lmi, bounds);
   assemble(lmi, bounds, round, result, exactly);
   return result;
 }
@@ -202,34 +200,6 @@ Formulation formulate_violation(const Lmi& lmi) {
   assembler.set_cost(margin, -1);
   result.problem = assembler.take();
   return result;
-}
-
-std::vector<std::vector<int>> rows_of_multipliers(const Formulation& formulation,
-                                                  const sdp::Solution& solution) {
-  constexpr double kGap = 1e6;
-  const auto& kept = formulation.free_variables.kept;
-  const auto diagonal = [&](std::size_t k, std::size_t i) {
-    return solution.Y.values[k][i * (kept[k].size() + 1)];
-  };
-  std::vector<double> sizes;
-  for (std::size_t k = 0; k < kept.size(); ++k)
-    for (std::size_t i = 0; i < kept[k].size(); ++i) sizes.push_back(std::max(0.0, diagonal(k, i)));
-  std::sort(sizes.rbegin(), sizes.rend());
-  double widest = kGap;
-  double least = 0;
-  for (std::size_t i = 0; i + 1 < sizes.size() && sizes[i] > 0; ++i) {
-    // Nothing of a row is as far below as double reaches.
-    const double gap = sizes[i] / std::max(sizes[i + 1], 1e-300);
-    if (gap < widest) continue;
-    widest = gap;
-    least = sizes[i];
-  }
-  if (least == 0) return {};
-  std::vector<std::vector<int>> rows(kept.size());
-  for (std::size_t k = 0; k < kept.size(); ++k)
-    for (std::size_t i = 0; i < kept[k].size(); ++i)
-      if (diagonal(k, i) >= least) rows[k].push_back(kept[k][i]);
-  return rows;
 }
 
 double interior_margin(const sdp::Solution& solution) { return solution.x.back(); }

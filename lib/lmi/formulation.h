@@ -69,10 +69,7 @@ bool has_minimum(const Lmi& lmi, const GainBounds& bounds);
 
 /// Without the program, which not every solver wants (matrix_program.h).
 Formulation pose_objective(const Lmi& lmi, const GainBounds& bounds, double shift);
-/// `rows`, unless empty: the rows of each block of the Lmi that stay, of those that free_variables
-/// leave. With fewer rows less is asked, so what refutes it refutes the whole.
-Formulation pose_interior(const Lmi& lmi, const GainBounds& bounds,
-                          const std::vector<std::vector<int>>& rows = {});
+Formulation pose_interior(const Lmi& lmi, const GainBounds& bounds);
 
 /// Adds the program. With `exactly` the coefficients of the Lmi's blocks are those, in 31 digits;
 /// there must be no bounds then. `round`: of an interior formulation.
@@ -82,8 +79,7 @@ void assemble(const Lmi& lmi, const GainBounds& bounds, const Round& round,
 /// Both steps.
 Formulation formulate_objective(const Lmi& lmi, const GainBounds& bounds, double shift);
 Formulation formulate_interior(const Lmi& lmi, const GainBounds& bounds, const Round& round,
-                               const Exactly& exactly = {},
-                               const std::vector<std::vector<int>>& rows = {});
+                               const Exactly& exactly = {});
 
 /// The least violation of the inequalities as given, which have constant parts:
 ///   maximise s,  B_k(x) >= s I
@@ -91,13 +87,6 @@ Formulation formulate_interior(const Lmi& lmi, const GainBounds& bounds, const R
 /// small rank, and x a solution of B_k(x) >= s I beside them: both are of an ordinary size where
 /// the homogenised inequalities have no solution but 0.
 Formulation formulate_violation(const Lmi& lmi);
-
-/// The rows on which the multipliers of an interior solution without bounds live, where the others
-/// are noise beside them: their diagonal elements are smaller by a gap of at least 1e6. Empty when
-/// there is no such gap. A certificate on few coordinates is exact on them, as a rule, where in
-/// all coordinates it is only a limit.
-std::vector<std::vector<int>> rows_of_multipliers(const Formulation& formulation,
-                                                  const sdp::Solution& solution);
 
 /// s of an interior solution.
 double interior_margin(const sdp::Solution& solution);
