@@ -12,7 +12,7 @@ except ImportError:
     sys.exit(2)
 from no import prove_no, prove_optimum
 from statement import Damaged, expect, read_gain_file
-from yes import Claim, prove_yes
+from yes import Claim, prove_objective, prove_yes
 
 SECONDS_BESIDE = 2       # for the certificate of the value beyond the one that a search found
 MOST_ULPS = 2 ** 20         # a gain farther from its formula is open
@@ -68,8 +68,10 @@ def check_verdict(gain, found):
 def check_beside(gain, found, seconds):
     """Claims beside the verdict, which they do not change: the bound of the objective, and the
     certificate at the value beyond the best one of a search."""
+    if gain["verdict"] == "yes" and isinstance(gain.get("objective"), str):
+        found["beside"].append(within(seconds, lambda: prove_objective(gain)))
     if gain["verdict"] == "yes" and gain["optimum"] and "objective_lower_bound" in gain:
-        found["beside"] = [within(seconds, lambda: prove_optimum(gain))]
+        found["beside"].append(within(seconds, lambda: prove_optimum(gain)))
     search = gain["search"]
     certificate, figure = search.get("certificate"), search.get("figure")
     if not isinstance(certificate, dict) or certificate.get("about") != "problem" or \

@@ -13,7 +13,7 @@ import yaml
 from arithmetic import Affine, Series, Undecided, Unsupported, is_exact, middle, upper
 from language import (Family, Function, Later, Scope, basis_functions, decimal, defined,
                       elementwise, evaluate, holds, matrix, members, parse, parse_range)
-from matrices import Matrix, diagonal, flat, identity, norm_block, number, zeros
+from matrices import Matrix, diagonal, flat, identity, is_positive, norm_block, number, zeros
 
 LARGEST_FILE = 64_000_000
 OBJECTS = ("gains", "unknowns", "statement")
@@ -449,10 +449,12 @@ def inequality(comparison, scope):
         name = side[1][1] if side[0] == "call" and side[1][0] == "name" else ""
         if name not in BOUNDED[factor] or scope.find(name) is not None: continue
         bound, values = matrix(other, scope), [matrix(x, scope) for x in side[2]]
-        if len(values) > 1 and name not in ("max", "min"): refuse(name + " of several arguments")
+        if len(values) > 1 and name in ("norm", "abs"): refuse(name + " of several arguments")
         if name == "norm": return norm_block(values[0], bound)
-        if name.startswith("lambda"):
-            return symmetric((identity(values[0].rows, bound.number()) - values[0]).map(
+        if name.startswith("lambda"):       # of (M, N), N > 0: eigenvalues of inv(N)*M
+            one = values[1] if len(values) > 1 else identity(values[0].rows, 1)
+            if len(values) > 1 and not is_positive(one): refuse(name + " of a second matrix")
+            return symmetric((one.map(lambda x: x * bound.number()) - values[0]).map(
                 lambda x: x * factor))
         if name == "abs": values += [-values[0]]
         elif len(values) == 1: values = [number(x) for x in flat(values[0])]

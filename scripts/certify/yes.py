@@ -6,11 +6,11 @@ from functools import reduce
 from itertools import product
 from operator import add
 from arithmetic import Affine, Taylor, Undecided, Unsupported, ball, is_zero, middle, sign, upper
-from language import Scope, matrix, parse
+from language import Scope, decimal, matrix, parse
 from matrices import (POSITIVE, SEMIDEFINITE, classify, column, exactly, filled, flat, is_positive,
                       is_positive_on_box, number, witness)
-from statement import (NOT_EVALUATED, Statement, checked, inequality, matrix_of_json, section,
-                       values_of_file)
+from statement import (NOT_EVALUATED, Comparison, Statement, checked, inequality, matrix_of_json,
+                       refuse, section, values_of_file)
 
 # result: proved, refuted or open. `how` says by what it was proved, or why it is open.
 Claim = namedtuple("Claim", "name result how pieces point vector", defaults=(0, {}, []))
@@ -227,6 +227,19 @@ def values_with_gains(gain, found):
         if kind != "full": raise Unsupported("the printed gain " + k_name)
         return p * k if left else k * p
     return value
+def prove_objective(gain):
+    """The claim that the objective at the unknowns of the file is at most the one that it states,
+    rounded. So is a norm or an eigenvalue that is minimised."""
+    stated = decimal(str(gain["objective"]))
+    name = "objective <= %.10g" % stated
+    try:
+        statement = Statement(gain, values_of_file(gain))
+        text = statement.method.get("minimize") or refuse("the objective of another problem")
+        limit = "%d/10^60" % ((stated + abs(stated) / 10 ** 12) * 10 ** 60 + 10 ** 30)
+        found = Comparison(parse(text), "<=", parse("(%s)" % limit), [])
+        return judge(name, found, inequality(found, statement.scope))
+    except NOT_EVALUATED as error:
+        return Claim(name, "open", reason(error))
 def prove_yes(gain, claims=None):
     """(claims, gains, the gains at whose printed values all claims are proved again). The claims
     are appended to the given list, which so holds what was found when the time ran out."""

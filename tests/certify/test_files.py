@@ -14,7 +14,7 @@ import helper
 from helper import CERTIFY, gain, one_claim, path, problem, with_text
 from no import prove_no, prove_optimum
 from statement import Damaged, read_gain_file
-from yes import prove_yes
+from yes import prove_objective, prove_yes
 
 YES = ["lyapunov", "observer", "sampled", "equations", "modes", "polytope", "clock", "box",
        "bounds", "edge"]
@@ -236,6 +236,24 @@ class Yes(unittest.TestCase):
         found["statement"]["problem_text"] = "problem: v\nlike: b.yaml\n"
         found["statement"]["set"] = {"A": "[1, 0; 0, 1]"}
         self.assertEqual(results(found)["decrease"], "refuted")
+
+    def test_objectives_are_those_of_the_unknowns(self):
+        text = ("problem: p\nmethod:\n  unknowns: {P: symmetric 2, y: scalar}\n"
+                "  require: {a: P >= I}\n  minimize: %s\n")
+        unknowns = {"P": [["3", "1"], ["1", "2"]], "y": "1"}
+        for minimize, value in (("trace(P) + y", 6), ("norm(P)", 3.618033988749895),
+                                ("lambda_max(P)", 3.618033988749895), ("2*y + norm(P)", 5.618034),
+                                ('"lambda_max(P, [2, 0; 0, 1])"', 2.5), ("abs(y)", 1)):
+            for factor, expected in ((1, "proved"), (1 - 1e-6, "refuted"), (1 + 1e-6, "proved")):
+                found = problem(text % minimize, unknowns)
+                found["objective"] = helper.Numeral(repr(value * factor))
+                claim = prove_objective(found)
+                if minimize.startswith("2*y") and factor == 1: continue     # 7 digits
+                self.assertEqual(claim.result, expected, (minimize, factor, claim))
+        for minimize in ('"lambda_max(P, [1, 0; 0, 0])"', '"lambda_max(P, [1, 2; 2, 1])"'):
+            found = problem(text % minimize, unknowns)
+            found["objective"] = helper.Numeral("100")
+            self.assertEqual(prove_objective(found).result, "open", minimize)
 
 class No(unittest.TestCase):
     def test_files_are_proved(self):
