@@ -40,8 +40,7 @@ def prove_no(gain, certificate, name="no solution"):
         if given := certificate.get("algebraic"):
             why = prove_algebraic(given, lambda label: blocks_of(statement, {label: None})[0])
             how = "an eigenvalue of %(of)s, exactly" if "of" in given else "exact multipliers"
-            how %= given
-            return Claim(name, "open", why) if why else Claim(name, "proved", how)
+            return Claim(name, "open", why) if why else Claim(name, "proved", how % given)
         blocks = blocks_of(statement, certificate.get("multipliers"))
         if moved := equal_effects(blocks):
             blocks = blocks_of(Statement(gain, Symbols(moved)), certificate["multipliers"])

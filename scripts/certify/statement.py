@@ -179,7 +179,8 @@ class Statement:
     def __init__(self, gain, unknown_value):
         self.gain, self.unknown_value, self.scope = gain, unknown_value, Scope()
         self.problem, self.method = problem_and_method(gain["statement"])
-        self.settings, self.searched = gain["statement"].get("set", {}), gain.get("searched", {})
+        self.settings, searched = gain["statement"].get("set", {}), gain.get("searched", {})
+        self.searched = {name: x for name, x in searched.items() if name != "gain_bound"}
         self.given = {**section(self.problem, "data"), **section(self.problem, "parameters")}
         self.unknowns = declarations(self.method, "unknowns")
         self.check_searched()
@@ -188,8 +189,7 @@ class Statement:
         for name, declared in self.unknowns.items(): self.declare(name, self.unknown, declared)
     def check_searched(self):
         """Values under `searched` replace those of the texts: the texts must ask for a search."""
-        asked = {"gain_bound"} | {name for name, p in section(self.method, "parameters").items()
-                                  if isinstance(p, dict) and "search" in p}
+        asked = {name for name, p in section(self.method, "parameters").items() if "search" in p}
         for value in section(self.problem, "search").values():
             asked |= set(value) if isinstance(value, dict) else set()
         for name in self.searched: expect(name in asked, "a search for the searched name " + name)
@@ -266,6 +266,11 @@ class Statement:
         """The basis of the file, if it is the one of the text up to the rounding of doubles."""
         result = matrix_of_json(self.gain["bases"][name], name)
         self.unify(shape, result)
+        words, lets = [str(x)], {**section(self.method, "let"), **section(self.problem, "let")}
+        for text in words:          # and those of the definitions that it uses
+            used = set(re.findall(r"\w+", text))
+            words += [str(lets.pop(head)) for head in list(lets) if head.split("(")[0] in used]
+        if not re.search(r"\b(orth|null)\b", str(words)): refuse("a basis without orth or null")
         scale = max(map(abs, flat(result)), default=0)
         if all(upper(y) <= scale / 10 ** 13 for y in flat(self.value(x, result.shape()) - result)):
             return result
@@ -334,7 +339,9 @@ class Statement:
             if call and call.group(1) == name:
                 for word in set(re.findall(r"\b%s_\d+\b" % re.escape(name), text)):
                     self.scope.names[word] = self.unknown_value(word, rows, cols, kind)
-                return defined([call.group(2).strip()], text, self.scope)
+                found = defined([call.group(2).strip()], text, self.scope).apply
+                def shaped(x): return x if x.shape() == (rows, cols) else refuse("another shape")
+                if kind == "full": return Function(lambda *values: shaped(found(*values)))
         return refuse("the formula of " + name)
     # Requirements.
     def comparisons(self):

@@ -70,6 +70,7 @@ def check_affine(comparison, domain):
         raise Unsupported("a polytope beside another polytope or an interval")
     (name, values), = domain.hulls
     rows, cols = values[0].shape()
+    if any(x.shape() != (rows, cols) for x in values): refuse("elements of several shapes")
     symbols = filled(rows, cols, lambda i, j: Affine({1 + i * cols + j: Fraction(1)}))
     inequality(comparison, Scope(domain.scope, {name: symbols}))
 
@@ -77,7 +78,7 @@ def check_affine(comparison, domain):
 def outward(span):
     """The ends as fractions; an end that is a ball is moved outward."""
     low, high = [middle(x) + s * upper(x - middle(x)) for s, x in ((-1, span.low), (1, span.high))]
-    if low > high: raise Unsupported("an interval whose low end is above its high end")
+    if low > high or sign(span.high - span.low) < 0: refuse("an interval that is empty")
     return low, high
 def is_outside(interval, x): return sign(x - interval.low) < 0 or sign(interval.high - x) < 0
 def on_piece(domain, piece):
@@ -228,15 +229,14 @@ def values_with_gains(gain, found):
         return p * k if left else k * p
     return value
 def prove_objective(gain):
-    """The claim that the objective at the unknowns of the file is at most the one that it states,
-    rounded. So is a norm or an eigenvalue that is minimised."""
+    """The claim that the objective at the unknowns is at most the one of the file, rounded."""
     stated = decimal(str(gain["objective"]))
     name = "objective <= %.10g" % stated
     try:
         statement = Statement(gain, values_of_file(gain))
         text = statement.method.get("minimize") or refuse("the objective of another problem")
-        limit = "%d/10^60" % ((stated + abs(stated) / 10 ** 12) * 10 ** 60 + 10 ** 30)
-        found = Comparison(parse(text), "<=", parse("(%s)" % limit), [])
+        limit = stated + abs(stated) / 10 ** 12 + Fraction(1, 10 ** 30)
+        found = Comparison(parse(text), "<=", ("number", limit), [])
         return judge(name, found, inequality(found, statement.scope))
     except NOT_EVALUATED as error:
         return Claim(name, "open", reason(error))

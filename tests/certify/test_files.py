@@ -278,6 +278,39 @@ class No(unittest.TestCase):
             claim = prove_no(found, found["certificate"])
             self.assertEqual(claim.result, "open", (name, change))
 
+    def test_what_a_file_may_not_replace(self):
+        """A basis of another datum, the value of a name gain_bound, a formula of another kind."""
+        text = ("problem: p\nmethod:\n  data: {A: scalar}\n  unknowns: {x: scalar}\n"
+                "  let: {f: \"%s\"}\n  require: {c: A + 0*x > 1}\ndata: {A: \"%s\"}\n")
+        for let, datum, expected in (("1", "1", "open"), ("orth(1)", "1", "open"),
+                                     ("1", "orth(1)", "proved"), ("orth(1)", "f*1", "proved")):
+            found = problem(text % (let, datum), {"x": "0"})
+            found["bases"] = {"A": helper.Numeral("1.00000000000005")}
+            self.assertEqual(results(found), {"c": expected}, (let, datum))
+        found = problem("problem: p\nmethod:\n  unknowns: {x: scalar}\n"
+                        "  require: {c: gain_bound > 5}\ndata: {gain_bound: 1}\n", {"x": "0"})
+        found["searched"] = {"gain_bound": helper.Numeral("9")}
+        self.assertEqual(results(found), {"c": "refuted"})
+        text = ("problem: p\nsynthesis: {forall: vertex_gains}\nmethod:\n"
+                "  unknowns: {P: {shape: %s, of: t}}\n"
+                "  require: {c: {forall: \"t in [0, 1]\", that: \"%s\"}}\n")
+        for shape, that, formula, expected in (
+                ("2 x 2", "P(t) - ones(2) > 0", "[1.1, 1; 1, 1.1]", "proved"),
+                ("diagonal 2", "P(t) - ones(2) > 0", "[1.1, 1; 1, 1.1]", "open"),
+                ("2 x 2", "P(t)*[1; 2] > 2", "[1, 1]", "open")):
+            found = problem(text % (shape, that), {})
+            found["functions"] = {"P(t)": formula}
+            self.assertEqual(results(found), {"c": expected}, shape)
+
+    def test_polytopes_and_intervals_that_are_none(self):
+        text = ("problem: p\nmethod:\n  unknowns: {x: scalar}\n  require:\n"
+                "    c: {forall: \"%s\", that: \"%s\"}\n    b: x > 0\n")
+        found = problem(text % ("A in conv{0, [2, 0; 0, 0], [0, 0; 0, 2]}", "det(A) < 1/2"),
+                        {"x": "1"})
+        self.assertEqual(results(found)["c at A = 0"], "open")
+        found = problem(text % ("t in [sqrt(2) + 1e-97, sqrt(2)]", "x < 0"), {"x": "1"})
+        self.assertEqual(results(found)["c"], "open")
+
     def test_unknowns_with_one_effect(self):
         """x and y enter as x + 3*y alone, before the root of 2: two equations that are one."""
         text = ("problem: p\nmethod:\n  unknowns: {x: scalar, y: scalar, z: scalar}\n  require:\n"
