@@ -16,7 +16,7 @@ using numerics::RationalMatrix;
 
 /// Quotient and remainder by b, whose leading coefficient is 1.
 std::pair<Polynomial, Polynomial> divided(Polynomial a, const Polynomial& b) {
-  if (a.size() < b.size()) return {{}, std::move(a)};
+  if (a.size() < b.size()) return {{}, a};
   Polynomial quotient(a.size() - b.size() + 1);
   for (std::size_t k = quotient.size(); k-- > 0;) {
     const Rational factor = quotient[k] = a[k + b.size() - 1];

@@ -37,7 +37,7 @@ lmi::Sparse columns_of(const std::vector<ExactBlock<S>>& blocks, int unknowns) {
 
 /// The kernel of M'M in reduced echelon form, its rows 1 at their largest element; none where it
 /// is 0. M'M has a diagonal of 1.
-Matrix kernel_of(Matrix gram) {
+Matrix kernel_of(const Matrix& gram) {
   constexpr double kZero = 1e-12;
   const Matrix I = Matrix::Identity(gram.rows(), gram.cols());
   if (numbers::Cholesky(gram - kZero * I)) return {};
@@ -88,7 +88,7 @@ void drop_implied(const lmi::Inequalities& of, const lmi::Lmi& lmi,
       gram.diagonal().cwiseSqrt().unaryExpr([](double x) { return x > 0 ? x : 1; });
   gram = lengths.cwiseInverse().asDiagonal() * gram * lengths.cwiseInverse().asDiagonal();
   gram.diagonal().setConstant(1);
-  const Matrix kernel = kernel_of(std::move(gram));
+  const Matrix kernel = kernel_of(gram);
   const ExactBlocks<S> exact(of, formulation.balance);
   for (Index r = 0; r < kernel.rows(); ++r) {
     Vector d = kernel.row(r);
