@@ -36,7 +36,13 @@ class Certificates {
   }
 
   verdict::Refutation by_eigenvalue() const {
-    auto found = verdict::algebraic_certificate(posed_.inequalities, posed_.lmi);
+    constexpr double kWorth = 2;  // seconds: it is the certificate that says the most
+    const Allowance allowance(kWorth);
+    std::optional<verdict::AlgebraicCertificate> found;
+    try {
+      found = verdict::algebraic_certificate(posed_.inequalities, posed_.lmi);
+    } catch (const OutOfAllowance&) {
+    }
     if (!found) return {};
     return {true, 0, kWideDigits,
             std::make_shared<const verdict::AlgebraicCertificate>(*std::move(found))};

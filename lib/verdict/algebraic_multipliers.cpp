@@ -18,7 +18,8 @@ namespace {
 using Eigen::Index;
 using numbers::RationalMatrix;
 
-constexpr Index kLargest = 12;  // rows of a matrix whose eigenvalues are tried
+constexpr double kFractionWork = 1e-6;  // seconds of one operation in long fractions
+constexpr Index kLargest = 12;          // rows of a matrix whose eigenvalues are tried
 
 /// The weights that a multiplier may have, the fewest first: the coefficients of 1, l + m, l m.
 constexpr std::array<std::array<bool, 3>, 4> kWeights = {
@@ -87,9 +88,11 @@ class Search {
     for (const NamedMatrix& M : matrices)
       if (M.value.size() == 1 && of_.instance.values.contains(M.name)) scalars.push_back(M);
     std::vector<NamedMatrix> result = square;
+    const Index largest = std::ranges::max_element(lmi_.blocks, {}, &lmi::Block::size)->size;
     for (const NamedMatrix& A : square)
       for (const NamedMatrix& c : scalars)
         for (const NamedMatrix& r : scalars) {
+          if (2 * A.value.rows() > largest) continue;
           if (A.value.rows() == 1 || c.name == r.name || r.value(0) == 0) continue;
           RationalMatrix shifted = A.value;
           shifted.diagonal().array() -= c.value(0);
@@ -131,7 +134,7 @@ class Search {
   /// Whether weights c_k may exist, in double: f_k with elements z_k* B_ki z_k that depend on each
   /// other.
   bool may_exclude(const Vectors& Z, const Root& root) const {
-    constexpr double kRounding = 1e-8;
+    constexpr double kRounding = 1e-8, kSign = 1e-3;
     const std::complex<double> l = rounded(root);
     numbers::Matrix f = numbers::Matrix::Zero(lmi_.unknowns, std::ssize(Z));
     for (Index k = 0; k < f.cols(); ++k) {
@@ -141,6 +144,7 @@ class Search {
       const numbers::ComplexVector z = vector_at(l, *Zk).normalized();
       double size = 0;
       for (const auto& [i, B] : lmi_.blocks[static_cast<std::size_t>(k)].terms) {
+        if (B.nonZeros() == 0) continue;
         size = std::max(size, B.coeffs().cwiseAbs().maxCoeff());
         if (i > 0) f(i - 1, k) = z.real().dot(B * z.real()) + z.imag().dot(B * z.imag());
       }
@@ -154,7 +158,12 @@ class Search {
       if (Z[static_cast<std::size_t>(k)]) used.push_back(k);
     if (used.empty()) return false;
     const numbers::Matrix of = f(Eigen::all, used);
-    return numbers::smallest_eigenvalue(of.transpose() * of) < kRounding;
+    const numbers::SymmetricEigen eigen(of.transpose() * of);
+    if (eigen.values()[0] >= kRounding) return false;
+    if (used.size() > 1 && eigen.values()[1] < kRounding) return true;
+    // The only weights there are must have one sign.
+    const numbers::Vector c = eigen.vectors().col(0);
+    return std::min(c.maxCoeff(), -c.minCoeff()) < kSign;
   }
 
   const std::vector<RationalBlock>& blocks() {
@@ -178,7 +187,8 @@ class Search {
     const RationalMatrix C = companion(p);
     const Index d = C.rows();
     for (const auto& weights : kWeights) {
-      check_stop();
+      spend(static_cast<double>(d * d * lmi_.unknowns * std::ssize(Z) * std::ssize(Z)) *
+            kFractionWork);
       std::vector<std::pair<std::size_t, int>> places;
       std::map<int, Index> rows;  // of an unknown
       for (std::size_t k = 0; k < of.size(); ++k)

@@ -134,6 +134,9 @@ std::vector<NamedMatrix> constant_matrices(const lmi::Inequalities& of) {
   return result;
 }
 
+/// Seconds for n^-4 of an eigenvector, its roots included.
+constexpr double kEigenvectorWork = 1e-5;
+
 std::vector<Eigenvector> eigenvectors_of(const RationalMatrix& A,
                                          const std::vector<NamedMatrix>& others) {
   const Index n = A.rows();
@@ -151,7 +154,7 @@ std::vector<Eigenvector> eigenvectors_of(const RationalMatrix& A,
   }
   std::vector<Eigenvector> result;
   for (const RationalMatrix& b : starts) {
-    check_stop();
+    spend(static_cast<double>(n * n * n * n) * kEigenvectorWork);
     const Eigenvector whole = eigenvector(A, b);
     for (Polynomial& p : factors_to_try(square_free(whole.p))) {
       RationalMatrix V = reduced(whole.V, p);

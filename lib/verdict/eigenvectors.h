@@ -20,7 +20,7 @@ std::vector<NamedMatrix> constant_matrices(const lmi::Inequalities& of);
 /// w = V e is an eigenvector of A at each root l of p, e = (1, l, ..., l^(d-1))'.
 struct Eigenvector {
   Polynomial p;
-  numerics::RationalMatrix V;  ///< n x d, independent columns
+  numerics::RationalMatrix V;  ///< n x d; V e is not 0 at any root
 };
 
 /// For vectors b: with the p of least degree such that p(A) b = 0, (l - A) w(l) = p(l) b for
