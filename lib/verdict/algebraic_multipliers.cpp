@@ -18,7 +18,7 @@ namespace {
 using Eigen::Index;
 using numbers::RationalMatrix;
 
-constexpr double kFractionWork = 1e-6;  // seconds of one operation in long fractions
+constexpr double kFractionWork = 1e-7;  // seconds of one operation in long fractions
 constexpr Index kLargest = 12;          // rows of a matrix whose eigenvalues are tried
 
 /// The weights that a multiplier may have, the fewest first: the coefficients of 1, l + m, l m.

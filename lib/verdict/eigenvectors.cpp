@@ -135,7 +135,7 @@ std::vector<NamedMatrix> constant_matrices(const lmi::Inequalities& of) {
 }
 
 /// Seconds for n^-4 of an eigenvector, its roots included.
-constexpr double kEigenvectorWork = 1e-5;
+constexpr double kEigenvectorWork = 2e-6;
 
 std::vector<Eigenvector> eigenvectors_of(const RationalMatrix& A,
                                          const std::vector<NamedMatrix>& others) {
@@ -147,11 +147,11 @@ std::vector<Eigenvector> eigenvectors_of(const RationalMatrix& A,
       if (std::ranges::find(starts, b) == starts.end()) starts.push_back(b);
     }
   };
-  add(RationalMatrix::Identity(n, n));
   for (const NamedMatrix& other : others) {
     if (other.value.cols() == n) add(unobserved(A, other.value));
     if (other.value.rows() == n) add(unobserved(A, other.value.transpose()));
   }
+  add(RationalMatrix::Identity(n, n));
   std::vector<Eigenvector> result;
   for (const RationalMatrix& b : starts) {
     spend(static_cast<double>(n * n * n * n) * kEigenvectorWork);
