@@ -58,14 +58,15 @@ class Search {
   std::optional<AlgebraicCertificate> run() {
     const std::vector<NamedMatrix> matrices = constant_matrices(of_);
     for (const NamedMatrix& A : candidates(matrices))
-      for (const Eigenvector& w : eigenvectors_of(A.value, matrices))
-        for (const Vectors& Z : vectors(w))
-          for (const Root& root : roots_of(w.p))
-            if (may_exclude(Z, root))
-              if (auto found = certificate(Z, w.p, root)) {
-                found->matrix = A.name;
-                return found;
-              }
+      for (const RationalMatrix& b : starts_of(A.value, matrices))
+        for (const Eigenvector& w : eigenvectors_from(A.value, b))
+          for (const Vectors& Z : vectors(w))
+            for (const Root& root : roots_of(w.p))
+              if (may_exclude(Z, root))
+                if (auto found = certificate(Z, w.p, root)) {
+                  found->matrix = A.name;
+                  return found;
+                }
     return std::nullopt;
   }
 

@@ -134,11 +134,8 @@ std::vector<NamedMatrix> constant_matrices(const lmi::Inequalities& of) {
   return result;
 }
 
-/// Seconds for n^-4 of an eigenvector, its roots included.
-constexpr double kEigenvectorWork = 2e-6;
-
-std::vector<Eigenvector> eigenvectors_of(const RationalMatrix& A,
-                                         const std::vector<NamedMatrix>& others) {
+std::vector<RationalMatrix> starts_of(const RationalMatrix& A,
+                                      const std::vector<NamedMatrix>& others) {
   const Index n = A.rows();
   std::vector<RationalMatrix> starts;
   const auto add = [&](const RationalMatrix& basis) {
@@ -152,14 +149,18 @@ std::vector<Eigenvector> eigenvectors_of(const RationalMatrix& A,
     if (other.value.rows() == n) add(unobserved(A, other.value.transpose()));
   }
   add(RationalMatrix::Identity(n, n));
+  return starts;
+}
+
+std::vector<Eigenvector> eigenvectors_from(const RationalMatrix& A, const RationalMatrix& b) {
+  constexpr double kWork = 2e-6;  // seconds, times n^4
+  const auto n = static_cast<double>(A.rows());
+  spend(n * n * n * n * kWork);
+  const Eigenvector whole = eigenvector(A, b);
   std::vector<Eigenvector> result;
-  for (const RationalMatrix& b : starts) {
-    spend(static_cast<double>(n * n * n * n) * kEigenvectorWork);
-    const Eigenvector whole = eigenvector(A, b);
-    for (Polynomial& p : factors_to_try(square_free(whole.p))) {
-      RationalMatrix V = reduced(whole.V, p);
-      result.push_back({std::move(p), std::move(V)});
-    }
+  for (Polynomial& p : factors_to_try(square_free(whole.p))) {
+    RationalMatrix V = reduced(whole.V, p);
+    result.push_back({std::move(p), std::move(V)});
   }
   return result;
 }

@@ -23,11 +23,14 @@ struct Eigenvector {
   numerics::RationalMatrix V;  ///< n x d; V e is not 0 at any root
 };
 
-/// For vectors b: with the p of least degree such that p(A) b = 0, (l - A) w(l) = p(l) b for
-/// w(l) = (p(l) - p(A))/(l - A) b. The b are the unit vectors and bases of what each of `others`
-/// with fitting columns, or its transpose, does not observe; p are factors that a limit may hang
-/// on.
-std::vector<Eigenvector> eigenvectors_of(const numerics::RationalMatrix& A,
-                                         const std::vector<NamedMatrix>& others);
+/// Vectors b to begin with: bases of what each of `others` with fitting columns, or its transpose,
+/// does not observe, and the unit vectors.
+std::vector<numerics::RationalMatrix> starts_of(const numerics::RationalMatrix& A,
+                                                const std::vector<NamedMatrix>& others);
+
+/// With the p of least degree such that p(A) b = 0, (l - A) w(l) = p(l) b for
+/// w(l) = (p(l) - p(A))/(l - A) b; also for factors of p that a limit may hang on.
+std::vector<Eigenvector> eigenvectors_from(const numerics::RationalMatrix& A,
+                                           const numerics::RationalMatrix& b);
 
 }  // namespace gainsmith::verdict
