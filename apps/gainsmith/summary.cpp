@@ -169,14 +169,24 @@ std::string eigenvalues_text(const numbers::Matrix& rows) {
   return text;
 }
 
+/// Whether the lower bound is about gains within their bounds alone.
+bool is_within_gain_bounds(const model::Gains& gains) {
+  return std::ranges::any_of(gains.optimum_multipliers, [&](const auto& multiplier) {
+    return std::ranges::none_of(gains.margins, [&](const model::Margin& margin) {
+      return multiplier.first.starts_with(margin.name);
+    });
+  });
+}
+
 std::string objective_line(const model::Gains& gains) {
   if (!gains.objective) return "";
   std::string text = brief(*gains.objective, 10);
   if (gains.objective_lower_bound) {
     constexpr double kTells =
         0.1;  // of the objective: a wider bracket says little of its upper end
-    const std::string optimum =
-        gains.bounds.empty() ? "the optimum" : "with the condition on the gains the optimum";
+    const std::string optimum = is_within_gain_bounds(gains)
+                                    ? "with the condition on the gains the optimum"
+                                    : "the optimum";
     const std::string low = brief(*gains.objective_lower_bound, 10);
     const std::string high = brief(*gains.objective, 10);
     const double width = *gains.objective - *gains.objective_lower_bound;

@@ -32,6 +32,7 @@
 // together is conclude(). A no comes from an attempt without bounds.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -120,9 +121,14 @@ class Climb {
   bool out_of_allowance_ = false;
 };
 
+/// The certificate that excludes every solution with this objective or less; none where none is
+/// found.
+using ExcludesObjective = std::function<std::optional<model::CertificateRecord>(double value)>;
+
 /// The verdict of the attempts, with the point or the certificate, its margins, bounds and
 /// messages. A yes is a check of the decimals that are written, a no a certificate that was checked
-/// on the decimals of the file; never the solver's own word.
-void conclude(const Climb& climb, model::Gains& gains);
+/// on the decimals of the file; never the solver's own word. `excludes` is asked where weak duality
+/// shows no lower bound near the minimum.
+void conclude(const Climb& climb, const ExcludesObjective& excludes, model::Gains& gains);
 
 }  // namespace gainsmith::design

@@ -146,7 +146,7 @@ void add_lower_bound(const Climb& climb, const Attempt& point, model::Gains& gai
                                 point.solution);
   };
   // What the inequalities alone show is about all gains, and anybody can repeat it.
-  constexpr double kSame = 1e-9;
+  constexpr double kSame = 1e-7;
   auto least = within({});
   if (!least || least->value < *gains.objective - kSame * std::abs(*gains.objective))
     if (auto less_free = within(bounds); less_free && (!least || least->value < less_free->value))
@@ -171,13 +171,35 @@ std::optional<double> solver_objective(const Climb& climb) {
       lmi::read_back(climb.posed().lmi, minimum->formulation, minimum->solution));
 }
 
+/// The greater of two lower bounds near the objective that a certificate shows.
+void bound_by_certificate(const ExcludesObjective& excludes, model::Gains& gains) {
+  for (const double away : {9e-7, 1e-4}) {
+    const double below = *gains.objective - away * std::abs(*gains.objective);
+    if (gains.objective_lower_bound >= below) return;
+    const auto found = excludes(below);
+    if (!found) continue;
+    gains.objective_lower_bound = below;
+    gains.optimum_multipliers.clear();
+    if (!found->exact)
+      gains.solver.add_message(
+          "no solution with an objective below the lower bound survives a "
+          "relative change of " +
+          brief(found->backward_error, 1) + " of the coefficients: a certificate in " +
+          std::to_string(found->digits) + " digits");
+    return;
+  }
+}
+
 /// A minimum is one that a bound brackets to 1e-6 of its size: for all solutions, or for those whose
 /// unknowns are at most twice as large. A margin that was asked for has its price.
-void note_bracket(const Climb& climb, const Attempt& point, model::Gains& gains) {
+void note_bracket(const Climb& climb, const Attempt& point, const ExcludesObjective& excludes,
+                  model::Gains& gains) {
   const auto& least = gains.objective_lower_bound;
   const auto is_near = [&](double low) {
     return lmi::is_narrow_bracket(low, *gains.objective, point.formulation);
   };
+  if (least && is_near(*least)) return;
+  if (point.holds() && excludes) bound_by_certificate(excludes, gains);
   if (least && is_near(*least)) return;
   const bool is_priced = climb.posed().choices().margin > model::SynthesisOptions{}.margin;
   const bool is_estimated =
@@ -192,7 +214,8 @@ void note_bracket(const Climb& climb, const Attempt& point, model::Gains& gains)
           : std::string("how near the objective is to the optimum is not shown"));
 }
 
-void note_objective(const Climb& climb, const Attempt& point, model::Gains& gains) {
+void note_objective(const Climb& climb, const Attempt& point, const ExcludesObjective& excludes,
+                    model::Gains& gains) {
   const lmi::Lmi& lmi = climb.posed().lmi;
   if (!lmi.has_objective) return;
   if (!lmi::has_minimum(lmi, climb.bounds())) {
@@ -212,7 +235,7 @@ void note_objective(const Climb& climb, const Attempt& point, model::Gains& gain
           "the least value of the objective is only approached, as unknowns and gains grow without "
           "end; this one is near it");
     else
-      note_bracket(climb, point, gains);
+      note_bracket(climb, point, excludes, gains);
     return;
   }
   const Attempt* minimum = climb.find(AttemptKind::minimum);
@@ -231,7 +254,8 @@ void note_objective(const Climb& climb, const Attempt& point, model::Gains& gain
              : std::string()));
 }
 
-void accept_point(const Climb& climb, const Attempt& point, model::Gains& gains) {
+void accept_point(const Climb& climb, const Attempt& point, const ExcludesObjective& excludes,
+                  model::Gains& gains) {
   const lmi::Lmi& lmi = climb.posed().lmi;
   const lmi::Unknowns& unknowns = climb.posed().inequalities.unknowns;
   gains.margins = point.margins.margins;
@@ -241,7 +265,7 @@ void accept_point(const Climb& climb, const Attempt& point, model::Gains& gains)
     gains.unknowns.emplace_back(unknown.name, values.at(unknown.name));
   const lmi::GainBounds& bounds = climb.bounds();
   gains.bounds = lmi::reached_bounds(bounds, point.x);
-  note_objective(climb, point, gains);
+  note_objective(climb, point, excludes, gains);
   if (!point.holds()) return note_failures(point, gains);
   gains.verdict = model::Verdict::yes;
   if (climb.is_free(point)) {
@@ -357,7 +381,7 @@ bool refute_by_zero_diagonal(const Climb& climb, model::Gains& gains) {
 
 }  // namespace
 
-void conclude(const Climb& climb, model::Gains& gains) {
+void conclude(const Climb& climb, const ExcludesObjective& excludes, model::Gains& gains) {
   gains.verdict = model::Verdict::undecided;
   const Attempt* point = climb.point();
   const Attempt* refuted = climb.refutation();
@@ -369,7 +393,7 @@ void conclude(const Climb& climb, model::Gains& gains) {
   if (point != nullptr && (point->holds() || refuted == nullptr)) {
     gains.solver = record_of(*point, has_objective);
     if (!point->holds()) gains.solver.status = "undecided";
-    return accept_point(climb, *point, gains);
+    return accept_point(climb, *point, excludes, gains);
   }
   if (refuted != nullptr) {
     gains.solver = record_of(*refuted, has_objective);

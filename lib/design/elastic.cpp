@@ -80,6 +80,20 @@ model::Instance without_objective(const model::Instance& instance) {
   });
 }
 
+model::Instance with_objective_below(const model::Instance& instance, double value) {
+  const model::Formula& objective = *instance.design->objective;
+  expr::Composer compose(objective.place);
+  const int difference =
+      compose.apply(expr::Op::subtract,
+                    {compose.number(decimal17(value)), compose.program(objective.program)}, {1, 1});
+  const std::string name = objective.text + " <= " + brief(value, 10);
+  const expr::Program program = compose.take(difference);
+  return with_design(without_objective(without_gains(instance)), [&](Design& design) {
+    design.inequalities.push_back(
+        {name, {}, {{name, program, false}}, objective.place, objective.place});
+  });
+}
+
 model::Instance with_inequalities(const model::Instance& instance,
                                   const std::set<std::string>& names) {
   return with_design(instance, [&](Design& design) {

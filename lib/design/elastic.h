@@ -20,6 +20,9 @@ model::Instance without_gains(const model::Instance& instance);
 /// Without its objective: any solution will do.
 model::Instance without_objective(const model::Instance& instance);
 
+/// Without gains, and its objective, at most `value`, as an inequality.
+model::Instance with_objective_below(const model::Instance& instance, double value);
+
 /// With the inequalities named, the others left out.
 model::Instance with_inequalities(const model::Instance& instance,
                                   const std::set<std::string>& names);

@@ -12,6 +12,7 @@
 #include "base/version.h"
 #include "bind/instance.h"
 #include "design/attempts.h"
+#include "design/elastic.h"
 #include "design/exchange.h"
 #include "design/gain_values.h"
 #include "design/hautus.h"
@@ -180,7 +181,8 @@ class Synthesis {
     }
     const Concluding concluding;
     if (climb_ && climb_->has_begun()) {
-      conclude(*climb_, gains);
+      conclude(*climb_, stopped || depth_ != Depth::thorough ? ExcludesObjective() : excludes(),
+               gains);
       report_plans(plan_, round_, gains);
     }
     // A point inside, where a minimum was asked for, is not all that was to come.
@@ -228,6 +230,20 @@ class Synthesis {
     if (fault)
       gains.solver.add_message("an inequality has no value at " + fault->point.label + ": " +
                                to_string(fault->place) + ": " + fault->message);
+  }
+
+  ExcludesObjective excludes() const {
+    return [this](double value) -> std::optional<model::CertificateRecord> {
+      const Concluding stops_at_once(0);
+      try {
+        const auto found = synthesize(with_objective_below(inequalities_.instance, value), options_,
+                                      Depth::verdict);
+        if (found.verdict == model::Verdict::no && found.certificate->is_about_problem())
+          return found.certificate;
+      } catch (const Stopped&) {
+      }
+      return std::nullopt;
+    };
   }
 
   /// All attempts on the plan; whether it has grown by what they showed.

@@ -427,7 +427,7 @@ TEST(Attempts, WhatIsNoNumberIsNoYes) {
       climb.to_point();
       climb.to_end();
       model::Gains gains;
-      conclude(climb, gains);
+      conclude(climb, {}, gains);
       EXPECT_EQ(gains.verdict, Verdict::undecided) << x;
     }
 }

@@ -163,7 +163,7 @@ class Scripted {
     for (const Record& record : before)
       EXPECT_NE(std::find(after.begin(), after.end(), record), after.end())
           << "a record has changed";
-    conclude(climb, gains);
+    conclude(climb, {}, gains);
     const std::size_t programs = asked.size();
     climb.to_point();
     climb.to_end();

@@ -296,6 +296,24 @@ TEST(SynthesizeTest, OfAnUnboundedObjectiveAPointIsGiven) {
   EXPECT_NE(found.solver.message.find("unbounded"), std::string::npos) << found.solver.message;
 }
 
+/// With w'A = phi w', phi the golden ratio: |Y w| >= (phi/w'B) |w|^2, so that |Y| >= sqrt(5). The
+/// multipliers of the optimum are multiples of w w', which has no interior and no fractions.
+TEST(SynthesizeTest, AnOptimumOnAnIrrationalEigenvectorIsShownByACertificate) {
+  const model::Gains found = synthesized(
+      "problem: p\nmethod:\n  method: m\n  data: {A: n x n, B: n x m}\n"
+      "  unknowns: {P: symmetric n, Y: m x n}\n"
+      "  require: {pos: P > I, stab: He(A*P + B*Y) < 0}\n"
+      "  minimize: \"sum(j in 1..n, abs(Y(1, j)))\"\n"
+      "data: {A: [[0, 1], [1, 1]], B: [[0], [1]]}\n");
+  ASSERT_EQ(found.verdict, model::Verdict::yes);
+  EXPECT_EQ(found.solver.status, "optimal");
+  EXPECT_NEAR(*found.objective, std::sqrt(5), 3e-6);
+  ASSERT_TRUE(found.objective_lower_bound);
+  EXPECT_LE(*found.objective_lower_bound, std::sqrt(5) * (1 + 1e-15));
+  EXPECT_GE(*found.objective_lower_bound, std::sqrt(5) * (1 - 3e-6));
+  EXPECT_TRUE(found.optimum_multipliers.empty());
+}
+
 /// Multiplying the weights scales the solution and nothing else.
 TEST(SynthesizeTest, GainsDoNotDependOnTheUnitsOfTheCost) {
   const auto gain = [](const std::string& weight) {
