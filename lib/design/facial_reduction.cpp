@@ -132,7 +132,7 @@ class FacialReduction {
   Attempt finished() {
     if (excludes()) {
       result_.point = false;
-      result_.refutation = verdict::Refutation{true, 0, kWideDigits, kept_};
+      result_.refutation = verdict::Refutation{true, 0, kWideDigits, multipliers_of_blocks()};
       result_.chain = faces_.why();
     }
     result_.on_face = true;
@@ -457,31 +457,31 @@ class FacialReduction {
     for (const verdict::FaceOfBlock& face : exact.faces)
       on += (on.empty() ? "" : ", ") + faces_.names()[face.block];
     if (exact.say == verdict::ExactMultipliers::Say::excludes) {
-      if (faces_.steps() == 0) keep_multipliers(exact);
-      faces_.exclude("exact multipliers of " + on + " exclude every solution");
+      faces_.exclude("exact multipliers of " + on + " exclude every solution", exact);
       return finish();
     }
     faces_.note("exact multipliers of " + on + " leave equality on their range");
     faces_.restrict_to(exact.faces);
   }
 
-  /// Those of the blocks themselves, which are V S V'.
-  void keep_multipliers(const verdict::ExactMultipliers& exact) {
-    auto kept = std::make_shared<verdict::AlgebraicCertificate>();
-    kept->p = {0, 1};
-    kept->root = verdict::roots(kept->p).front();
-    for (std::size_t k = 0; k < exact.faces.size(); ++k)
-      for (auto& [weight, column] : numbers::rational_squares(exact.S[k]))
-        kept->multipliers.push_back(
-            {exact.faces[k].block, exact.faces[k].V.lazyProduct(column), verdict::weight(weight)});
-    kept_ = std::move(kept);
+  /// Of one step that excludes the blocks themselves.
+  std::shared_ptr<const verdict::AlgebraicCertificate> multipliers_of_blocks() const {
+    const auto& [faces, S] = faces_.excluding();
+    if (faces.empty()) return nullptr;
+    auto found = std::make_shared<verdict::AlgebraicCertificate>();
+    found->p = {0, 1};
+    found->root = verdict::roots(found->p).front();
+    for (std::size_t k = 0; k < faces.size(); ++k)
+      for (auto& [weight, column] : numbers::rational_squares(S[k]))
+        found->multipliers.push_back(
+            {faces[k].block, faces[k].V.lazyProduct(column), verdict::weight(weight)});
+    return found;
   }
 
   const Posed& posed_;
   const Solve& solve_;
   std::vector<RationalBlock> stated_;
   Faces faces_;
-  std::shared_ptr<const verdict::AlgebraicCertificate> kept_;
   Attempt result_;
   sdp::Solution solved_;         ///< the first round of what was left last
   lmi::Formulation posed_left_;  ///< and its program

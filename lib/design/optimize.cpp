@@ -5,6 +5,7 @@
 #include <limits>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -15,6 +16,7 @@
 #include "design/elastic.h"
 #include "design/hautus.h"
 #include "design/joint_refinement.h"
+#include "design/limits.h"
 #include "design/results.h"
 #include "design/synthesize.h"
 #include "search/ipopt.h"
@@ -40,6 +42,7 @@ class OuterSearch {
       : own_(own), request_(request), threads_(threads), solver_(solver), known_(known) {}
 
   model::Gains run() {
+    if (auto none = excluded_everywhere()) return *std::move(none);
     std::vector<search::Axis> axes;
     for (const SearchedScalar& scalar : request_.over) axes.push_back(scalar.axis);
     search::MinimizeOptions options;
@@ -122,6 +125,45 @@ class OuterSearch {
     };
     const std::vector<search::Point> points = corners();
     return std::all_of(points.begin(), points.end(), hides);
+  }
+
+  /// A no by the inequalities that no searched scalar changes.
+  std::optional<model::Gains> excluded_everywhere() const {
+    try {
+      const auto plain = without_objective(bind::evaluate(own_.design, overrides(own_values())));
+      std::set<std::string> fixed;
+      for (const auto& inequality : own_.design->inequalities)
+        if (!inequality.calls_functions() &&
+            !is_changed(with_inequalities(plain, {inequality.name})))
+          fixed.insert(inequality.name);
+      if (fixed.empty()) return std::nullopt;
+      model::Gains gains = synthesize(with_inequalities(plain, fixed), solver_, Depth::quick);
+      if (gains.verdict != model::Verdict::no || !gains.certificate->is_about_problem())
+        return std::nullopt;
+      gains.solver.add_message(
+          "the certificate is about inequalities that no searched value "
+          "changes: no " +
+          searched_names() + " has gains");
+      return gains;
+    } catch (const InputError&) {
+      return std::nullopt;
+    }
+  }
+
+  std::string searched_names() const {
+    std::string names;
+    for (const SearchedScalar& scalar : request_.over)
+      names += (names.empty() ? "" : ", ") + scalar.name;
+    return names;
+  }
+
+  bool is_changed(const model::Instance& instance) const {
+    const std::vector<std::string> used = scalars_in_use(*instance.design);
+    const auto uses = [&](const SearchedScalar& scalar) {
+      return std::ranges::find(used, scalar.name) != used.end();
+    };
+    return std::ranges::any_of(request_.over, uses) ||
+           (request_.extreme && uses(*request_.extreme));
   }
 
   model::Overrides overrides(const search::Point& point) const {

@@ -46,11 +46,9 @@ constexpr bool is_irrational(Op op) {
 /// EvaluationError for fractions that are too long to compute with. `times`: as much longer they
 /// will be.
 void check_size(const RationalMatrix& x, Eigen::Index times = 1) {
-  const std::size_t kMostBits = 4000 / static_cast<std::size_t>(std::max<Eigen::Index>(times, 1));
-  for (const Rational& value : x.reshaped())
-    if (mpz_sizeinbase(mpq_numref(value.backend().data()), 2) > kMostBits ||
-        mpz_sizeinbase(mpq_denref(value.backend().data()), 2) > kMostBits)
-      throw expr::EvaluationError("the fraction has more than 1,200 digits");
+  constexpr std::size_t kMostBits = 4000;
+  if (most_bits(x) > kMostBits / static_cast<std::size_t>(std::max<Eigen::Index>(times, 1)))
+    throw expr::EvaluationError("the fraction has more than 1,200 digits");
 }
 
 Rational whole_part(const Rational& x) {
@@ -161,6 +159,14 @@ RationalMatrix rational_value(const expr::Program& program, const RationalValues
     evaluator.set(input.name, found->second);
   }
   return evaluator.run();
+}
+
+std::size_t most_bits(const RationalMatrix& x) {
+  std::size_t most = 0;
+  for (const Rational& value : x.reshaped())
+    most = std::max({most, mpz_sizeinbase(mpq_numref(value.backend().data()), 2),
+                     mpz_sizeinbase(mpq_denref(value.backend().data()), 2)});
+  return most;
 }
 
 RationalMatrix rational_symmetric_part(const RationalMatrix& x) {

@@ -33,6 +33,9 @@ void require_fractions(const expr::Program& program);
 /// Evaluates once. EvaluationError when an operation or an input has no value here.
 RationalMatrix rational_value(const expr::Program& program, const RationalValues& values);
 
+/// Of the longest numerator or denominator.
+std::size_t most_bits(const RationalMatrix& x);
+
 /// (X + X') / 2.
 RationalMatrix rational_symmetric_part(const RationalMatrix& x);
 

@@ -17,9 +17,11 @@ using numbers::RationalMatrix;
 using numbers::RationalValues;
 
 /// The values of the instructions that do not depend on unknowns or variables and are fractions.
-/// Those of the text alone, such as I, are left out.
+/// Those of the text alone, such as I, are left out, and what has long fractions, as iterations
+/// have: no eigenvalue of it decides.
 std::vector<std::optional<RationalMatrix>> constants_of(const expr::Program& program,
                                                         const RationalValues& known) {
+  constexpr std::size_t kMostBits = 200;
   std::vector<std::optional<RationalMatrix>> values;
   std::vector<bool> is_data;
   for (const expr::Instruction& instruction : program.code) {
@@ -37,7 +39,7 @@ std::vector<std::optional<RationalMatrix>> constants_of(const expr::Program& pro
     try {
       RationalMatrix result;
       numbers::RationalNumbers().apply(instruction, operands, result);
-      value = std::move(result);
+      if (numbers::most_bits(result) <= kMostBits) value = std::move(result);
     } catch (const expr::EvaluationError&) {
       continue;
     }
@@ -103,6 +105,9 @@ RationalMatrix reduced(const RationalMatrix& V, const Polynomial& factor) {
 }
 
 RationalMatrix unobserved(const RationalMatrix& A, const RationalMatrix& C) {
+  constexpr double kWork = 5e-7;  // seconds of an operation in the fractions of powers
+  const auto n = static_cast<double>(A.rows());
+  spend(2 * n * n * n * static_cast<double>(C.rows()) * kWork);
   RationalMatrix all(C.rows() * A.rows(), A.cols()), rows = C;
   for (Index k = 0; k < A.rows(); ++k) {
     all.middleRows(k * C.rows(), C.rows()) = rows;

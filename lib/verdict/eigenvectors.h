@@ -14,7 +14,8 @@ struct NamedMatrix {
   numerics::RationalMatrix value;
 };
 
-/// The constant matrices and scalars that the inequalities are made of, each once.
+/// The constant matrices and scalars that the inequalities are made of, each once; none whose
+/// fractions are long.
 std::vector<NamedMatrix> constant_matrices(const lmi::Inequalities& of);
 
 /// w = V e is an eigenvector of A at each root l of p, e = (1, l, ..., l^(d-1))'.

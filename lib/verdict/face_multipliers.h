@@ -27,11 +27,10 @@ struct FoundMultipliers {
   double v = 0;
 };
 
-struct ExactMultipliers {
+/// Of the blocks with Y_k != 0.
+struct ExactMultipliers : FaceMultipliers {
   enum class Say { nothing, excludes, restricts };
   Say say = Say::nothing;
-  std::vector<FaceOfBlock> faces;          ///< of the blocks with Y_k != 0
-  std::vector<numbers::RationalMatrix> S;  ///< one for each of them
 };
 
 ExactMultipliers exact_multipliers(const Faces& faces, const FoundMultipliers& found);

@@ -77,7 +77,8 @@ std::string Faces::why() const {
   return text;
 }
 
-void Faces::exclude(const std::string& why) {
+void Faces::exclude(const std::string& why, FaceMultipliers by) {
+  if (steps_.empty()) excluding_ = std::move(by);
   excluded_ = true;
   steps_.push_back(why);
 }
@@ -126,7 +127,9 @@ bool Faces::is_zero_diagonal(std::size_t k, int row) {
   if (constant == 0 && !block.strict) return true;
   const int stated = kept_[k][static_cast<std::size_t>(row)];
   exclude(names_[k] + ": element " + place_of(stated) + " is " + (constant < 0 ? "below " : "") +
-          "0 for all unknowns");
+              "0 for all unknowns",
+          {{{k, {row}, RationalMatrix::Identity(block.size, block.size).col(row)}},
+           {RationalMatrix::Identity(1, 1)}});
   return false;
 }
 
@@ -145,6 +148,11 @@ bool Faces::pairs(std::size_t k, std::size_t l) {
   const auto factor = opposite(a, b, !numbers);
   if (!factor) return false;
   const std::string both = names_[k] + " and " + names_[l];
+  std::vector<int> rows(static_cast<std::size_t>(a.size));
+  std::iota(rows.begin(), rows.end(), 0);
+  const RationalMatrix I = RationalMatrix::Identity(a.size, a.size);
+  const std::vector<FaceOfBlock> faces = {{k, rows, I}, {l, rows, I}};
+  const FaceMultipliers sum{faces, {I, *factor * I}};
   if (numbers) {
     const auto constant = [](const RationalBlock& block) {
       const RationalMatrix* matrix = term_of(block, 0);
@@ -153,19 +161,16 @@ bool Faces::pairs(std::size_t k, std::size_t l) {
     const Rational room = constant(a) + *factor * constant(b);
     if (room > 0) return false;
     if (room < 0) {
-      exclude(both + " exclude each other");
+      exclude(both + " exclude each other", sum);
       return true;
     }
   }
   if (a.strict || b.strict) {
-    exclude(both + " are opposite, one of them strict");
+    exclude(both + " are opposite, one of them strict", sum);
     return true;
   }
-  std::vector<int> rows(static_cast<std::size_t>(a.size));
-  std::iota(rows.begin(), rows.end(), 0);
-  const RationalMatrix I = RationalMatrix::Identity(a.size, a.size);
   steps_.push_back(both + " are opposite and leave equality only");
-  restrict_to({{k, rows, I}, {l, rows, I}});
+  restrict_to(faces);
   return true;
 }
 

@@ -33,6 +33,12 @@ struct FaceOfBlock {
   numbers::RationalMatrix V;
 };
 
+/// Y_k = V_k S_k V_k' of the blocks of `faces`.
+struct FaceMultipliers {
+  std::vector<FaceOfBlock> faces;
+  std::vector<numbers::RationalMatrix> S;  ///< one for each of them
+};
+
 class Faces {
  public:
   /// `names` of the blocks, for why().
@@ -51,10 +57,12 @@ class Faces {
   /// Sets those y to 0 on which, with the others, no block depends: solutions stay solutions.
   void drop_dependent();
 
-  /// No x satisfies the blocks: an exact multiplier, as the caller has shown.
-  void exclude(const std::string& why);
+  /// No x satisfies the blocks: by these exact multipliers, or as the caller has shown.
+  void exclude(const std::string& why, FaceMultipliers by = {});
 
   bool excluded() const { return excluded_; }
+  /// What excludes the blocks as they were given: empty after more than one step.
+  const FaceMultipliers& excluding() const { return excluding_; }
   /// "corner: element (2, 2) is 0 for all unknowns"; the steps so far, the last one first.
   std::string why() const;
   /// How many steps were made.
@@ -99,6 +107,7 @@ class Faces {
   std::vector<Rational> origin_;
   numbers::RationalMatrix directions_;
   std::vector<std::string> steps_;
+  FaceMultipliers excluding_;
   bool excluded_ = false;
 };
 

@@ -118,13 +118,31 @@ TEST(Search, ParametersWithoutAValueAreFound) {
 TEST(Search, AHiddenModeEndsItWithItsName) {
   const YamlProblem problem(
       "problem: p\nmethod: static-output-feedback\n"
-      "data: {A: [[1, 0], [0, 2]], B: [[1], [1]], C: [[1, 0]]}\nno campaign: static\n");
+      "data: {A: [[1, 0, 0], [0, 1.5, 0], [0, 0, 2]], B: [[1, 0], [0, 1], [1, 1]], "
+      "C: [[1, 0, 0], [0, 1, 0]]}\nno campaign: static\n");
   const model::Gains gains =
       synthesize_searched(problem.instance, request_of(problem.instance), 1, {});
   EXPECT_EQ(gains.verdict, model::Verdict::undecided);
   EXPECT_EQ(gains.search->evaluations, 3);
-  EXPECT_NE(gains.solver.message.find("eigenvalue 2 in the direction [0; 1]"), std::string::npos)
+  EXPECT_NE(gains.solver.message.find("eigenvalue 2 in the direction [0; 0; 1]"), std::string::npos)
       << gains.solver.message;
+}
+
+/// Position feedback adds no damping; s^2 - (6 + F) s + 9 + 2 F has no F with a decay rate of 3.
+TEST(Search, InequalitiesWithoutTheSearchedScalarExcludeAllItsValues) {
+  for (const char* data :
+       {"{A: [[0, 1], [-1, 0]], B: [[0], [1]], C: [1, 0]}\n",
+        "{A: [[0, 1], [0, 0]], B: [[0], [1]], C: [1, 1]}\nparameters: {alpha: 3}\n",
+        "{A: [[0, 0, 1, 0], [0, 0, 0, 1], [-2, 1, 0, 0], [1, -1, 0, 0]], "
+        "B: [[0, 0], [0, 0], [1, 0], [0, 1]], C: [[1, 0, 0, 0], [0, 1, 0, 0]]}\n"}) {
+    const YamlProblem problem("problem: p\nmethod: static-output-feedback\ndata: " +
+                              std::string(data) + "no campaign: static\n");
+    const model::Gains gains =
+        synthesize_searched(problem.instance, request_of(problem.instance), 1, {});
+    EXPECT_EQ(gains.verdict, model::Verdict::no) << data;
+    EXPECT_TRUE(gains.certificate && gains.certificate->exact);
+    EXPECT_NE(gains.solver.message.find("no b has gains"), std::string::npos);
+  }
 }
 
 TEST(Search, ThreadsDoNotChangeTheResult) {

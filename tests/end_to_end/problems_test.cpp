@@ -224,12 +224,13 @@ TEST(ProblemsTest, TheLogAndJUnitNameTheCause) {
       std::string::npos);
 }
 
+/// s^3 + F s^2 + s + 1 + F has positive coefficients for F > 0, and no F with F > 1 + F.
 TEST(ProblemsTest, AnUndecidedProblemSaysSoFirst) {
   const Folder folder;
   const std::string open =
-      "problem: open\nmethod: static-output-feedback\ndata: {A: [[0, 1], [0, 0]], B: [[0], [1]], "
-      "C: "
-      "[1, 1]}\nparameters: {alpha: 3}\n";
+      "problem: open\nmethod: static-output-feedback\ndata: {A: [[0, 1, 0], [0, 0, 1], [-1, -1, "
+      "0]], "
+      "B: [[0], [0], [1]], C: [-1, 0, -1]}\n";
   std::filesystem::create_directory(folder.path("p"));
   folder.file("p/a.yaml", open + "expect: {verdict: \"yes\"}\n");
   folder.file("p/b.yaml", open);

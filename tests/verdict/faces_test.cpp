@@ -57,6 +57,18 @@ TEST(FacesTest, OppositeNumbersLeaveAnEquation) {
   }
 }
 
+/// 2 x1 > 1 and 1 > 3 x1: multipliers 1 of the first and 2/3 of the second.
+TEST(FacesTest, WhatExcludesTheBlocksAtOnceHasMultipliers) {
+  Faces faces = faces_of({block(true, {{0, matrix(1, {-1})}, {1, matrix(1, {2})}}),
+                          block(true, {{0, matrix(1, {1})}, {1, matrix(1, {-3})}})},
+                         1);
+  faces.find_plain();
+  ASSERT_TRUE(faces.excluded());
+  ASSERT_EQ(faces.excluding().S.size(), 2U);
+  EXPECT_EQ(faces.excluding().S[0](0, 0), 1);
+  EXPECT_EQ(faces.excluding().S[1](0, 0), Rational(2) / 3);
+}
+
 TEST(FacesTest, OppositeMatricesLeaveTheirElements) {
   // [x1, x2 - 1; *, x3] >= 0 and three times its negative.
   const auto terms = [](const Rational& by) {
