@@ -55,10 +55,12 @@ ExitCode report(const ReportOptions& options) {
   }
   const std::string title = results.size() == 1 ? results.front().name : title_of(options.results);
   const std::string page = page::page(results, title);
-  if (to_stdout)
+  if (to_stdout) {
     fmt::print("{}", page);
-  else
+  } else {
     write_atomically(options.output, page);
+    say("wrote " + options.output + "\n");
+  }
   return exit;
 }
 

@@ -135,7 +135,9 @@ void bind_dynamics(Binding& binding) {
       const std::string name =
           reading.observer.empty() ? signal.name : reading.observer + "." + signal.name;
       scope.definitions[name] = {{}, reading.texts.front()};
-      dynamics.signals.push_back({name, formula(reading.texts.front(), scope), std::nullopt});
+      const auto at = events_read(binding, reading.texts.front());
+      dynamics.signals.push_back({name, formula(reading.texts.front(), scope),
+                                  at.size() == 1 ? std::optional(*at.begin()) : std::nullopt});
     }
   bind_report(binding, scope);
   binding.names->results = scope;
@@ -161,6 +163,23 @@ std::set<std::string> varied(const Binding& binding) {
 }
 
 }  // namespace
+
+std::set<std::size_t> events_read(const Binding& binding, const expr::Expression& text) {
+  std::set<std::string> names = expr::names_in(text), seen;
+  std::set<std::size_t> events;
+  while (!names.empty()) {
+    const std::string name = names.extract(names.begin()).value();
+    if (!seen.insert(name).second) continue;
+    for (const model::Dynamics::Signal& signal : binding.design->dynamics->signals)
+      if (signal.name == name && signal.at) events.insert(*signal.at);
+    const auto definition = binding.names->running.definitions.find(name);
+    if (definition == binding.names->running.definitions.end()) continue;
+    std::set<std::string> inner = expr::names_in(definition->second.body);
+    for (const std::string& parameter : definition->second.parameters) inner.erase(parameter);
+    names.merge(std::move(inner));
+  }
+  return events;
+}
 
 std::size_t state_of(const model::Design& design, const std::string& name) {
   std::size_t at = 0;

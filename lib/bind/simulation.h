@@ -1,6 +1,7 @@
 // Internal to bind: plant, observers and events, outputs, signals and reports.
 #pragma once
 
+#include <set>
 #include <string>
 
 #include "bind/binding.h"
@@ -11,6 +12,9 @@ void bind_components(Binding& binding);
 
 /// What no program asks for is left out; all texts are bound.
 void finish_dynamics(Binding& binding);
+
+/// The events at which alone the outputs and signals exist that a text reads.
+std::set<std::size_t> events_read(const Binding& binding, const expr::Expression& text);
 
 /// The index of a state; the number of states when it is none.
 std::size_t state_of(const model::Design& design, const std::string& name);

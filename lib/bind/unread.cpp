@@ -18,15 +18,19 @@ std::vector<std::string> unread_names(const Binding& binding, const std::set<std
     return read.contains(name) || std::ranges::any_of(read, is_of_part) ||
            defaults.contains(name) || (member != read.end() && member->starts_with(name + "_"));
   };
+  const auto say = [&](const std::string& what, const std::string& name, const auto& of) {
+    if (is_own(of) && !is_read(name))
+      sentences.push_back("nothing reads the " + what + " '" + name + "'");
+  };
   const auto add = [&](const std::string& what, const auto& list) {
-    for (const auto& one : list)
-      if (is_own(one) && !is_read(one.name))
-        sentences.push_back("nothing reads the " + what + " '" + one.name + "'");
+    for (const auto& one : list) say(what, one.name, one);
   };
   add("datum", method.data);
   add("parameter", method.parameters);
   add("input", method.inputs);
   add("noise", method.noise);
+  for (const model::Let& let : method.let) say("definition", let.signature.name, let);
+  if (!method.observers.empty()) add("output", method.plant.outputs);
   for (const model::Component& observer : method.observers) add("state", observer.states);
   const bool has_runs = method.has_dynamics && !method.gains.empty();
   if (has_runs && is_own(method.gains.front()) &&

@@ -61,8 +61,8 @@ class PythonObserver : public ObserverWriter {
 
   std::string text() {
     std::string text =
-        fmt::format("class {}:\n    \"\"\"The observer {}.\"\"\"\n\n    def __init__(self):\n",
-                    name_, observer_.name);
+        fmt::format("class {}:\n    \"\"\"The {}.\"\"\"\n\n    def __init__(self):\n", name_,
+                    observer_.name == "observer" ? "observer" : "observer " + observer_.name);
     for (std::size_t k = 0; k < fields_.size(); ++k) {
       const State& state = observer_.states[k];
       std::vector<std::string> start;

@@ -132,6 +132,13 @@ class Doubts {
             (one.name == "observer" ? "the observer" : "the observer " + quoted(one.name)) +
             " never changes: it has no flow, and no map at an event");
     }
+    for (std::size_t k = 0; k < dynamics_.events.size(); ++k)
+      if (dynamics_.events[k].lost > 0 &&
+          std::ranges::none_of(dynamics_.reactions, [&](const Dynamics::Reaction& one) {
+            return one.event == k && dynamics_.components[one.component].observer;
+          }))
+        found_.push_back("the event " + quoted(dynamics_.events[k].name) +
+                         " may be lost, and no observer has a map there: a loss changes nothing");
     if (std::any_of(dynamics_.components.begin(), dynamics_.components.end(),
                     [](const auto& one) { return one.observer; }) &&
         has_states[0] != 0 && !observers_read_plant())

@@ -1,6 +1,7 @@
 // What dynamics say that is allowed and perhaps not meant, a sentence each, with its mend:
 //
 //   an observer whose states never change, or observers of which none reads the plant
+//   an event that may be lost, where no observer has a map
 //   noise without `new at` that samples or outputs read: one value for the whole run, a bias
 //   noise that changes more slowly than the samples that read it
 //   two outputs, or two elements of one, with the same scalar noise

@@ -54,7 +54,7 @@ constexpr std::array kStateParts = {Key{"shape", "text", "", kRequired}, Key{"st
 
 constexpr Key kCsv = {"csv", "text", "a file beside this one", kRequired};
 constexpr Key kColumn = {"column", "text", "its column, or the name of a vector", kRequired};
-constexpr Key kTime = {"time", "text", "the column of the time"};
+constexpr Key kTime = {"time", "text", "the column of the time; t or time by default"};
 constexpr Key kScale = {"scale", "number", "the unit of its times in seconds, 1e-3 for ms"};
 constexpr Key kFrom = {"from", "number | text", "the time that is 0, or 'first row'"};
 constexpr Key kRows = {"rows", "{text}?", "only rows with these words"};
@@ -66,7 +66,8 @@ constexpr std::array kLog = {kCsv, kTime, kScale, kFrom, kRows, kBetween};
 constexpr std::array kLogOutput = {kColumn, kBetween,
                                    Key{"at", "text", "the event that it is sampled at"}};
 constexpr std::array kMeasuredInput = {kCsv, kColumn, kTime, kScale, kFrom, kRows, kBetween};
-constexpr std::array kMeasuredTimes = {kCsv, kColumn, kTime, kScale, kFrom, kRows};
+constexpr std::array kMeasuredTimes = {
+    kCsv, Key{"column", "text", "the column of the time"}, kTime, kScale, kFrom, kRows};
 
 constexpr std::array kEvent = {Key{"when", "text", "a condition"},
                                Key{"rises", "text", "an expression that becomes positive"},

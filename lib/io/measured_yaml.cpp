@@ -56,8 +56,8 @@ void require_word(const CsvTable& table, const std::pair<std::size_t, std::strin
 /// A unit of time; none of what is no such unit.
 std::optional<double> seconds_of(const std::string& unit) {
   static const std::map<std::string, double> kUnits = {
-      {"s", 1},     {"ms", 1e-3}, {"us", 1e-6}, {"\u00b5s", 1e-6},
-      {"ns", 1e-9}, {"min", 60},  {"h", 3600}};
+      {"s", 1},          {"sec", 1},   {"ms", 1e-3}, {"msec", 1e-3}, {"us", 1e-6},
+      {"\u00b5s", 1e-6}, {"ns", 1e-9}, {"min", 60},  {"h", 3600}};
   const auto found = kUnits.find(unit);
   return found == kUnits.end() ? std::nullopt : std::optional(found->second);
 }
@@ -71,13 +71,20 @@ Source source(const YamlFile& file, const YamlItem& path, YamlMap* map,
   const auto find = [&](const char* key) { return map ? map->find(key) : std::nullopt; };
   const auto own = find("time");
   if (!time) time = own;
+  const bool has_time = !result.table->find("t") && result.table->find("time");
   const std::size_t column =
       time ? result.table->column(file.string(time->value, time->key), file.place(time->value))
-           : result.table->column("t", path.place);
+           : result.table->column(has_time ? "time" : "t", path.place);
   const auto scale = find("scale");
   const auto from = find("from");
-  const double unit = scale ? file.number(scale->value, "scale")
-                            : seconds_of(result.table->unit(column)).value_or(1);
+  const std::string word = result.table->unit(column);
+  const auto known = seconds_of(word);
+  if (!scale && !known && !word.empty() && result.table->rows() > 0 &&
+      parse_decimal(result.table->text(0, column)))
+    throw InputError(path.place, result.table->path() + ": the times are in '" + word +
+                                     "', which is none of s, ms, us, ns, min, h; `scale: 1e-3` "
+                                     "says that they are in units of 1e-3 s");
+  const double unit = scale ? file.number(scale->value, "scale") : known.value_or(1);
   if (!(unit > 0)) throw InputError(file.place(scale->value), "scale: expected a positive number");
   result.times = std::make_shared<const LogTimes>(
       *result.table, column, unit,
@@ -215,7 +222,7 @@ model::MeasuredText measured_input(const YamlFile& file, const YamlItem& item) {
 std::vector<double> measured_times(const YamlFile& file, const YamlItem& at) {
   YamlMap map(file, at.value, at.key, keys::measured_times);
   const YamlItem csv = map.require("csv");
-  const YamlItem column = map.require("column");
+  const auto column = map.find("column");
   const Source rows = source(file, csv, &map, column);
   map.finish();
   std::vector<double> times;

@@ -49,9 +49,9 @@ class NameCheck {
     if (expr::is_reserved(forall.variable))
       throw InputError(forall.place, "'" + forall.variable + "' is a word of the language");
     if (found != known_.end() && found->second != "timer" && !found->second.starts_with("state "))
-      throw InputError(forall.place, "'" + forall.variable +
-                                         "' is a variable here, but it already names " +
-                                         with_article(found->second) + line_of(forall.variable));
+      throw InputError(forall.place,
+                       "'" + forall.variable + "' is a variable here, but it already names " +
+                           with_article(found->second) + place_of(forall.variable, forall.place));
   }
 
   /// An index may be that of another family, nothing else.
@@ -63,9 +63,9 @@ class NameCheck {
       if (expr::is_reserved(index.name) || index.name == "in")
         throw InputError(index.place, "'" + index.name + "' is a word of the language");
       if (const auto found = known_.find(index.name); found != known_.end())
-        throw InputError(index.place, "'" + index.name +
-                                          "' is an index here, but it already names " +
-                                          with_article(found->second) + line_of(index.name));
+        throw InputError(index.place,
+                         "'" + index.name + "' is an index here, but it already names " +
+                             with_article(found->second) + place_of(index.name, index.place));
     }
   }
 
@@ -79,7 +79,7 @@ class NameCheck {
     if (!fresh)
       throw InputError(place, "'" + name + "' names " + with_article(what) +
                                   " here, but it already names " + with_article(found->second) +
-                                  line_of(name));
+                                  place_of(name, place));
     places_.emplace(name, place);
   }
 
@@ -113,10 +113,11 @@ class NameCheck {
   }
 
  private:
-  /// ", in line 7": where it got its name.
-  std::string line_of(const std::string& name) const {
+  /// ", in line 7", or ", at p.yaml:7:3" of another file: where it got its name.
+  std::string place_of(const std::string& name, const Place& seen_from) const {
     const auto found = places_.find(name);
     if (found == places_.end() || found->second.line == 0) return "";
+    if (found->second.file != seen_from.file) return ", at " + to_string(found->second);
     return ", in line " + std::to_string(found->second.line);
   }
 

@@ -161,6 +161,28 @@ TEST(MeasuredTest, TheSameLogGivesTheSameBytes) {
   EXPECT_EQ(text_of(folder.path("one.csv")), text_of(folder.path("two.csv")));
 }
 
+/// The innovation is that before the jump, and there is none between the samples.
+TEST(MeasuredTest, ASignalOfASampleExistsThereOnly) {
+  const Folder folder;
+  folder.file("log.csv", "time [s],y\n0.5,1\n1,\n2,3\n");
+  const std::string observer =
+      "  plant: {log: log.csv, output: {y: {column: y, at: sample}}}\n"
+      "  observer: {state: {xh: {shape: scalar, start: 0}}, at: {sample: {xh: y}}}\n"
+      "  signals: {r: y - xh}\n";
+  const auto text = [&](const std::string& rest) {
+    return problem_with("{sample: {at: {csv: log.csv}}}", observer + rest);
+  };
+  const Table run = simulated(folder, "p", text(""));
+  EXPECT_EQ(at_event(run, "r", "sample"), (std::vector<double>{1, 2}));
+  for (std::size_t k = 0; k < run.at("r").size(); ++k)
+    EXPECT_EQ(run.at("r")[k].empty(), run.at("event")[k].empty()) << k;
+  const Outcome outcome = gainsmith(
+      {"verify", folder.file("c.yaml", text("  claims: {c: {below: abs(r), bound: 9}}\n"))});
+  EXPECT_EQ(outcome.exit, 2);
+  EXPECT_TRUE(has(outcome.err, "measured at the event 'sample' only; add `over: sample`"))
+      << outcome.err;
+}
+
 TEST(MeasuredTest, WhatIsWrongInALogEndsWithItsPlace) {
   const Folder folder;
   const std::string problem =
@@ -175,6 +197,8 @@ TEST(MeasuredTest, WhatIsWrongInALogEndsWithItsPlace) {
     return outcome.err;
   };
   EXPECT_NE(refused("t,u\n0,1\n1,x\n").find("u.csv:3:3: the column u needs finite decimal"),
+            std::string::npos);
+  EXPECT_NE(refused("t [ticks],u\n0,1\n9,2\n").find("the times are in 'ticks', which is none of s"),
             std::string::npos);
   EXPECT_NE(refused("t,u\n1,1\n9,2\n").find("no value at t = 0"), std::string::npos);
   EXPECT_NE(refused("t,u\n0,1\n1,2\n").find("lies after the last row of u"), std::string::npos);

@@ -283,6 +283,13 @@ TEST(SilentMistakes, AreHeardOf) {
            {"P: {shape: symmetric 2, start: I}",
             "P: {shape: symmetric 2, start: I}, bias: {shape: scalar, start: 0}",
             "nothing reads the state 'bias'"},
+           {"y: {value: x(1) + w, at: sample}", "y: {value: x(1) + w, at: sample}, z: x(2)",
+            "nothing reads the output 'z'"},
+           {"C: \"[1, 0]\"}", "C: \"[1, 0]\", twice(z): 2*z}",
+            "nothing reads the definition 'twice'"},
+           {"sample: {every: [0.05, 0.2]}}",
+            "sample: {every: [0.05, 0.2]}, gust: {every: 1, lost: 0.5}}",
+            "the event 'gust' may be lost, and no observer has a map there"},
            {"to: 0.5", "to: 5", "the claim 'small' lets a value above 0 grow: `to` is 5"},
            {"method: filter\n  let:", "method: filter\n  parameters: {a: {default: 2}}\n  let:",
             "nothing reads the parameter 'a'"},
@@ -300,6 +307,9 @@ TEST(SilentMistakes, AreHeardOf) {
     std::string text = with(kRun, one.from, one.to);
     if (has(one.to, "[x(1) + w; w]") || has(one.to, "value: x + w,"))
       text = with(text, "(y - C*xh)", "(y(1) - C*xh)");
+    if (!has(one.note, "nothing reads the output"))
+      text = with(text, "{e: x - xh}",
+                  has(one.to, " z: ") ? "{e: x - xh, ry: y, rz: z}" : "{e: x - xh, ry: y}");
     const std::string file = folder.file("p.yaml", text);
     const Outcome checked = gainsmith({"check", file});
     const Outcome strict = gainsmith({"check", "--strict", file});
