@@ -13,11 +13,9 @@ except ImportError:
 from no import prove_no, prove_optimum
 from statement import Damaged, expect, read_gain_file
 from yes import Claim, prove_objective, prove_yes
-
 SECONDS_BESIDE = 2       # for the certificate of the value beyond the one that a search found
 MOST_ULPS = 2 ** 20         # a gain farther from its formula is open
 EXIT = {"nothing to prove": 0, "proved": 0, "refuted": 1, "open": 3, "not a gain file": 2}
-
 class OutOfTime(BaseException): pass
 def out_of_time(*_): raise OutOfTime()
 def within(seconds, work):
@@ -38,11 +36,10 @@ def check(path, seconds):
         found["says"] = gain["verdict"]
         within(seconds, lambda: check_verdict(gain, found))
         check_beside(gain, found, seconds - (time.process_time() - began))
-    except OutOfTime:
+    except (OutOfTime, MemoryError) as error:
+        limit = "%g s" % seconds if isinstance(error, OutOfTime) else "the memory"
         after = " after the claim %s" % found["claims"][-1].name if found["claims"] else ""
-        found.update(verdict="open", message="the limit of %g s was reached%s" % (seconds, after))
-    except MemoryError:
-        found.update(verdict="open", message="there was not enough memory")
+        found.update(verdict="open", message="the limit of %s was reached%s" % (limit, after))
     except Exception as error:      # Damaged, or a form of the file that no check expects
         unexpected = "it cannot be read: %s " % type(error).__name__
         found.update(verdict="not a gain file",

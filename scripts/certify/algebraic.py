@@ -18,7 +18,6 @@ from fractions import Fraction
 from arithmetic import Ball, Undecided, ball, is_exact, sign
 from matrices import Matrix, filled, zeros
 from statement import expect, listed
-
 STRICT = ("<", ">")
 
 def fractions(texts, what):

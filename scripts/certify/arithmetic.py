@@ -13,10 +13,8 @@ set cannot answer, such as the sign of a ball around 0, raises Undecided.
 from fractions import Fraction
 from math import factorial, isqrt
 from operator import add
-
 BITS = 320
 ONE = 1 << BITS
-
 class Undecided(Exception): """The enclosure is too wide to answer the question."""
 class Unsupported(Exception): """The text asks for something that this checker does not know."""
 def is_exact(x): return x.__class__ is Fraction or x.__class__ is int
@@ -38,7 +36,6 @@ class Number:
         if level(other) > self.level: return operation(other.lift(self), other)
         return operation(self, self.lift(other) if level(other) < self.level else other)
     __radd__, __rmul__ = __add__, __mul__
-
 class Ball(Number):
     """The interval [m - r, m + r]/2^320."""
     __slots__, level = ("m", "r"), 1
@@ -67,7 +64,6 @@ def upper(x):           # a fraction that is at least |x|, for fractions, balls 
     return abs(x) if is_exact(x) else Fraction(x.size(), ONE)
 def middle(x):          # the fraction in the middle of a fraction or a ball
     return Fraction(x) if is_exact(x) else Fraction(ball(x).m, ONE)
-
 class Series(Number):
     """A polynomial, the sum of terms[e] x^e, up to an error of rest/2^320."""
     def __init__(self, terms, rest=0, space=None):
@@ -94,7 +90,6 @@ class Series(Number):
         for e, c in other.terms.items():
             if e != 0: terms[e] = terms[e] + a * c if e in terms else a * c
         return self.like(terms)
-
 class Taylor(Series):
     """A polynomial in t in [-1, 1]^k with fractions or balls as coefficients, and its rest. The
     exponents e are tuples. `space` is (k, order); products drop the terms above the order and add

@@ -199,7 +199,6 @@ def part_of(value, arguments, scope):
                 for x in (tree[1:] if tree[0] == "span" else [tree])]
         if ends[0] >= 1 and ends[-1] <= length: return range(ends[0] - 1, ends[-1])
         raise Unsupported("an index beyond the size of a matrix")
-
     if len(arguments) == 1 and 1 in value.shape():
         arguments = arguments + [("all",)] if value.cols == 1 else [("all",)] + arguments
     if len(arguments) != 2: raise Unsupported("the number of indices")

@@ -5,7 +5,6 @@ from itertools import product
 from math import comb, lcm
 from arithmetic import (Ball, Undecided, Unsupported, ball, function, inverse, is_exact, is_zero,
                         level, middle, sign, sum_of_balls, typical, upper)
-
 LONGEST_FRACTION = 3000     # bits; longer inverses become balls
 
 class Matrix:
@@ -168,15 +167,26 @@ def classify(a):
         if pivot < 0 or pivot == 0 and any(row[k] != 0 for row in rows[k + 1:]): return NEGATIVE
         if pivot == 0: result = SEMIDEFINITE
     return result
-def is_positive(a): return all(pivot.m > pivot.r for pivot in least_pivots(a))
-def least_pivots(a):
-    """Pivots that are at most those of each symmetric matrix in the matrix of balls a, as long as
-    they are positive. If the balls are m_ij +- r_ij, then a >= m - diag(sums of the rows of r).
-    This has one number at each place, so that the balls of its elimination stay small."""
+def is_positive(a): return is_definite(least(a))
+def least(a):
+    """The lower triangle of a matrix of whole numbers that is at most each symmetric matrix in the
+    matrix of balls m_ij +- r_ij, times 2^320: m - diag(sums of the rows of r)."""
     b, places = a.map(ball), range(a.rows)
-    rows = [[Ball(x.m) for x in row] for row in b.elements]
-    for i in places: rows[i][i].m -= sum(max(b[i, j].r, b[j, i].r) for j in places)
-    return pivots_of(rows)
+    margins = [sum(max(b[i, j].r, b[j, i].r) for j in places) for i in places]
+    return [[b[i, j].m - (margins[i] if i == j else 0) for j in range(i + 1)] for i in places]
+def is_definite(rows):
+    """Whether the matrix of whole numbers with this lower triangle, which is changed, is positive
+    definite: elimination without fractions gives the leading minors."""
+    last = 1
+    for k, row in enumerate(rows):
+        pivot = row[k]
+        if pivot <= 0: return False
+        for other in rows[k + 1:]:
+            factor = other[k]
+            for j in range(k + 1, len(other)):
+                other[j] = (other[j] * pivot - factor * rows[j][k]) // last
+        last = pivot
+    return True
 def witness(a, strict):
     """A vector v of fractions with v'av < 0 (if strict: <= 0 and v not 0), or None. If a + t I has
     its first pivot d <= 0 at k, let v = (x, 1, 0) solve its first k rows: v'(a + t I)v = d. A tiny
@@ -213,27 +223,26 @@ def bernstein_weights(degree):
 def is_positive_on_box(a):
     """Whether a symmetric matrix of Taylor models is proved positive definite for all t in
     [-1, 1]^k. The value at any t is a convex combination of the Bernstein coefficients, plus the
-    rest. So it is enough that each coefficient is positive definite with the rest as additional
-    radius."""
-    degrees = [max(e) for e in zip(*{e for x in flat(a) for e in x.terms})]
-    found = {(i, j): bernstein(a[i, j], degrees) for i in range(a.rows) for j in range(i + 1)}
-    for e in product(*[range(n + 1) for n in degrees]):
-        b = filled(a.rows, a.cols, lambda i, j: found[max(i, j), min(i, j)][e])
-        if classify(b) != POSITIVE: return False
-    return True
+    rest. So it is enough that each coefficient is positive definite with the rest as radius."""
+    degrees, places = [max(e) for e in zip(*{e for x in flat(a) for e in x.terms})], range(a.rows)
+    found = {(i, j): bernstein(a[i, j], degrees) for i in places for j in range(i + 1)}
+    margins = [sum(found[max(i, j), min(i, j)][1] for j in places) for i in places]
+    return all(is_definite([[found[i, j][0][e] - (margins[i] if i == j else 0)
+                             for j in range(i + 1)] for i in places])
+               for e in product(*[range(n + 1) for n in degrees]))
 def bernstein(x, degrees):
-    """The Bernstein coefficients of a Taylor model, in balls: one variable after the other, in
-    whole numbers that are divided at the end."""
-    terms, scale = {x.origin(): (0, 0)}, 1
-    terms.update((e, (b.m, b.r)) for e, b in ((e, ball(c)) for e, c in x.terms.items()))
+    """({e: Bernstein coefficient}, radius) of a Taylor model, times a number that only the degrees
+    determine: one variable after the other. Those of powers of t are in [-1, 1]: the radii add."""
+    balls = {e: ball(c) for e, c in x.terms.items()}
+    terms, radius = {x.origin(): 0}, sum(b.r for b in balls.values()) + x.rest
+    terms.update((e, b.m) for e, b in balls.items())
     for k, degree in enumerate(degrees):
         w, d = bernstein_weights(degree)
-        scale, parts = scale * d, {}
-        for e, c in terms.items(): parts.setdefault(e[:k] + e[k + 1:], []).append((e[k], c))
-        terms = {e[:k] + (i,) + e[k:]: (sum(row[j] * m for j, (m, _) in column),
-                                        sum(abs(row[j]) * r for j, (_, r) in column))
+        radius, parts = radius * d, {}
+        for e, m in terms.items(): parts.setdefault(e[:k] + e[k + 1:], []).append((e[k], m))
+        terms = {e[:k] + (i,) + e[k:]: sum([row[j] * m for j, m in column])
                  for e, column in parts.items() for i, row in enumerate(w)}
-    return {e: Ball(m // scale, r // scale + 2 + x.rest) for e, (m, r) in terms.items()}
+    return terms, radius
 def spectral_norm(a):
     """A ball around the largest singular value of a matrix of fractions and balls. It is below h if
     and only if [h I, a; a', h I] > 0. The interval [low, high] is halved."""

@@ -20,7 +20,7 @@ from algebraic import STRICT, prove_algebraic
 from arithmetic import (Ball, Undecided, Unsupported, affine_terms, ball, function, is_exact,
                         middle, sum_of_balls, upper)
 from language import decimal, matrix, parse
-from matrices import filled, least_pivots
+from matrices import filled, least, pivots_of
 from statement import NOT_EVALUATED, Statement, Symbols, expect, inequality, matrix_of_json, refuse
 from yes import Claim, is_outside, outward, reason, scope_at
 
@@ -32,7 +32,6 @@ Block = namedtuple("Block", "sign terms shape multiplier")
 CHOICES = [(1e-13, 0), (1e-9, 0), (1e-13, 1e-14), (1e-13, 1e-9), (1e-9, 1e-9), (1e-6, 0),
            (1e-6, 1e-6)]
 NEAR = 10 ** 6      # an objective is proved above its stated bound, but for this part of it
-
 def prove_no(gain, certificate, name="no solution"):
     """The claim that the inequalities of the file have no solution."""
     try:
@@ -155,8 +154,8 @@ def correction(rows, residual):
         scaled.append(({key: x * factor for key, x in row.items()}, residual[i] * factor))
     lower = [[inner(a, b) for b, _ in scaled[:n + 1]] for n, (a, _) in enumerate(scaled)]
     lower.append([r for _, r in scaled] + [Fraction(1)])
-    for pivot in least_pivots(filled(len(lower), len(lower),
-                                     lambda i, j: lower[max(i, j)][min(i, j)])):
+    whole = filled(len(lower), len(lower), lambda i, j: lower[max(i, j)][min(i, j)])
+    for pivot in pivots_of([[Ball(x) for x in row] for row in least(whole)]):
         if pivot.m <= pivot.r: return None
     return upper(1 - pivot)
 def inner(a, b):

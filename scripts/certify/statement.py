@@ -14,13 +14,11 @@ from arithmetic import Affine, Series, Undecided, Unsupported, is_exact, middle,
 from language import (Family, Function, Later, Scope, basis_functions, decimal, defined,
                       elementwise, evaluate, holds, matrix, members, parse, parse_range)
 from matrices import Matrix, diagonal, flat, identity, is_positive, norm_block, number, zeros
-
 LARGEST_FILE = 64_000_000
 OBJECTS = ("gains", "unknowns", "statement")
 OPTIONAL = ("searched", "parameters", "bases", "functions", "search", "gain_functions", "optimum")
 NOT_EVALUATED = (Undecided, Unsupported, ArithmeticError, LookupError, TypeError, ValueError,
                  AttributeError, RecursionError)
-
 class Damaged(Exception): """This is not a gain file; the text says what was expected."""
 class Numeral(str): """A number of the JSON file, as it is written."""
 def listed(x): return x if isinstance(x, list) else [x]
@@ -374,7 +372,6 @@ class Statement:
             found = [new for d in found for new in choices(d, Scope(d.scope, hidden), name, where)]
             if where.startswith(("[", "conv")): hidden[name] = later
         return found
-
 def named_blocks(entry):
     """The comparison of a matrix that is given by named block rows and columns."""
     rows = entry["blocks"]
@@ -430,7 +427,6 @@ def checked(values, name, rows, cols, kind="full"):
               "diagonal": lambda i, j: a[i, j] if i == j else 0}[kind]
     if all(a[i, j] == wanted(i, j) for i in range(rows) for j in range(cols)): return a
     raise Unsupported("%s, which is not %s" % (name, kind))
-
 class Symbols:
     """unknown_value with a new scalar x_i for each free element: x_i, or by `moved` x_i + f x_j."""
     def __init__(self, moved=()):

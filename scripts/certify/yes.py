@@ -5,7 +5,8 @@ from fractions import Fraction
 from functools import reduce
 from itertools import product
 from operator import add
-from arithmetic import Affine, Taylor, Undecided, Unsupported, ball, is_zero, middle, sign, upper
+from arithmetic import (Affine, Ball, Taylor, Undecided, Unsupported, ball, is_zero, middle, sign,
+                        upper)
 from language import Scope, decimal, matrix, parse
 from matrices import (POSITIVE, SEMIDEFINITE, classify, column, exactly, filled, flat, is_positive,
                       is_positive_on_box, number, witness)
@@ -17,19 +18,20 @@ Claim = namedtuple("Claim", "name result how pieces point vector", defaults=(0, 
 Gain = namedtuple("Gain", "name ulps how")      # ulps: None where the formula has no value here
 ORDERS = {1: 9}     # of Taylor models, by the number of variables; else 5
 SMALLEST_PIECE = Fraction(1, 10 ** 12)      # of the interval
-
-def prove_requirements(statement):
-    """A claim for each comparison of each requirement, and each finite choice of its forall."""
+def cases(statement):
+    """(name, comparison, domain) of each comparison and each finite choice of its forall."""
     for label, comparison in statement.comparisons():
-        if isinstance(comparison, Exception):
-            yield Claim(label, "open", reason(comparison))
-            continue
-        for domain in comparison.domains:
-            name = label + label_of(domain.choices)
-            try:
-                yield prove(name, comparison, domain, "solution_within" in statement.gain)
-            except NOT_EVALUATED as error:
-                yield Claim(name, "open", reason(error))
+        for domain in [None] if isinstance(comparison, Exception) else comparison.domains:
+            yield label + label_of(domain.choices if domain else ()), comparison, domain
+def prove_requirements(statement, hull, at_both):
+    """A claim for each case. Those over intervals are tried with the unknowns of `hull` first, with
+    those of the file and of the printed gains in balls: their names join `at_both`."""
+    near = "solution_within" in statement.gain
+    for case, wide in zip(cases(statement), cases(hull or statement)):
+        claim = prove(*wide, near, True) if hull and wide[2] and wide[2].intervals else None
+        if claim and claim.result == "proved": at_both.add(claim.name)
+        else: claim = prove(*case, near)
+        yield claim
 def reason(error):
     kinds = {Undecided: "not decided: ", Unsupported: "not known to certify: "}
     known = "not evaluated: %s " % type(error).__name__
@@ -39,11 +41,15 @@ def label_of(choices):
              else "%s = element %d" % (name, k) for name, k, value in choices]
     return " at " + ", ".join(texts) if texts else ""
 def short(x): return "%.6g" % float(middle(x)) if upper(x) < 10 ** 300 else "a large number"
-def prove(name, comparison, domain, near):
-    if domain.hulls: check_affine(comparison, domain)
-    if comparison.sign == "==": return prove_equation(name, comparison, domain, near)
-    if domain.intervals: return prove_for_all(name, comparison, domain)
-    return judge(name, comparison, inequality(comparison, domain.scope))
+def prove(name, comparison, domain, near, only_ordinary=False):
+    try:
+        if isinstance(comparison, Exception): raise comparison
+        if domain.hulls: check_affine(comparison, domain)
+        if comparison.sign == "==": return prove_equation(name, comparison, domain, near)
+        if domain.intervals: return prove_for_all(name, comparison, domain, only_ordinary)
+        return judge(name, comparison, inequality(comparison, domain.scope))
+    except NOT_EVALUATED as error:
+        return Claim(name, "open", reason(error))
 def judge(name, comparison, a, point={}):
     """One symmetric matrix: a > 0 or a >= 0."""
     strict, found = comparison.sign in ("<", ">"), classify(a)
@@ -97,15 +103,12 @@ def scope_at(domain, values):
         before = [] if not i.index else flat(names[i.name])
         names[i.name] = number(x) if i.index is None else column(before + [x])
     return Scope(domain.scope, names)
-PARTITIONS = {}     # pieces that cover a box: where the proof at the printed gains begins
-def prove_for_all(name, comparison, domain):
+def prove_for_all(name, comparison, domain, only_ordinary):
     """The box is halved until each piece is proved. Where the middle of a piece may fail, the
-    matrix there is judged."""
+    matrix there is judged, or (only_ordinary) nothing is proved."""
     whole = [outward(x) for x in domain.intervals]
-    start = PARTITIONS.get((name, repr(whole)), [whole])
     lengths = [(high - low) or 1 for low, high in whole]
-    titles, todo, pieces = [i.title for i in domain.intervals], list(start), 0
-    proved = []
+    titles, todo, pieces = [i.title for i in domain.intervals], [whole], 0
     while todo:
         piece = todo.pop()
         pieces += 1
@@ -117,15 +120,13 @@ def prove_for_all(name, comparison, domain):
             if all(x.is_constant() for x in flat(a)):
                 found = judge(name, comparison, a.map(lambda x: x.constant()))
                 if found.result != "proved" or piece == whole: return found
-                proved.append(piece)
                 continue
-            if is_positive_on_box(a):
-                proved.append(piece)
-                continue
+            if is_positive_on_box(a): continue
             suspicious = not is_positive(a.map(lambda x: x.constant()))
         except Undecided as error:
             suspicious, why = True, str(error)
-        if suspicious or pieces == 1:
+        if a and suspicious and only_ordinary: return Claim(name, "open", why)
+        if (suspicious or pieces == 1) and not only_ordinary:
             found = refutation(name, comparison, domain, piece, pieces == 1)
             if found: return found
         k = longest_side(piece, lengths, a)
@@ -135,7 +136,6 @@ def prove_for_all(name, comparison, domain):
             return Claim(name, "open", "%s at %s" % (why, at), pieces)
         half = (low + high) / 2
         todo += [piece[:k] + [part] + piece[k + 1:] for part in ((half, high), (low, half))]
-    PARTITIONS[name, repr(whole)] = proved
     texts = ["%s in [%s, %s]" % (t, short(x), short(y)) for t, (x, y) in zip(titles, whole)]
     return Claim(name, "proved", "all " + ", ".join(texts), pieces)
 def longest_side(piece, lengths, a):
@@ -217,16 +217,20 @@ def member(tree, scope):
     if tree[0] == "name": return tree[1]
     if tree[0] != "call" or tree[1][0] != "name": return ""
     return "_".join([tree[1][1]] + [str(matrix(x, scope).whole()) for x in tree[2]])
-def values_with_gains(gain, found):
-    """unknown_value of the file, but Y = P*K (or K*P) with K as it is printed."""
+def values_with_gains(gain, found, hull):
+    """unknown_value of the file, but Y = P*K (or K*P) with K as it is printed; with `hull`, a ball
+    with both."""
     def value(name, rows, cols, kind):
-        if name not in found: return values_of_file(gain)(name, rows, cols, kind)
+        stated = values_of_file(gain)(name, rows, cols, kind)
+        if name not in found: return stated
         p_name, k_name, left = found[name]
         size = rows if left else cols
         p = checked(gain["unknowns"], p_name, size, size)
         k = checked(gain["gains"], k_name, rows, cols)
         if kind != "full": raise Unsupported("the printed gain " + k_name)
-        return p * k if left else k * p
+        product = p * k if left else k * p
+        if not hull: return product
+        return stated + (product - stated).map(lambda x: Ball(0, ball(x).size()))
     return value
 def prove_objective(gain):
     """The claim that the objective at the unknowns is at most the one of the file, rounded."""
@@ -244,14 +248,16 @@ def prove_yes(gain, claims=None):
     """(claims, gains, the gains at whose printed values all claims are proved again). The claims
     are appended to the given list, which so holds what was found when the time ran out."""
     statement, claims = Statement(gain, values_of_file(gain)), [] if claims is None else claims
-    claims.extend(prove_requirements(statement))
     try:
         gains, found = list(compare_gains(statement)), replaced_unknowns(statement)
     except NOT_EVALUATED as error:
         gains, found = [Gain("all gains", None, reason(error))], {}
-    at_gains = []
+    at_both, at_gains = set(), []
+    hull = Statement(gain, values_with_gains(gain, found, True)) if found else None
+    claims.extend(prove_requirements(statement, hull, at_both))
     if found and claims and all(c.result == "proved" for c in claims):
-        again = prove_requirements(Statement(gain, values_with_gains(gain, found)))
+        exact = cases(Statement(gain, values_with_gains(gain, found, False)))
+        again = (prove(*case, False) for case in exact if case[0] not in at_both)
         if all(c.result == "proved" for c in again):
             at_gains = sorted({k for _, k, _ in found.values()})
     return claims, gains, at_gains

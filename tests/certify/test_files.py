@@ -199,6 +199,17 @@ class Yes(unittest.TestCase):
         claims, gains, at_gains = prove_yes(found)
         self.assertEqual((at_gains, gains[0].ulps > 10 ** 9), ([], True))
 
+    def test_gains_over_intervals(self):
+        """Y*(1 + s) < 3 on [0, 1] holds for Y below 1.5."""
+        text = ("problem: p\nmethod:\n  unknowns: {P: 1 x 1, Y: 1 x 1}\n"
+                "  require: {c: {forall: \"s in [0, 1]\", that: Y*(1 + s)*P < 3}}\n"
+                "  gains: {K: inv(P)*Y}\n")
+        for k, at_printed in (("1", ["K"]), ("1.49", ["K"]), ("1.51", []), ("2", [])):
+            claims, _, at_gains = prove_yes(problem(text, {"P": [["1"]], "Y": [["1"]]},
+                                                    {"K": [[k]]}))
+            self.assertEqual([c.result for c in claims], ["proved"])
+            self.assertEqual(at_gains, at_printed)
+
     def test_gains_that_are_functions_and_families(self):
         text = ("problem: p\nmethod:\n  unknowns:\n    P: {shape: 2, of: s, degree: 1}\n"
                 "    Q: {shape: scalar, for: i in 1..2}\n"
