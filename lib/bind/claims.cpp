@@ -63,21 +63,6 @@ model::Formula constant_of_claim(const Binding& binding, const expr::Expression&
   return bound;
 }
 
-/// InputError for a claim on what a file has for the times of an event alone.
-void check_measured(const Binding& binding, const model::Claim& claim) {
-  const model::Dynamics& dynamics = *binding.design->dynamics;
-  if (std::ranges::none_of(dynamics.variables, [](const auto& one) {
-        return one.kind == model::Dynamics::VariableKind::measured;
-      }))
-    return;
-  for (const std::size_t event : events_read(binding, claim.value)) {
-    const std::string& name = dynamics.events[event].name;
-    throw InputError(claim.place, "the claim '" + claim.name +
-                                      "' reads what is measured at the event '" + name +
-                                      "' only; add `over: " + name + "`");
-  }
-}
-
 void add_claim(Binding& binding, const model::Claim& claim, const std::string& title,
                std::optional<std::size_t> over) {
   const expr::Scope& scope = binding.names->running;
@@ -116,7 +101,14 @@ void bind_claims(Binding& binding) {
         if (!one.over.empty()) over = find_event(binding, one.over, observer);
         missing = missing || (!one.over.empty() && !over);
         if (!one.over.empty() && !over) continue;
-        if (!over) check_measured(binding, one);
+        const bool may_be_over = one.kind == model::ClaimKind::nonincreasing ||
+                                 one.kind == model::ClaimKind::below ||
+                                 one.kind == model::ClaimKind::above;
+        model::Claim texts = one;
+        for (const expr::Expression* text : texts_of(texts))
+          check_measured(binding, *text, over, one.place,
+                         may_be_over ? "; `over:` that event checks the claim just after its jumps"
+                                     : "; such a claim needs values at all times");
         bound = true;
         add_claim(binding, one,
                   member.title_of(binding.dynamics_names->title(claim.name, observer)), over);

@@ -1,6 +1,7 @@
 #include "bind/inequalities.h"
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <utility>
 
@@ -167,7 +168,8 @@ void bind_objective(Binding& binding, const expr::Expression& text) {
   binding.design->quotient = std::move(bound);
 }
 
-void add_inequality(Binding& binding, const model::Requirement& requirement, const Member& member) {
+model::Design::Inequality inequality(Binding& binding, const model::Requirement& requirement,
+                                     const Member& member) {
   model::Design::Inequality bound;
   bound.name = member.title_of(requirement.name);
   bound.place = requirement.place;
@@ -194,7 +196,32 @@ void add_inequality(Binding& binding, const model::Requirement& requirement, con
   for (const model::Design::Variable& one : bound.domain)
     for (const model::Formula& point : one.points)
       refuse_estimate(*binding.design, point.program, "'" + requirement.name + "'");
-  binding.design->inequalities.push_back(std::move(bound));
+  return bound;
+}
+
+void add_inequalities(Binding& binding, const std::vector<model::Requirement>& requirements,
+                      std::vector<model::Design::Inequality>& out) {
+  for (const model::Requirement& requirement : requirements)
+    for (const Member& member :
+         members(requirement.indices, requirement.conditions, binding.names->design))
+      out.push_back(inequality(binding, requirement, member));
+}
+
+bool uses(const std::vector<model::Design::Inequality>& inequalities,
+          const model::Design::Unknown& unknown) {
+  for (const model::Design::Inequality& inequality : inequalities)
+    for (const model::Design::Comparison& comparison : inequality.comparisons)
+      if (uses(comparison.difference, unknown)) return true;
+  return false;
+}
+
+/// The unknowns that only necessary inequalities use go with them.
+void set_unknowns_aside(model::Design& design) {
+  const auto others = std::ranges::stable_partition(design.unknowns, [&](const auto& unknown) {
+    return uses(design.inequalities, unknown) || !uses(design.necessary.inequalities, unknown);
+  });
+  std::ranges::move(others, std::back_inserter(design.necessary.unknowns));
+  design.unknowns.erase(others.begin(), others.end());
 }
 
 }  // namespace
@@ -215,10 +242,9 @@ void add_comparisons(const std::vector<expr::Expression>& comparisons,
 }
 
 void bind_inequalities(Binding& binding) {
-  for (const model::Requirement& requirement : binding.method().require)
-    for (const Member& member :
-         members(requirement.indices, requirement.conditions, binding.names->design))
-      add_inequality(binding, requirement, member);
+  add_inequalities(binding, binding.method().require, binding.design->inequalities);
+  add_inequalities(binding, binding.method().necessary, binding.design->necessary.inequalities);
+  set_unknowns_aside(*binding.design);
   if (binding.method().minimize) bind_objective(binding, *binding.method().minimize);
   if (binding.method().minimize && binding.design->inequalities.empty() &&
       !binding.design->quotient)
@@ -228,9 +254,7 @@ void bind_inequalities(Binding& binding) {
 
 void refuse_free_unknowns(const model::Design& design) {
   const auto is_bound = [&](const model::Design::Unknown& unknown) {
-    for (const model::Design::Inequality& inequality : design.inequalities)
-      for (const model::Design::Comparison& comparison : inequality.comparisons)
-        if (uses(comparison.difference, unknown)) return true;
+    if (uses(design.inequalities, unknown)) return true;
     if (design.quotient &&
         (uses(design.quotient->numerator, unknown) || uses(design.quotient->denominator, unknown)))
       return true;

@@ -74,6 +74,11 @@ std::vector<model::Figure> figures(const Binding& binding, const model::FigureTe
     if (bound.value && estimate(*binding.design, bound.value->program) != expr::Estimate::none)
       bound.title += " (from estimates)";
     if (!text.event.empty()) bound.event = event_of(binding, text, reading.observer);
+    const bool at_event =
+        text.kind == model::FigureKind::at_event || text.kind == model::FigureKind::nis;
+    for (const expr::Expression& part : reading.texts)
+      check_measured(binding, part, at_event ? std::optional(bound.event) : std::nullopt,
+                     text.place, "; `at: {event: ...}` and `nis` have its values");
     for (const expr::Expression& number : text.numbers)
       bound.numbers.push_back(scalar(number, binding.names->known));
     result.push_back(std::move(bound));

@@ -135,9 +135,13 @@ void bind_dynamics(Binding& binding) {
       const std::string name =
           reading.observer.empty() ? signal.name : reading.observer + "." + signal.name;
       scope.definitions[name] = {{}, reading.texts.front()};
-      const auto at = events_read(binding, reading.texts.front());
-      dynamics.signals.push_back({name, formula(reading.texts.front(), scope),
-                                  at.size() == 1 ? std::optional(*at.begin()) : std::nullopt});
+      const auto events = events_read(binding, reading.texts.front());
+      std::optional<std::size_t> at;
+      if (events.size() == 1) at = *events.begin();
+      if (events.size() > 1)
+        check_measured(binding, reading.texts.front(), at, signal.place,
+                       ", and at another: a signal of both exists at none");
+      dynamics.signals.push_back({name, formula(reading.texts.front(), scope), at});
     }
   bind_report(binding, scope);
   binding.names->results = scope;
@@ -164,14 +168,23 @@ std::set<std::string> varied(const Binding& binding) {
 
 }  // namespace
 
-std::set<std::size_t> events_read(const Binding& binding, const expr::Expression& text) {
+std::set<std::size_t> events_read(const Binding& binding, const expr::Expression& text,
+                                  bool measured) {
+  const model::Dynamics& dynamics = *binding.design->dynamics;
+  const auto is_measured = [&](const model::Dynamics::Signal& signal) {
+    return std::ranges::any_of(dynamics.variables, [&](const auto& one) {
+      return one.kind == model::Dynamics::VariableKind::measured &&
+             signal.value.program.uses(one.name);
+    });
+  };
   std::set<std::string> names = expr::names_in(text), seen;
   std::set<std::size_t> events;
   while (!names.empty()) {
     const std::string name = names.extract(names.begin()).value();
     if (!seen.insert(name).second) continue;
-    for (const model::Dynamics::Signal& signal : binding.design->dynamics->signals)
-      if (signal.name == name && signal.at) events.insert(*signal.at);
+    for (const model::Dynamics::Signal& signal : dynamics.signals)
+      if (signal.name == name && signal.at && (!measured || (signal.output && is_measured(signal))))
+        events.insert(*signal.at);
     const auto definition = binding.names->running.definitions.find(name);
     if (definition == binding.names->running.definitions.end()) continue;
     std::set<std::string> inner = expr::names_in(definition->second.body);
@@ -179,6 +192,14 @@ std::set<std::size_t> events_read(const Binding& binding, const expr::Expression
     names.merge(std::move(inner));
   }
   return events;
+}
+
+void check_measured(const Binding& binding, const expr::Expression& text,
+                    std::optional<std::size_t> at, const Place& place, const std::string& advice) {
+  for (const std::size_t event : events_read(binding, text, true))
+    if (event != at)
+      throw InputError(place, "this reads what is measured at the event '" +
+                                  binding.design->dynamics->events[event].name + "' only" + advice);
 }
 
 std::size_t state_of(const model::Design& design, const std::string& name) {

@@ -147,9 +147,21 @@ std::vector<std::string> scalars_in_use(const Design& design) {
     use(design.quotient->numerator);
     use(design.quotient->denominator);
   }
-  // Data rest on data that are declared before them.
-  for (auto datum = design.data.rbegin(); datum != design.data.rend(); ++datum)
-    if (datum->value && used.contains(datum->name)) use(datum->value->program);
+  // Sizes and units are numbers in the programs.
+  for (const Design::Rank& rank : design.ranks) {
+    use(rank.matrix);
+    if (rank.tolerance) use(*rank.tolerance);
+  }
+  for (const Design::Units& units : design.units) {
+    use(units.A);
+    use(units.C);
+  }
+  for (std::size_t before = 0; before != used.size();) {
+    before = used.size();
+    for (const auto* list : {&design.data, &design.parameters})
+      for (const Design::Datum& datum : *list)
+        if (datum.value && used.contains(datum.name)) use(datum.value->program);
+  }
   std::vector<std::string> names;
   for (const std::string& name : model::scalar_names(design))
     if (used.contains(name)) names.push_back(name);

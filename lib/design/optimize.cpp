@@ -127,22 +127,29 @@ class OuterSearch {
     return std::all_of(points.begin(), points.end(), hides);
   }
 
-  /// A no by the inequalities that no searched scalar changes.
+  /// A no by the inequalities that no searched scalar changes, those that are only necessary
+  /// included.
   std::optional<model::Gains> excluded_everywhere() const {
     try {
       const auto plain = without_objective(bind::evaluate(own_.design, overrides(own_values())));
+      const auto all = with_design(plain, [](model::Design& design) {
+        const auto append = [](auto& list, auto& more) {
+          list.insert(list.end(), more.begin(), more.end());
+          more.clear();
+        };
+        append(design.unknowns, design.necessary.unknowns);
+        append(design.inequalities, design.necessary.inequalities);
+      });
       std::set<std::string> fixed;
-      for (const auto& inequality : own_.design->inequalities)
-        if (!inequality.calls_functions() &&
-            !is_changed(with_inequalities(plain, {inequality.name})))
+      for (const auto& inequality : all.design->inequalities)
+        if (!inequality.calls_functions() && !is_changed(with_inequalities(all, {inequality.name})))
           fixed.insert(inequality.name);
       if (fixed.empty()) return std::nullopt;
-      model::Gains gains = synthesize(with_inequalities(plain, fixed), solver_, Depth::quick);
+      model::Gains gains = synthesize(with_inequalities(all, fixed), solver_, Depth::quick);
       if (gains.verdict != model::Verdict::no || !gains.certificate->is_about_problem())
         return std::nullopt;
       gains.solver.add_message(
-          "the certificate is about inequalities that no searched value "
-          "changes: no " +
+          "the certificate is about inequalities that no searched value changes: no " +
           searched_names() + " has gains");
       return gains;
     } catch (const InputError&) {
@@ -338,10 +345,23 @@ class OuterSearch {
     return gains;
   }
 
+  /// At the problem's own values, or at an end of the ranges where these are refused.
+  model::Gains gains_somewhere() const {
+    const std::vector<search::Point> points = corners();
+    for (const search::Point& point : points) {
+      try {
+        return synthesize_at(own_.design, overrides(point), solver_);
+      } catch (const InputError&) {
+        if (&point == &points.back()) throw;
+      }
+    }
+    return {};
+  }
+
   /// The result at the problem's own values, where there are no gains; it decides nothing of the
   /// ranges.
   model::Gains nothing_found() const {
-    model::Gains gains = synthesize_at(own_.design, overrides(own_values()), solver_);
+    model::Gains gains = gains_somewhere();
     gains.verdict = model::Verdict::undecided;
     gains.solver.status = "undecided";
     gains.certificate.reset();

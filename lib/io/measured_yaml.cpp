@@ -79,7 +79,7 @@ Source source(const YamlFile& file, const YamlItem& path, YamlMap* map,
   const auto from = find("from");
   const std::string word = result.table->unit(column);
   const auto known = seconds_of(word);
-  if (!scale && !known && !word.empty() && result.table->rows() > 0 &&
+  if (!scale && !known && !word.empty() && word != "-" && result.table->rows() > 0 &&
       parse_decimal(result.table->text(0, column)))
     throw InputError(path.place, result.table->path() + ": the times are in '" + word +
                                      "', which is none of s, ms, us, ns, min, h; `scale: 1e-3` "

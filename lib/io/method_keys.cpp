@@ -19,6 +19,7 @@ constexpr std::array kMethod = {
     Key{"unknowns", "{text | unknown}?", "what is searched, with its shapes"},
     Key{"let", "{text}?", "definitions"},
     Key{"require", "{text | requirement}?", "the matrix inequalities"},
+    Key{"necessary", "{text | requirement}?", "inequalities that may show that there are no gains"},
     Key{"minimize", "text", "the objective"},
     Key{"gains", "{text}?", "the formulas of the gains"},
     Key{"report", "{text}?", "expressions to be shown beside the gains"},

@@ -231,6 +231,8 @@ model::Method method_from(const YamlFile& file, const YAML::Node& node,
         {expr::parse_signature(item.key_text), file.expression(item.value, item.key), item.place});
   for (const YamlItem& item : items_of(file, map.find("require"), "require"))
     method.require.push_back(requirement(file, item));
+  for (const YamlItem& item : items_of(file, map.find("necessary"), "necessary"))
+    method.necessary.push_back(requirement(file, item));
   method.minimize = optional_expression(file, map.find("minimize"));
   for (const YamlItem& item : items_of(file, map.find("gains"), "gains"))
     method.gains.push_back(gain(file, item));

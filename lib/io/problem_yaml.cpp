@@ -301,8 +301,8 @@ model::UnitText unit(const YamlFile& file, const YamlItem& item) {
 std::map<std::string, std::string> advice_on_keys(const model::Method& method) {
   std::map<std::string, std::string> advice;
   for (const char* key :
-       {"assume", "unknowns", "require", "minimize", "gains", "plant", "observer", "observers",
-        "events", "order", "inputs", "noise", "timer", "signals", "claims"})
+       {"assume", "unknowns", "require", "necessary", "minimize", "gains", "plant", "observer",
+        "observers", "events", "order", "inputs", "noise", "timer", "signals", "claims"})
     advice[key] =
         "it belongs to the method; 'gainsmith methods NAME' prints one, to be put under 'method'";
   for (const auto& datum : method.data) advice[datum.name] = "it belongs under 'data'";

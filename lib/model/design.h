@@ -279,6 +279,13 @@ struct Design {
   std::vector<Square> squares;
   std::vector<Unknown> unknowns;
   std::vector<Inequality> inequalities;
+  /// What is necessary beside them, with its own unknowns: it may show that there are no gains, and
+  /// is not solved otherwise.
+  struct Necessary {
+    std::vector<Unknown> unknowns;
+    std::vector<Inequality> inequalities;
+  };
+  Necessary necessary;
   std::optional<Formula> objective;
   std::optional<Quotient> quotient;  ///< instead of an objective
   std::vector<Gain> gains;

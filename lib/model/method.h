@@ -104,6 +104,7 @@ struct Method {
   std::vector<UnknownDeclaration> unknowns;
   std::vector<Let> let;
   std::vector<Requirement> require;
+  std::vector<Requirement> necessary;  ///< what any gains satisfy: it may show that there are none
   std::optional<expr::Expression> minimize;
   std::vector<Gain> gains;
   std::vector<Named> report;  ///< values that the synthesis shows beside the gains

@@ -134,7 +134,8 @@ void check_families(const Method& method, const NameCheck& names) {
   for (const UnknownDeclaration& unknown : method.unknowns) check(unknown.name, unknown.indices);
   for (const Gain& gain : method.gains) check(gain.name, gain.indices);
   for (const Claim& claim : method.claims) names.check_indices(claim.indices);
-  for (const Requirement& requirement : method.require) names.check_indices(requirement.indices);
+  for (const auto* list : {&method.require, &method.necessary})
+    for (const Requirement& requirement : *list) names.check_indices(requirement.indices);
 }
 
 void check_maps(const Component& component, const std::vector<Named>& map,
@@ -269,7 +270,9 @@ void check_names(const Method& method) {
     names.check_parameter(gain.variable, gain.place);
     names.reserve_numbered(gain.name, "coefficient", "function");
   }
-  for (const Requirement& requirement : method.require) {
+  std::vector<Requirement> requirements = method.require;
+  requirements.insert(requirements.end(), method.necessary.begin(), method.necessary.end());
+  for (const Requirement& requirement : requirements) {
     std::map<std::string, Place> variables;
     const auto add = [&](const std::string& name, const Place& place) {
       if (!variables.emplace(name, place).second)

@@ -158,10 +158,13 @@ std::string wanted(const model::Problem& problem, const Notation& notation) {
   const model::Method& method = *problem.method;
   std::string unknowns;
   for (const auto& unknown : method.unknowns) unknowns += unknown_row(unknown, notation);
-  std::string inequalities;
-  for (const model::Requirement& one : method.require)
-    inequalities +=
-        formula_row(one.name, inequality_mathml(one.that, notation), holds_for(one, notation));
+  const auto rows_of = [&](const std::vector<model::Requirement>& list) {
+    std::string rows;
+    for (const model::Requirement& one : list)
+      rows +=
+          formula_row(one.name, inequality_mathml(one.that, notation), holds_for(one, notation));
+    return rows;
+  };
   std::string objective;
   if (method.minimize) objective = formula_row("", mathml(*method.minimize, notation));
   std::string gains;
@@ -171,7 +174,8 @@ std::string wanted(const model::Problem& problem, const Notation& notation) {
     gains += formula_row("", equation(left, mathml(gain.value, notation)),
                          for_all_text(gain.indices, notation));
   }
-  return group("Unknowns", unknowns) + group("Inequalities", inequalities) +
+  return group("Unknowns", unknowns) + group("Inequalities", rows_of(method.require)) +
+         group("Necessary for any gains", rows_of(method.necessary)) +
          group("Minimised", objective) + group("Gains", gains);
 }
 

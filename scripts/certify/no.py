@@ -89,7 +89,6 @@ def prove_optimum(gain):
         return Claim("objective >= %s" % digits, "proved", "multipliers near those of the file")
     except NOT_EVALUATED as error:
         return Claim(name, "open", reason(error))
-
 # The blocks of a certificate.
 def blocks_of(statement, multipliers):
     """The inequalities that have multipliers. A label is such as `flow at i = 1, tau = 0.7`."""

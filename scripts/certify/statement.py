@@ -161,7 +161,6 @@ def declarations(mapping, key, short="shape"):
     """The entries of a section, where a text alone is a shape (or what `short` says)."""
     return {name: entry if isinstance(entry, dict) else {short: entry}
             for name, entry in section(mapping, key).items()}
-
 # The statement.
 # index: the element of a column, or None; title: the name with it, such as x_1
 Interval = namedtuple("Interval", "name index low high title")
@@ -343,8 +342,10 @@ class Statement:
         return refuse("the formula of " + name)
     # Requirements.
     def comparisons(self):
-        """All comparisons of all requirements. One that cannot be read is an exception instead."""
-        for name, entry in section(self.method, "require").items():
+        """All comparisons of all requirements, for a no also of what is only necessary. One that
+        cannot be read is an exception instead."""
+        beside = section(self.method, "necessary") if self.gain["verdict"] == "no" else {}
+        for name, entry in {**section(self.method, "require"), **beside}.items():
             try:
                 entry = entry if isinstance(entry, dict) else {"that": entry}
                 tree = named_blocks(entry) if "blocks" in entry else parse(entry["that"])

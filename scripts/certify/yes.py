@@ -31,7 +31,7 @@ def prove_requirements(statement, hull, at_both):
         claim = prove(*wide, near, True) if hull and wide[2] and wide[2].intervals else None
         if claim and claim.result == "proved": at_both.add(claim.name)
         else: claim = prove(*case, near)
-        yield claim
+        yield claim._replace(result="open") if near and claim.result == "refuted" else claim
 def reason(error):
     kinds = {Undecided: "not decided: ", Unsupported: "not known to certify: "}
     known = "not evaluated: %s " % type(error).__name__

@@ -145,6 +145,38 @@ TEST(Search, InequalitiesWithoutTheSearchedScalarExcludeAllItsValues) {
   }
 }
 
+/// At h = 1 there is none; larger h, through a parameter, the size of a range or a rank, have one.
+TEST(Search, WhatASearchedScalarChangesIndirectlyExcludesNothing) {
+  for (const char* method :
+       {"  data: {h: {shape: scalar, default: 1}}\n  parameters: {c: {default: 1/h}}\n"
+        "  require: {low: x > c, high: x < 0.4}\n",
+        "  data: {h: {shape: scalar, default: 1}, v: {shape: 2, default: \"[9; 1]\"}}\n"
+        "  require: {high: x < 3, low: \"x > v(rank([1, 0; 0, where(h > 5, 1, 0)]))\"}\n"}) {
+    const YamlProblem problem("problem: p\nmethod:\n  method: m\n  unknowns: {x: scalar}\n" +
+                              std::string(method) +
+                              "  no campaign: static\nsearch: {over: {h: [1, 10]}}\n");
+    const model::Gains gains =
+        synthesize_searched(problem.instance, request_of(problem.instance), 1, {});
+    EXPECT_EQ(gains.verdict, model::Verdict::yes) << method << gains.solver.message;
+  }
+}
+
+TEST(Search, WhatIsNecessaryExcludesAndRestrictsNothing) {
+  for (const bool fails : {true, false}) {
+    const YamlProblem problem(
+        "problem: p\nmethod:\n  method: m\n  data: {h: {shape: scalar, default: 2}}\n"
+        "  unknowns: {x: scalar, y: scalar}\n  require: {low: x > h}\n"
+        "  necessary: {test: \"1 < y and y < " +
+        std::string(fails ? "0.5" : "3") +
+        "\"}\n  no campaign: static\nsearch: {over: {h: [1, 10]}}\n");
+    const model::Gains gains =
+        synthesize_searched(problem.instance, request_of(problem.instance), 1, {});
+    EXPECT_EQ(gains.verdict, fails ? model::Verdict::no : model::Verdict::yes);
+    EXPECT_EQ(gains.margins.size(), fails ? 0U : 1U);
+    EXPECT_EQ(gains.unknowns.size(), fails ? 0U : 1U);
+  }
+}
+
 TEST(Search, ThreadsDoNotChangeTheResult) {
   const YamlProblem problem(kBowl);
   const SearchRequest request = request_of(problem.instance);

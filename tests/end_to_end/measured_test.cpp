@@ -179,7 +179,7 @@ TEST(MeasuredTest, ASignalOfASampleExistsThereOnly) {
   const Outcome outcome = gainsmith(
       {"verify", folder.file("c.yaml", text("  claims: {c: {below: abs(r), bound: 9}}\n"))});
   EXPECT_EQ(outcome.exit, 2);
-  EXPECT_TRUE(has(outcome.err, "measured at the event 'sample' only; add `over: sample`"))
+  EXPECT_TRUE(has(outcome.err, "measured at the event 'sample' only; `over:` that event"))
       << outcome.err;
 }
 
