@@ -211,11 +211,18 @@ class Planner {
       if (panels_.size() < kMostPanels) add_quantity({k});
   }
 
-  /// Where the plant has neither, as a log: one panel a state of the observers, matrices last.
+  /// Where the plant has neither, as a log: one panel a state of the observers, matrices last, and
+  /// no covariance that is drawn as a band.
   void add_own_states() {
+    const auto is_band = [&](const Column& state) {
+      return std::ranges::any_of(view_.covariances, [&](const Covariance& one) {
+        return has_stem(state, one.covariance);
+      });
+    };
     std::vector<std::string> names;
-    for (const std::size_t k : columns(
-             [](const Column& one) { return one.kind == Kind::state && !one.observer.empty(); }))
+    for (const std::size_t k : columns([&](const Column& one) {
+           return one.kind == Kind::state && !one.observer.empty() && !is_band(one);
+         }))
       if (const std::string name = own_name(column(k));
           std::find(names.begin(), names.end(), name) == names.end())
         names.push_back(name);

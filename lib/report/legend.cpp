@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "report/drawing.h"
 #include "report/text.h"
@@ -17,13 +18,24 @@ double width_of(const LegendEntry& entry) {
   return sample_width + to_label + text_width(entry.label, label_size);
 }
 
+/// Whether no line joins two of its samples.
+bool is_dotted(const Curve& curve) {
+  for (std::size_t k = 0; k + 1 < curve.t.size(); ++k)
+    if (std::isfinite(curve.value[k]) && std::isfinite(curve.value[k + 1]) &&
+        !std::ranges::binary_search(curve.jumps, k))
+      return false;
+  return true;
+}
+
 /// What the entry looks like on the panel.
 std::string sample_of(const LegendEntry& entry, double x, double y) {
   if (entry.curve == nullptr)
     return fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"10\" {}/>\n", pixels(x),
                        pixels(y - 5), pixels(sample_width), shade(entry.style.colour));
   std::string text;
-  if (entry.curve->joined)
+  if (entry.curve->joined && is_dotted(*entry.curve))
+    text += mark_at(Mark::dot, x + sample_width / 2, y, entry.style.colour);
+  else if (entry.curve->joined)
     text += fmt::format("<path {} d=\"M{},{}h{}\"/>\n", stroke(entry.style), pixels(x), pixels(y),
                         pixels(sample_width));
   return text + mark_at(entry.curve->mark, x + sample_width / 2, y, entry.curve->colour);

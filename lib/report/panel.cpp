@@ -144,7 +144,9 @@ std::string lines(const Trace& trace, const Style& style) {
         colour_name(style.colour), jumps);
   if (!flows.empty())
     text += fmt::format("<path {} stroke-linejoin=\"round\" d=\"{}\"/>\n", stroke(style), flows);
-  for (const Point& dot : trace.dots) text += circle(dot, "2", colour_name(style.colour));
+  // Beside lines a sample alone is a piece of one, between jumps that are nearer than a pixel.
+  const char* const radius = trace.flows.empty() ? "2" : "0.9";
+  for (const Point& dot : trace.dots) text += circle(dot, radius, colour_name(style.colour));
   return text;
 }
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "base/random.h"
 #include "report/drawing.h"
 #include "report/text.h"
@@ -26,6 +28,18 @@ TEST(Legend, StandsBesideTheTitleWhereItFits) {
 
 TEST(Legend, CurvesWithoutLabelAreNotInIt) {
   EXPECT_EQ(legend(panel("States", {"", "x2", ""}), 800).entries.size(), 1);
+}
+
+/// A measurement has gaps between its samples, or jumps.
+TEST(Legend, SamplesThatNoLineJoinsAreADot) {
+  const double gap = std::numeric_limits<double>::quiet_NaN();
+  const auto shown = [](const Curve& curve) {
+    const Panel panel{"", "", false, {curve}};
+    return drawn(legend(panel, 800), 0, 0);
+  };
+  EXPECT_NE(shown({"y", {0, 1, 2}, {1, gap, 2}, {}, false, 0}).find("<circle"), std::string::npos);
+  EXPECT_NE(shown({"y", {0, 1}, {1, 2}, {0}, false, 0}).find("<circle"), std::string::npos);
+  EXPECT_EQ(shown({"y", {0, 1}, {1, 2}, {}, false, 0}).find("<circle"), std::string::npos);
 }
 
 TEST(Legend, EntriesNeverOverlapAndStayWithin) {
