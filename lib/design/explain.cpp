@@ -8,6 +8,7 @@
 #include "bind/instance.h"
 #include "design/bisect.h"
 #include "design/elastic.h"
+#include "design/optimize.h"
 #include "design/synthesize.h"
 #include "lmi/compile.h"
 #include "lmi/formulation.h"
@@ -320,6 +321,9 @@ Explanation explain(const model::Instance& instance, const sdp::Options& solver)
   Explanation explanation;
   explanation.gains = synthesize(instance, solver);
   explanation.held = held_scalars(instance);
+  if (explanation.gains.verdict != model::Verdict::yes && !explanation.held.empty())
+    if (const auto rest = excluded_inequalities(instance, request_of(instance), solver))
+      return explain(*rest, solver);
   try {
     if (explanation.gains.verdict == model::Verdict::yes) {
       if (!explanation.gains.multipliers.empty())

@@ -127,50 +127,23 @@ class OuterSearch {
     return std::all_of(points.begin(), points.end(), hides);
   }
 
-  /// A no by the inequalities that no searched scalar changes, those that are only necessary
-  /// included.
+  /// A no of all values.
   std::optional<model::Gains> excluded_everywhere() const {
     try {
-      const auto plain = without_objective(bind::evaluate(own_.design, overrides(own_values())));
-      const auto all = with_design(plain, [](model::Design& design) {
-        const auto append = [](auto& list, auto& more) {
-          list.insert(list.end(), more.begin(), more.end());
-          more.clear();
-        };
-        append(design.unknowns, design.necessary.unknowns);
-        append(design.inequalities, design.necessary.inequalities);
-      });
-      std::set<std::string> fixed;
-      for (const auto& inequality : all.design->inequalities)
-        if (!inequality.calls_functions() && !is_changed(with_inequalities(all, {inequality.name})))
-          fixed.insert(inequality.name);
-      if (fixed.empty()) return std::nullopt;
-      model::Gains gains = synthesize(with_inequalities(all, fixed), solver_, Depth::quick);
-      if (gains.verdict != model::Verdict::no || !gains.certificate->is_about_problem())
-        return std::nullopt;
+      const auto rest = excluded_inequalities(bind::evaluate(own_.design, overrides(own_values())),
+                                              request_, solver_);
+      if (!rest) return std::nullopt;
+      model::Gains gains = synthesize(*rest, solver_, Depth::quick);
+      std::string names;
+      for (const SearchedScalar& scalar : request_.over)
+        names += (names.empty() ? "" : ", ") + scalar.name;
       gains.solver.add_message(
-          "the certificate is about inequalities that no searched value changes: no " +
-          searched_names() + " has gains");
+          "the certificate is about inequalities that no searched value changes: no " + names +
+          " has gains");
       return gains;
     } catch (const InputError&) {
       return std::nullopt;
     }
-  }
-
-  std::string searched_names() const {
-    std::string names;
-    for (const SearchedScalar& scalar : request_.over)
-      names += (names.empty() ? "" : ", ") + scalar.name;
-    return names;
-  }
-
-  bool is_changed(const model::Instance& instance) const {
-    const std::vector<std::string> used = scalars_in_use(*instance.design);
-    const auto uses = [&](const SearchedScalar& scalar) {
-      return std::ranges::find(used, scalar.name) != used.end();
-    };
-    return std::ranges::any_of(request_.over, uses) ||
-           (request_.extreme && uses(*request_.extreme));
   }
 
   model::Overrides overrides(const search::Point& point) const {
@@ -394,7 +367,45 @@ class OuterSearch {
   mutable std::optional<Found> best_;  ///< of the search so far
 };
 
+bool is_changed(const model::Design& design, const SearchRequest& request) {
+  const std::vector<std::string> used = scalars_in_use(design);
+  const auto uses = [&](const SearchedScalar& scalar) {
+    return std::ranges::find(used, scalar.name) != used.end();
+  };
+  return std::ranges::any_of(request.over, uses) || (request.extreme && uses(*request.extreme));
+}
+
 }  // namespace
+
+std::optional<model::Instance> excluded_inequalities(const model::Instance& instance,
+                                                     const SearchRequest& request,
+                                                     const sdp::Options& solver) {
+  const auto all = with_design(without_objective(instance), [](model::Design& design) {
+    const auto append = [](auto& list, auto& more) {
+      list.insert(list.end(), more.begin(), more.end());
+      more.clear();
+    };
+    append(design.unknowns, design.necessary.unknowns);
+    append(design.inequalities, design.necessary.inequalities);
+    design.search.reset();
+    design.open.clear();
+    design.negotiable.clear();
+  });
+  std::set<std::string> fixed;
+  for (const auto& inequality : all.design->inequalities)
+    if (!inequality.calls_functions() &&
+        !is_changed(*with_inequalities(all, {inequality.name}).design, request))
+      fixed.insert(inequality.name);
+  if (fixed.empty()) return std::nullopt;
+  auto rest = with_inequalities(all, fixed);
+  try {
+    const model::Gains gains = synthesize(rest, solver, Depth::quick);
+    if (gains.verdict == model::Verdict::no && gains.certificate->is_about_problem()) return rest;
+  } catch (const InputError&) {
+    // Without what a scalar changes, 0 may be a solution.
+  }
+  return std::nullopt;
+}
 
 model::Gains optimize(const model::Instance& own, const SearchRequest& request, unsigned threads,
                       const sdp::Options& solver, search::KnownValues& known) {

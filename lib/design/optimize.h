@@ -1,6 +1,8 @@
 // The best values of a few scalars, found outside the semidefinite programs.
 #pragma once
 
+#include <optional>
+
 #include "design/bisect.h"
 #include "design/search_request.h"
 #include "search/known_values.h"
@@ -11,12 +13,19 @@ namespace gainsmith::design {
 /// with the bracket of `request.extreme` when that is the figure. A value at which the problem is
 /// infeasible, undecided, or refused by the method's assumptions is worse than every other. When
 /// nothing feasible was found the verdict is undecided: that each value tried is infeasible says
-/// nothing of those between. Deterministic for any number of threads.
+/// nothing of those between. It is no where excluded_inequalities() are. Deterministic for any
+/// number of threads.
 /// What is in `known`, of an earlier search for the same, is not computed again, and what is computed
 /// is added; the result does not depend on it.
 /// InputError where the optimisation libraries are not installed.
 model::Gains optimize(const model::Instance& own, const SearchRequest& request, unsigned threads,
                       const sdp::Options& solver, search::KnownValues& known);
+
+/// The inequalities that no scalar of the request changes, those that are only necessary included,
+/// where a certificate excludes them: a problem of its own with nothing searched.
+std::optional<model::Instance> excluded_inequalities(const model::Instance& instance,
+                                                     const SearchRequest& request,
+                                                     const sdp::Options& solver);
 
 /// The gains of a problem with everything that it wants searched: synthesize() for an empty
 /// request, bisect() for one with a scalar to bisect alone, otherwise optimize().

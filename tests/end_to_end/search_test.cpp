@@ -48,6 +48,21 @@ TEST(SearchTest, ANoAtAHeldScalarIsNoNoOfTheProblem) {
       << bisected.out;
 }
 
+/// Position feedback adds no damping, whatever b is.
+TEST(SearchTest, ANoForAllSearchedValuesIsExplainedAsOne) {
+  const Folder folder;
+  const std::string file = folder.file("mass.yaml",
+                                       "problem: mass\nmethod: static-output-feedback\ndata:\n"
+                                       "  A: [[0, 1], [-1, 0]]\n  B: [[0], [1]]\n  C: [1, 0]\n");
+  const Outcome found = gainsmith({"synth", file});
+  EXPECT_EQ(found.exit, 1);
+  EXPECT_TRUE(has(found.out, "no b has gains")) << found.out;
+  const Outcome explained = gainsmith({"explain", file});
+  EXPECT_EQ(explained.exit, 1);
+  EXPECT_TRUE(has(explained.out, "verdict     no, infeasible")) << explained.out;
+  EXPECT_TRUE(has(explained.out, "conflict    trace cannot hold")) << explained.out;
+}
+
 TEST(BisectTest, TheLargestT2OfThePublishedExampleIsProvedOnBothSides) {
   const Folder folder;
   const std::string path = folder.path("gains.json");
