@@ -60,13 +60,16 @@ class Search {
     for (const NamedMatrix& A : candidates(matrices))
       for (const RationalMatrix& b : starts_of(A.value, matrices))
         for (const Eigenvector& w : eigenvectors_from(A.value, b))
-          for (const Vectors& Z : vectors(w))
-            for (const Root& root : roots_of(w.p))
-              if (may_exclude(Z, root))
-                if (auto found = certificate(Z, w.p, root)) {
-                  found->matrix = A.name;
-                  return found;
-                }
+          for (const Vectors& Z : vectors(w)) {
+            std::optional<std::vector<Weighted>> weighted;  // the same for all roots
+            for (const Root& root : roots_of(w.p)) {
+              if (!may_exclude(Z, root)) continue;
+              if (!weighted) weighted = weights_for(Z, w.p);
+              for (const Weighted& one : *weighted)
+                if (excludes(one, root))
+                  return AlgebraicCertificate{A.name, w.p, root, one.multipliers};
+            }
+          }
     return std::nullopt;
   }
 
@@ -172,6 +175,12 @@ class Search {
     return blocks_;
   }
 
+  /// Multipliers with r_i = 0, and their constant part.
+  struct Weighted {
+    std::vector<AlgebraicMultiplier> multipliers;
+    RationalMatrix constant;
+  };
+
   /// By i, the matrices Z_k'B_ki Z_k.
   std::vector<std::map<int, RationalMatrix>> forms(const Vectors& Z) {
     std::vector<std::map<int, RationalMatrix>> result(Z.size());
@@ -182,8 +191,8 @@ class Search {
     return result;
   }
 
-  std::optional<AlgebraicCertificate> certificate(const Vectors& Z, const Polynomial& p,
-                                                  const Root& root) {
+  std::vector<Weighted> weights_for(const Vectors& Z, const Polynomial& p) {
+    std::vector<Weighted> found;
     const auto of = forms(Z);
     const RationalMatrix C = companion(p);
     const Index d = C.rows();
@@ -209,8 +218,8 @@ class Search {
       const RationalMatrix kernel = numbers::rational_kernel(system);
       for (Index c = 0; c < kernel.cols(); ++c)
         for (const int sign : {1, -1}) {
-          AlgebraicCertificate result{{}, p, root, {}};
-          RationalMatrix constant = RationalMatrix::Constant(d, d, Rational(0));
+          Weighted& result =
+              found.emplace_back(Weighted{{}, RationalMatrix::Constant(d, d, Rational(0))});
           std::map<std::size_t, RationalMatrix> W;
           for (Index t = 0; t < kernel.rows(); ++t) {
             if (kernel(t, c) == 0) continue;
@@ -222,29 +231,28 @@ class Search {
               Wk(0, 1) = Wk(1, 0) = factor;
             else
               Wk(weight / 2, weight / 2) = factor;
-            if (const auto found = of[k].find(0); found != of[k].end())
-              constant += times(weight, found->second, C) * factor;
+            if (const auto at = of[k].find(0); at != of[k].end())
+              result.constant += times(weight, at->second, C) * factor;
           }
           for (auto& [k, Wk] : W) result.multipliers.push_back({k, *Z[k], std::move(Wk)});
-          if (excludes(result, constant)) return result;
         }
     }
-    return std::nullopt;
+    return found;
   }
 
   /// c_k >= 0, and the constant part is < 0, or 0 with c_k > 0 for a strict inequality.
-  bool excludes(const AlgebraicCertificate& found, const RationalMatrix& constant) {
+  bool excludes(const Weighted& found, const Root& root) {
     bool strict = false;
+    const Root::Bounded real = root.twice_real(), square = root.squared_modulus();
     for (const AlgebraicMultiplier& multiplier : found.multipliers) {
       const RationalMatrix& W = multiplier.W;
-      const Root::Bounded real = found.root.twice_real(), square = found.root.squared_modulus();
       const Rational c = W(0, 0) + W(0, 1) * real.x + W(1, 1) * square.x;
       const Rational least = c - abs(W(0, 1)) * real.error - abs(W(1, 1)) * square.error;
       if (least < 0) return false;
       strict |= least > 0 && blocks()[multiplier.block].strict;
     }
-    if (numbers::is_rational_zero(constant)) return strict;
-    const Root::Bounded value = form_at(found.root, constant);
+    if (numbers::is_rational_zero(found.constant)) return strict;
+    const Root::Bounded value = form_at(root, found.constant);
     return value.x + value.error < 0;
   }
 
