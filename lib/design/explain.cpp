@@ -8,7 +8,7 @@
 #include "bind/instance.h"
 #include "design/bisect.h"
 #include "design/elastic.h"
-#include "design/optimize.h"
+#include "design/excluded_inequalities.h"
 #include "design/synthesize.h"
 #include "lmi/compile.h"
 #include "lmi/formulation.h"

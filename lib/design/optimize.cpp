@@ -5,7 +5,6 @@
 #include <limits>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <tuple>
 #include <utility>
 
@@ -14,9 +13,9 @@
 #include "base/stop.h"
 #include "bind/instance.h"
 #include "design/elastic.h"
+#include "design/excluded_inequalities.h"
 #include "design/hautus.h"
 #include "design/joint_refinement.h"
-#include "design/limits.h"
 #include "design/results.h"
 #include "design/synthesize.h"
 #include "search/ipopt.h"
@@ -367,45 +366,7 @@ class OuterSearch {
   mutable std::optional<Found> best_;  ///< of the search so far
 };
 
-bool is_changed(const model::Design& design, const SearchRequest& request) {
-  const std::vector<std::string> used = scalars_in_use(design);
-  const auto uses = [&](const SearchedScalar& scalar) {
-    return std::ranges::find(used, scalar.name) != used.end();
-  };
-  return std::ranges::any_of(request.over, uses) || (request.extreme && uses(*request.extreme));
-}
-
 }  // namespace
-
-std::optional<model::Instance> excluded_inequalities(const model::Instance& instance,
-                                                     const SearchRequest& request,
-                                                     const sdp::Options& solver) {
-  const auto all = with_design(without_objective(instance), [](model::Design& design) {
-    const auto append = [](auto& list, auto& more) {
-      list.insert(list.end(), more.begin(), more.end());
-      more.clear();
-    };
-    append(design.unknowns, design.necessary.unknowns);
-    append(design.inequalities, design.necessary.inequalities);
-    design.search.reset();
-    design.open.clear();
-    design.negotiable.clear();
-  });
-  std::set<std::string> fixed;
-  for (const auto& inequality : all.design->inequalities)
-    if (!inequality.calls_functions() &&
-        !is_changed(*with_inequalities(all, {inequality.name}).design, request))
-      fixed.insert(inequality.name);
-  if (fixed.empty()) return std::nullopt;
-  auto rest = with_inequalities(all, fixed);
-  try {
-    const model::Gains gains = synthesize(rest, solver, Depth::quick);
-    if (gains.verdict == model::Verdict::no && gains.certificate->is_about_problem()) return rest;
-  } catch (const InputError&) {
-    // Without what a scalar changes, 0 may be a solution.
-  }
-  return std::nullopt;
-}
 
 model::Gains optimize(const model::Instance& own, const SearchRequest& request, unsigned threads,
                       const sdp::Options& solver, search::KnownValues& known) {

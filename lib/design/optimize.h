@@ -1,8 +1,6 @@
 // The best values of a few scalars, found outside the semidefinite programs.
 #pragma once
 
-#include <optional>
-
 #include "design/bisect.h"
 #include "design/search_request.h"
 #include "search/known_values.h"
@@ -20,12 +18,6 @@ namespace gainsmith::design {
 /// InputError where the optimisation libraries are not installed.
 model::Gains optimize(const model::Instance& own, const SearchRequest& request, unsigned threads,
                       const sdp::Options& solver, search::KnownValues& known);
-
-/// The inequalities that no scalar of the request changes, those that are only necessary included,
-/// where a certificate excludes them: a problem of its own with nothing searched.
-std::optional<model::Instance> excluded_inequalities(const model::Instance& instance,
-                                                     const SearchRequest& request,
-                                                     const sdp::Options& solver);
 
 /// The gains of a problem with everything that it wants searched: synthesize() for an empty
 /// request, bisect() for one with a scalar to bisect alone, otherwise optimize().
