@@ -9,6 +9,7 @@
 
 #include "bind/stated.h"
 #include "claims/run_setup.h"
+#include "design/excluded_inequalities.h"
 #include "gainsmith/commands.h"
 #include "gainsmith/gain_check.h"
 #include "gainsmith/load.h"
@@ -97,6 +98,8 @@ std::vector<std::string> check_runs(const model::Instance& instance) {
 /// What a valid problem asks for.
 io::Json description(const model::Instance& instance, const std::vector<std::string>& notes) {
   const lmi::Lmi lmi = lmi::compile(lmi::Inequalities(instance));
+  if (!instance.design->necessary.inequalities.empty())
+    lmi::compile(lmi::Inequalities(design::with_necessary(instance)));
   io::Json sizes = io::Json::object();
   for (const auto& [name, size] : instance.design->dimensions) sizes[name] = size;
   io::Json result = {{"valid", true},

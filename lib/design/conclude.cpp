@@ -181,11 +181,10 @@ void bound_by_certificate(const ExcludesObjective& excludes, model::Gains& gains
     gains.objective_lower_bound = below;
     gains.optimum_multipliers.clear();
     if (!found->exact)
-      gains.solver.add_message(
-          "no solution with an objective below the lower bound survives a "
-          "relative change of " +
-          brief(found->backward_error, 1) + " of the coefficients: a certificate in " +
-          std::to_string(found->digits) + " digits");
+      gains.solver.add_message("the lower bound is shown by a certificate in " +
+                               std::to_string(found->digits) +
+                               " digits: no solution below it survives a relative change of " +
+                               brief(found->backward_error, 1) + " of the coefficients");
     return;
   }
 }

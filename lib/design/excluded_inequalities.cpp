@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "design/elastic.h"
@@ -23,10 +24,8 @@ bool is_changed(const model::Design& design, const SearchRequest& request) {
 
 }  // namespace
 
-std::optional<model::Instance> excluded_inequalities(const model::Instance& instance,
-                                                     const SearchRequest& request,
-                                                     const sdp::Options& solver) {
-  const auto all = with_design(without_objective(instance), [](model::Design& design) {
+model::Instance with_necessary(const model::Instance& instance) {
+  return with_design(without_objective(instance), [](model::Design& design) {
     const auto append = [](auto& list, auto& more) {
       list.insert(list.end(), more.begin(), more.end());
       more.clear();
@@ -37,18 +36,26 @@ std::optional<model::Instance> excluded_inequalities(const model::Instance& inst
     design.open.clear();
     design.negotiable.clear();
   });
+}
+
+std::optional<Excluded> excluded_inequalities(const model::Instance& instance,
+                                              const SearchRequest& request,
+                                              const sdp::Options& solver) {
+  const model::Instance all = with_necessary(instance);
   std::set<std::string> fixed;
   for (const auto& inequality : all.design->inequalities)
     if (!inequality.calls_functions() &&
         !is_changed(*with_inequalities(all, {inequality.name}).design, request))
       fixed.insert(inequality.name);
   if (fixed.empty()) return std::nullopt;
-  auto rest = with_inequalities(all, fixed);
+  const model::Instance rest = with_inequalities(all, fixed);
   try {
-    const model::Gains gains = synthesize(rest, solver, Depth::quick);
-    if (gains.verdict == model::Verdict::no && gains.certificate->is_about_problem()) return rest;
+    model::Gains gains = synthesize(rest, solver, Depth::quick);
+    if (gains.verdict == model::Verdict::no && gains.certificate->is_about_problem())
+      return Excluded{rest, std::move(gains)};
   } catch (const InputError&) {
-    // Without what a scalar changes, 0 may be a solution.
+    // Without what a scalar changes, 0 may be a solution, or a formula has no value here.
+    if (!instance.design->necessary.inequalities.empty()) throw;
   }
   return std::nullopt;
 }

@@ -322,8 +322,8 @@ Explanation explain(const model::Instance& instance, const sdp::Options& solver)
   explanation.gains = synthesize(instance, solver);
   explanation.held = held_scalars(instance);
   if (explanation.gains.verdict != model::Verdict::yes && !explanation.held.empty())
-    if (const auto rest = excluded_inequalities(instance, request_of(instance), solver))
-      return explain(*rest, solver);
+    if (const auto found = excluded_inequalities(instance, request_of(instance), solver))
+      return explain(found->inequalities, solver);
   try {
     if (explanation.gains.verdict == model::Verdict::yes) {
       if (!explanation.gains.multipliers.empty())

@@ -128,21 +128,21 @@ class OuterSearch {
 
   /// A no of all values.
   std::optional<model::Gains> excluded_everywhere() const {
+    std::optional<model::Instance> at;
     try {
-      const auto rest = excluded_inequalities(bind::evaluate(own_.design, overrides(own_values())),
-                                              request_, solver_);
-      if (!rest) return std::nullopt;
-      model::Gains gains = synthesize(*rest, solver_, Depth::quick);
-      std::string names;
-      for (const SearchedScalar& scalar : request_.over)
-        names += (names.empty() ? "" : ", ") + scalar.name;
-      gains.solver.add_message(
-          "the certificate is about inequalities that no searched value changes: no " + names +
-          " has gains");
-      return gains;
+      at = bind::evaluate(own_.design, overrides(own_values()));
     } catch (const InputError&) {
       return std::nullopt;
     }
+    auto excluded = excluded_inequalities(*at, request_, solver_);
+    if (!excluded) return std::nullopt;
+    std::string names;
+    for (const SearchedScalar& scalar : request_.over)
+      names += (names.empty() ? "" : ", ") + scalar.name;
+    excluded->gains.solver.add_message(
+        "the certificate is about inequalities that no searched value changes: no " + names +
+        " has gains");
+    return std::move(excluded->gains);
   }
 
   model::Overrides overrides(const search::Point& point) const {

@@ -48,6 +48,25 @@ TEST(SearchTest, ANoAtAHeldScalarIsNoNoOfTheProblem) {
       << bisected.out;
 }
 
+TEST(SearchTest, WhatIsNecessaryIsCheckedLikeWhatIsRequired) {
+  const Folder folder;
+  for (const auto& [text, message] : {std::pair("{test: x*y > 1}", "not affine"),
+                                      std::pair("{low: y > 1}", "under 'require' already"),
+                                      std::pair("{test: y > q}", "unknown name 'q'")}) {
+    const std::string file = folder.file(
+        "p.yaml",
+        "problem: p\nmethod:\n  method: m\n  data: {h: {shape: scalar, default: 2}}\n"
+        "  unknowns: {x: scalar, y: scalar}\n  require: {low: x > h}\n  necessary: " +
+            std::string(text) + "\n  no campaign: static\nsearch: {over: {h: [1, 10]}}\n");
+    for (const char* command : {"check", "synth"}) {
+      const Outcome outcome = gainsmith({command, file});
+      EXPECT_EQ(outcome.exit, 2) << command << text;
+      EXPECT_TRUE(has(outcome.err, message)) << command << outcome.err;
+      EXPECT_TRUE(has(outcome.err, "p.yaml:7:")) << outcome.err;
+    }
+  }
+}
+
 /// Position feedback adds no damping, whatever b is.
 TEST(SearchTest, ANoForAllSearchedValuesIsExplainedAsOne) {
   const Folder folder;
