@@ -136,11 +136,11 @@ class Interior {
 /// the one that the result has.
 std::optional<Interior::Solved> solve_interior(const Posed& posed, Interior& interior,
                                                Attempt& result) {
-  const int most_rounds = result.question.single ? 1 : 8;
+  constexpr int kMostRounds = 8;
   constexpr double kRises = 1e-3;
   lmi::Round round;
   std::optional<Interior::Solved> first;
-  for (int k = 0; k < most_rounds; ++k) {
+  for (int k = 0; k < kMostRounds; ++k) {
     Interior::Solved solved = interior(round);
     if (solved.solution.x.empty()) {  // stopped before its first iteration
       if (k == 0) {

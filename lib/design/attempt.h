@@ -34,9 +34,8 @@ struct Posed {
   const lmi::Inequalities& inequalities;
   const forall::Plan& plan;
   const lmi::Lmi& lmi;
-  bool wide = true;  ///< whether 31 and 100 digits may be tried where double does not decide
+  bool wide = true;             ///< whether 31 digits may be tried where double does not decide
   verdict::CheckOptions check;  ///< without `describe` nothing but the verdict is asked for
-  bool thin = false;  ///< an exchange may be given more points before more digits are tried
 
   const model::SynthesisOptions& choices() const { return inequalities.design().synthesis; }
 };
@@ -47,7 +46,6 @@ struct Question {
   lmi::GainBounds bounds;  ///< none: gains of any size
   Effort effort;
   double shift = 0;      ///< objective: what strict blocks keep, in balanced units
-  bool single = false;   ///< interior: one program alone, for its multipliers
   bool largest = false;  ///< interior: the largest margin itself, not any that is enough
 };
 

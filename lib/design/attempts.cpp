@@ -66,32 +66,15 @@ struct Attempts {
   static bool free_minimum_is_due(const Climb& climb) {
     return is_bounded(climb) && minimum_is_due(climb) && nothing_holds(climb);
   }
-  static bool is_large(const Climb& climb) {
-    constexpr int kMostRows = 120;
-    return climb.posed_.lmi.rows() > kMostRows;
-  }
-  static bool may_want_digits(const Climb& climb) {
-    return climb.posed_.wide && climb.posed_.lmi.represents_points() && nothing_holds_at_all(climb);
-  }
   static bool digits_are_due(const Climb& climb) {
-    return may_want_digits(climb) && !climb.waits_for_points();
-  }
-  /// Large programs in 100 digits take their time even so: within these, a minute.
-  static bool certificate_is_due(const Climb& climb) {
-    constexpr double kMost = 1e7;
-    return digits_are_due(climb) && is_large(climb) && climb.last().relaxation_refuted() &&
-           climb.posed_.lmi.multiplications() <= kMost;
-  }
-  /// 100 digits of large programs take minutes, and say more only where 31 and exact multipliers
-  /// (verdict/refined_multipliers.h) do not.
-  static bool most_digits_are_due(const Climb& climb) {
-    return digits_are_due(climb) && !is_large(climb);
+    return climb.posed_.wide && climb.posed_.lmi.represents_points() && nothing_holds_at_all(climb);
   }
   static bool faces_are_due(const Climb& climb) {
     const Attempt* refuted = climb.refutation();
-    const bool inexact = refuted != nullptr && !refuted->refutation->exact && climb.posed_.wide;
+    const bool inexact = refuted != nullptr && !refuted->refutation->exact && climb.posed_.wide &&
+                         climb.posed_.check.describe;
     return climb.posed_.lmi.represents_points() && (nothing_holds_at_all(climb) || inexact) &&
-           climb.find(AttemptKind::on_equations) == nullptr && !climb.waits_for_points();
+           climb.find(AttemptKind::on_equations) == nullptr;
   }
   static bool equations_are_due(const Climb& climb) {
     return climb.posed_.lmi.represents_points() && !has_room(climb);
@@ -155,12 +138,6 @@ struct Attempts {
     return ask(climb, objective(climb, {}));
   }
   static std::optional<Attempt> free_inside(const Climb& climb) { return ask(climb, interior({})); }
-  /// As near as it takes for the steps of verdict/refined_multipliers.h to lead to a certificate.
-  static std::optional<Attempt> certificate_in_100_digits(const Climb& climb) {
-    Question question = interior({}, {"100", 1e-40});
-    question.single = true;
-    return ask(climb, std::move(question));
-  }
   static std::optional<Attempt> in_31_digits(const Climb& climb) {
     return ask(climb, interior({}, {"quad", 1e-22}));
   }
@@ -173,9 +150,6 @@ struct Attempts {
   static std::optional<Attempt> measured(const Climb& climb, std::optional<Attempt> found) {
     if (found) found = measured(climb, std::move(*found));
     return found;
-  }
-  static std::optional<Attempt> in_100_digits(const Climb& climb) {
-    return ask(climb, interior({}, {"100", 1e-76}));
   }
   static std::optional<Attempt> tighter(const Climb& climb) {
     return ask(climb, objective(climb, lmi::gain_bounds(climb.posed_.inequalities,
@@ -193,7 +167,7 @@ struct Row {
   const char* doing;
 };
 
-constexpr std::array<Row, 13> kAttempts = {{
+constexpr std::array<Row, 11> kAttempts = {{
     {AttemptKind::on_equations, Attempts::equations_are_due, Attempts::facial_reduction,
      "a face that the equations leave"},
     {AttemptKind::minimum, Attempts::minimum_is_due, Attempts::minimum, "the minimum"},
@@ -207,14 +181,10 @@ constexpr std::array<Row, 13> kAttempts = {{
      "the minimum, gains of any size"},
     {AttemptKind::free_inside, Attempts::bounds_leave_nothing, Attempts::free_inside,
      "the largest margin, gains of any size"},
-    {AttemptKind::in_100_digits, Attempts::certificate_is_due, Attempts::certificate_in_100_digits,
-     "a certificate in 100 digits"},
     {AttemptKind::in_31_digits, Attempts::digits_are_due, Attempts::in_31_digits,
      "the largest margin in 31 digits"},
     {AttemptKind::facial_reduction, Attempts::faces_are_due, Attempts::facial_reduction,
      "a face that all solutions share"},
-    {AttemptKind::in_100_digits, Attempts::most_digits_are_due, Attempts::in_100_digits,
-     "the largest margin in 100 digits"},
     {AttemptKind::tighter, Attempts::tighter_is_due, Attempts::tighter, "smaller gains"},
 }};
 
@@ -290,11 +260,10 @@ const Attempt* Climb::find(AttemptKind kind) const {
 
 const Attempt* Climb::point() const {
   // A minimum is worth more than a point inside; within the bounds more than without.
-  constexpr AttemptKind kWorth[] = {AttemptKind::minimum,          AttemptKind::large_minimum,
-                                    AttemptKind::blended,          AttemptKind::inside,
-                                    AttemptKind::free_minimum,     AttemptKind::free_inside,
-                                    AttemptKind::on_equations,     AttemptKind::in_31_digits,
-                                    AttemptKind::facial_reduction, AttemptKind::in_100_digits};
+  constexpr AttemptKind kWorth[] = {
+      AttemptKind::minimum,      AttemptKind::large_minimum, AttemptKind::blended,
+      AttemptKind::inside,       AttemptKind::free_minimum,  AttemptKind::free_inside,
+      AttemptKind::on_equations, AttemptKind::in_31_digits,  AttemptKind::facial_reduction};
   const Attempt* holding = nullptr;
   const Attempt* first = nullptr;
   for (const AttemptKind kind : kWorth) {
@@ -318,15 +287,10 @@ const Attempt* Climb::refutation() const {
 }
 
 const Attempt& Climb::last() const {
-  for (const AttemptKind kind : {AttemptKind::in_100_digits, AttemptKind::in_31_digits,
-                                 AttemptKind::free_inside, AttemptKind::inside})
+  for (const AttemptKind kind :
+       {AttemptKind::in_31_digits, AttemptKind::free_inside, AttemptKind::inside})
     if (const Attempt* attempt = find(kind)) return *attempt;
   return tried_.begin()->second;
-}
-
-bool Climb::waits_for_points() const {
-  return posed_.thin && Attempts::may_want_digits(*this) && Attempts::is_large(*this) &&
-         last().relaxation_refuted();
 }
 
 bool Climb::is_yes(const Attempt& attempt) const {

@@ -14,21 +14,15 @@
 //   blended           a point between minimum and inside       both, the minimum found but not
 //                                                              holding
 //   free minimum      the objective, gains of any size         nothing that holds within the bounds
-//   100 digits        a certificate alone, in these digits     nothing that holds, nothing refuted,
-//                                                              of large programs whose multipliers
-//                                                              in double exclude them
 //   31 digits         the largest margin in these digits       nothing that holds, nothing refuted
 //   facial reduction  a point or a no on the face that all     the same, without equations
 //                     solutions share (facial_reduction.h)
-//   100 digits        the largest margin in these digits       the same, of programs that are not
-//                                                              large
 //   tighter           bounds ten times smaller                 a yes with gains near their bounds:
 //                                                              those that shrink are limited by
 //                                                              them alone
 //
-// (An exchange grows by the points at which a solution fails, and begins again; so it does once, by
-// points between its own, before large programs are tried in more digits. After some rounds a point
-// near the minimum ends it.) Each attempt is made once at most and its record stays; what they mean
+// (An exchange grows by the points at which a solution fails, and begins again. After some rounds a
+// point near the minimum ends it.) Each attempt is made once at most and its record stays; what they mean
 // together is conclude(). A no comes from an attempt without bounds.
 #pragma once
 
@@ -53,7 +47,6 @@ enum class AttemptKind {
   on_equations,
   in_31_digits,
   facial_reduction,
-  in_100_digits,
   tighter
 };
 
@@ -85,9 +78,6 @@ class Climb {
   const Attempt* refutation() const;
   /// The last attempt without gain bounds, or with them when there is no other.
   const Attempt& last() const;
-  /// Whether more digits wait for more points: Posed::thin, a large program, and multipliers in
-  /// double that exclude it but are no certificate.
-  bool waits_for_points() const;
   /// Whether the point was found without the bounds of the problem.
   bool is_free(const Attempt& attempt) const;
   /// Whether the attempt is a yes, with gains within the bound of the problem.

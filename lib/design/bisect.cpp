@@ -102,12 +102,17 @@ BisectResult bisect(const model::Instance& own, const model::Overrides& fixed,
                     const BisectChoices& choices, const sdp::Options& solver) {
   std::map<double, model::Gains> tried;
   std::optional<InputError> refusal;
-  const auto question = [&](double value) {
+  const auto overrides_at = [&](double value) {
     model::Overrides overrides = {{choices.scalar.name, value}};
     overrides.insert(fixed.begin(), fixed.end());
     overrides.insert(own.overrides.begin(), own.overrides.end());
+    return overrides;
+  };
+  const auto question = [&](double value) {
+    const model::Overrides overrides = overrides_at(value);
     try {
-      model::Gains gains = synthesize_at(own.design, overrides, solver, choices.depth);
+      model::Gains gains =
+          synthesize_at(own.design, overrides, solver, std::max(choices.depth, Depth::verdict));
       if (gains.verdict == model::Verdict::undecided) check_stop();
       search::Answer answer = answer_of(gains);
       if (answer == search::Answer::yes && choices.also) answer = choices.also(gains);
@@ -125,6 +130,13 @@ BisectResult bisect(const model::Instance& own, const model::Overrides& fixed,
   options.guess = choices.guess;
   BisectResult result;
   result.found = search::bisect(question, choices.scalar.axis, options);
+  // The ends of a bracket alone are told of in full.
+  const bool in_full = choices.depth == Depth::thorough && !is_stopping();
+  for (const auto& end : {result.found.yes, result.found.no}) {
+    if (!end || !in_full) continue;
+    model::Gains gains = synthesize_at(own.design, overrides_at(*end), solver);
+    if (answer_of(gains) == answer_of(tried.at(*end))) tried.at(*end) = std::move(gains);
+  }
   const Concluding concluding;
   if (tried.empty() && refusal) throw InputError(*refusal);
   if (tried.empty()) return result;

@@ -2,11 +2,10 @@
 
 #include <functional>
 #include <initializer_list>
-#include <limits>
 #include <utility>
 
 #include "base/stop.h"
-#include "verdict/refined_refutation.h"
+#include "verdict/boundary_refutation.h"
 #include "verdict/solved_multipliers.h"
 
 namespace gainsmith::design {
@@ -35,7 +34,9 @@ class Certificates {
     return found;
   }
 
+  /// Exact where others are not, and no sooner.
   verdict::Refutation by_eigenvalue() const {
+    if (!posed_.check.describe) return {};
     constexpr double kWorth = 0.5;  // what is spent here the other certificates lack
     const Allowance allowance(kWorth);
     std::optional<verdict::AlgebraicCertificate> found;
@@ -73,35 +74,6 @@ class Certificates {
                                         solution);
   }
 
-  /// However small its eigenvalues are: the steps are in double.
-  verdict::Refutation inside(const sdp::Solution& solution) const {
-    return verdict::refute_refined(posed_.inequalities, posed_.lmi, formulation_,
-                                   multipliers(solution), verdict::Steps::in_double);
-  }
-
-  /// Of small programs refining them is cheaper than a solution in more digits: from double it has
-  /// a small allowance.
-  verdict::Refutation refined(const sdp::Solution& solution) const {
-    constexpr double kWorth = 0.1;
-    const Allowance allowance(in_double() ? kWorth : std::numeric_limits<double>::infinity());
-    try {
-      return verdict::refute_refined(posed_.inequalities, posed_.lmi, formulation_,
-                                     multipliers(solution), verdict::Steps::in_wide);
-    } catch (const OutOfAllowance&) {
-      if (!in_double()) throw;
-      return {};
-    }
-  }
-
-  /// What 31 digits see is not of the data's making when 100 are asked for.
-  verdict::Refutation in_100_digits(const sdp::Solution& solution) const {
-    const auto blocks =
-        verdict::exact_blocks<Decimal100>(posed_.inequalities, posed_.lmi, formulation_);
-    return verdict::refute<Decimal100>(
-        posed_.lmi, blocks,
-        verdict::wide_multipliers_of(formulation_, posed_.lmi.blocks.size(), solution));
-  }
-
  private:
   verdict::Multipliers multipliers(const sdp::Solution& solution) const {
     return verdict::multipliers_of(formulation_, posed_.lmi.blocks.size(), solution);
@@ -133,15 +105,11 @@ verdict::Refutation find_certificate(const Posed& posed, const Effort& effort,
              [&] { return certificates.by_eigenvalue(); },
              [&] { return certificates.on_boundary(solution); },
              [&] { return certificates.by_violation(solve); },
-             [&] { return certificates.inside(solution); },
              [&] { return certificates.by_violation_in_scale(solve); }})
       if (const auto made = make(); decides(made)) return made;
   found = certificates.exact(solution, verdict::Exactness::in_wide);
   if (found.exact) return found;
-  if (excludes(first)) return first;
-  if (!posed.wide || !near) return found;
-  if (const auto refined = certificates.refined(solution); excludes(refined)) return refined;
-  return certificates.in_double() ? found : certificates.in_100_digits(solution);
+  return excludes(first) ? first : found;
 }
 
 }  // namespace gainsmith::design

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "forall/centres.h"
-#include "forall/midpoints.h"
 
 namespace gainsmith::design {
 
@@ -37,18 +36,6 @@ bool grow(forall::Plan& plan, const lmi::Inequalities& inequalities, const lmi::
       points.push_back(std::move(centre));
     for (const forall::Point& point : points)
       grown |= forall::add_point(imposed, statement.domain, point);
-  }
-  return grown;
-}
-
-bool thicken(forall::Plan& plan, const lmi::Inequalities& inequalities) {
-  bool grown = false;
-  for (std::size_t k = 0; k < plan.inequalities.size(); ++k) {
-    forall::Imposed& imposed = plan.inequalities[k];
-    if (imposed.way != model::Way::exchange) continue;
-    const forall::Domain& domain = inequalities.statements[k].domain;
-    for (const forall::Point& point : forall::midpoints(imposed, domain))
-      grown |= forall::add_point(imposed, domain, point);
   }
   return grown;
 }

@@ -10,9 +10,6 @@ namespace gainsmith::design {
 bool grow(forall::Plan& plan, const lmi::Inequalities& inequalities, const lmi::Lmi& lmi,
           const Attempt& attempt);
 
-/// Adds points between those of each exchange (forall/midpoints.h); false when there is none.
-bool thicken(forall::Plan& plan, const lmi::Inequalities& inequalities);
-
 /// Whether the largest margin at the points so far is below what points found in double could raise
 /// above 0: more of them would be added without end.
 bool is_out_of_reach(const Attempt& attempt);

@@ -22,8 +22,8 @@ Enough enough_for(const Posed& posed, const Question& asked, const lmi::Formulat
                   const lmi::Round& round) {
   constexpr double kRoom = 2;  // between double and the exact check of the decimals
   constexpr double kGrows = 2;
-  if (asked.goal != lmi::Goal::interior || asked.single || asked.largest ||
-      posed.lmi.has_objective || posed.plan.uses_exchange())
+  if (asked.goal != lmi::Goal::interior || asked.largest || posed.lmi.has_objective ||
+      posed.plan.uses_exchange())
     return {};
   const double margin = kRoom * posed.choices().margin;
   return [&posed, &asked, &formulation, &round, margin,

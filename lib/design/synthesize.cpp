@@ -248,11 +248,8 @@ class Synthesis {
 
   /// All attempts on the plan; whether it has grown by what they showed.
   bool climbs_again() {
-    forall::Plan denser = plan_;
-    const bool thin = !thickened_ && thicken(denser, inequalities_);
-    climb_.emplace(
-        Posed{inequalities_, plan_, lmi_, depth_ != Depth::quick, check_options(depth_), thin},
-        bounds_, [this](const auto&... asked) { return solve(asked...); });
+    climb_.emplace(Posed{inequalities_, plan_, lmi_, depth_ != Depth::quick, check_options(depth_)},
+                   bounds_, [this](const auto&... asked) { return solve(asked...); });
     climb_->to_point();
     constexpr int kDrawsOn = 6;  // rounds after which an exchange does
     if (round_ >= kDrawsOn) {
@@ -266,10 +263,6 @@ class Synthesis {
     }
     const Attempt* point = climb_->point();
     const bool undecided = climb_->refutation() == nullptr && (point == nullptr || !point->holds());
-    if (!again && climb_->waits_for_points()) {
-      plan_ = std::move(denser);
-      again = thickened_ = true;
-    }
     // What the hull's own expansion of the functions rounded away shows at points.
     if (!again && undecided) again = plan_.leave_hulls(inequalities_.design());
     solve_seconds_ += climb_->seconds();
@@ -321,7 +314,6 @@ class Synthesis {
   std::optional<Attempt> inside_;  ///< a point that holds, of an exchange that draws on
   int round_ = 1;
   int iterations_ = 0;  ///< of the solver, in all
-  bool thickened_ = false;
   double compile_seconds_ = 0;
   double solve_seconds_ = 0;
 };

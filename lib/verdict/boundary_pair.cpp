@@ -9,7 +9,6 @@
 #include "base/eigen_scalars.h"
 #include "base/stop.h"
 #include "numbers/dense.h"
-#include "verdict/refined_multipliers.h"
 #include "verdict/wide_algebra.h"
 
 namespace gainsmith::verdict {
@@ -339,6 +338,23 @@ class System {
   Matrix H_;
   std::optional<numbers::Cholesky> upper_, lower_;
 };
+
+/// L with L L' = Y but for what a Cholesky factorisation with pivoting finds not above `least`.
+Wide factor_above(const Wide& Y, double least) {
+  const Index n = Y.rows();
+  Wide rest = Y;
+  Wide L(n, n);
+  Index rank = 0;
+  for (; rank < n; ++rank) {
+    Index best = 0;
+    for (Index i = 1; i < n; ++i)
+      if (rest(i, i) > rest(best, best)) best = i;
+    if (!(rest(best, best) > Decimal100(least))) break;
+    L.col(rank) = rest.col(best) / sqrt(rest(best, best));
+    rest -= numbers::times<Decimal100>(Wide(L.col(rank)), Wide(L.col(rank).transpose()));
+  }
+  return L.leftCols(rank);
+}
 
 /// V S V' without what steps leave beside the range.
 void cut(Wide& Y) {

@@ -193,8 +193,7 @@ TEST(Attempts, WhatIsNoCertificateIsNoNo) {
   const Case feasible(window("sqrt(1)", "sqrt(4)"));
   // No step leads from the multiplier 0 to another.
   const Scripted stuck(refuting(of, {0, 3}), of);
-  EXPECT_EQ(stuck.tried, (AttemptKinds{AttemptKind::inside, AttemptKind::in_31_digits,
-                                       AttemptKind::in_100_digits}));
+  EXPECT_EQ(stuck.tried, (AttemptKinds{AttemptKind::inside, AttemptKind::in_31_digits}));
   EXPECT_EQ(stuck.gains.verdict, Verdict::undecided);
   EXPECT_FALSE(stuck.gains.certificate);
   EXPECT_TRUE(stuck.says("the largest margin found is 0")) << stuck.message();
@@ -230,16 +229,14 @@ TEST(Attempts, PlainStepsOnFacesDecideWhateverTheSolverSays) {
 
 TEST(Attempts, MoreDigitsAreAskedForWithoutBoundsWhereNothingIsDecided) {
   const Case of(window("sqrt(1)", "sqrt(4)", true));
-  const Scripted run(of, {undecided(), undecided(), undecided(), undecided(), inside(of, {1.5})});
+  const Scripted run(of, {undecided(), undecided(), undecided(), inside(of, {1.5})});
   EXPECT_EQ(run.tried, (AttemptKinds{AttemptKind::inside, AttemptKind::free_inside,
-                                     AttemptKind::in_31_digits, AttemptKind::in_100_digits}));
+                                     AttemptKind::in_31_digits}));
   EXPECT_EQ(run.asked[0].blocks.size(), 4U);
   EXPECT_EQ(run.asked[1].blocks.size(), 2U) << "the least violation";
   EXPECT_EQ(run.efforts[1].precision, "double");
   EXPECT_EQ(run.asked[2].blocks.size(), 5U);
   EXPECT_EQ(run.efforts[3].precision, "quad");
-  EXPECT_EQ(run.efforts[4].precision, "100");
-  EXPECT_LT(run.efforts[4].tolerance, 1e-30);
   EXPECT_EQ(run.gains.verdict, Verdict::yes) << run.message();
 }
 
@@ -304,7 +301,7 @@ TEST(Attempts, WithoutAnAnswerTheCauseIsKept) {
   for (const std::string& method : {kFloor, kFreeGain, window("1", "2"), window("1", "2", true)}) {
     const Case of(method);
     const Scripted run(late, of);
-    EXPECT_EQ(run.tried.back(), AttemptKind::in_100_digits);
+    EXPECT_EQ(run.tried.back(), AttemptKind::in_31_digits);
     EXPECT_EQ(run.gains.verdict, Verdict::undecided);
     EXPECT_EQ(run.gains.solver.status, "undecided");
     EXPECT_EQ(run.gains.solver.cause, "iteration-limit");

@@ -128,10 +128,10 @@ inline bool is_asked_again(const Case& of, const sdp::Problem& problem) {
          !is_plain(lmi::gain_bounds(of.inequalities, of.bounds.beta / 10));
 }
 
-inline constexpr AttemptKind kKinds[] = {
-    AttemptKind::minimum,      AttemptKind::inside,        AttemptKind::large_minimum,
-    AttemptKind::blended,      AttemptKind::free_minimum,  AttemptKind::free_inside,
-    AttemptKind::in_31_digits, AttemptKind::in_100_digits, AttemptKind::tighter};
+inline constexpr AttemptKind kKinds[] = {AttemptKind::minimum,       AttemptKind::inside,
+                                         AttemptKind::large_minimum, AttemptKind::blended,
+                                         AttemptKind::free_minimum,  AttemptKind::free_inside,
+                                         AttemptKind::in_31_digits,  AttemptKind::tighter};
 
 /// One climb over a script, with what holds for every climb: each kind is tried once, in their
 /// order, and a record stays as it was.

@@ -14,9 +14,9 @@
 #include "support/linear_algebra.h"
 #include "support/yaml_problem.h"
 #include "verdict/boundary_pair.h"
+#include "verdict/boundary_refutation.h"
 #include "verdict/implied_equations.h"
 #include "verdict/plants.h"
-#include "verdict/refined_refutation.h"
 #include "verdict/refutation.h"
 
 namespace gainsmith::verdict {
@@ -139,29 +139,6 @@ TEST(BoundaryPair, WhatIsBesideDoesNotHinder) {
       "positive: P > 0, stable: He(P*A) < 0, size: P > I}\ndata: {A: [[-1, 5, 0], [-2, -3, 1], "
       "[0, 0, 0.2]]}\n");
   EXPECT_LE(posed.on_boundary().backward_error, kNothing);
-}
-
-/// A bounded real lemma below the norm, which is 1: the multipliers have eigenvalues like those of
-/// a Gramian, and rank far above what double tells.
-TEST(RefinedInDouble, BelowANormThereIsACertificate) {
-  for (const int n : {3, 6, 10}) {
-    const Matrix chain = Matrix::NullaryExpr(n, n, [](Eigen::Index r, Eigen::Index c) {
-      return r == c ? -1.0 : r == c + 1 ? 1.0 : 0.0;
-    });
-    Matrix B = Matrix::Zero(n, 1), C = Matrix::Zero(1, n);
-    B(0, 0) = C(0, n - 1) = 1;
-    const PosedInDouble posed(
-        "  data: {A: n x n, B: n x 1, C: 1 x n}\n  unknowns: {P: symmetric n}\n  require: "
-        "{positive: P > 0, gain: \"[He(P*A) + C'*C, P*B; *, -0.9*eye(1)] < 0\"}\ndata: {A: " +
-        tests::matrix_yaml(chain) + ", B: " + tests::matrix_yaml(B) +
-        ", C: " + tests::matrix_yaml(C) + "}\n");
-    const sdp::Solution solution = sdp::solve(posed.formulation.problem);
-    const auto Y = multipliers_of(posed.formulation, 2, solution);
-    const Refutation found =
-        refute_refined(posed.of, posed.lmi, posed.formulation, Y, Steps::in_double);
-    EXPECT_TRUE(found.exact || found.backward_error <= kNothing)
-        << n << ": " << found.backward_error;
-  }
 }
 
 /// With 20 states and one input the homogenised inequalities have next to no solution but 0, and

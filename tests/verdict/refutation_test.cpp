@@ -15,8 +15,8 @@
 #include "sdp/solver.h"
 #include "support/linear_algebra.h"
 #include "support/yaml_problem.h"
+#include "verdict/boundary_refutation.h"
 #include "verdict/plants.h"
-#include "verdict/refined_refutation.h"
 #include "verdict/relaxed_backward_error.h"
 #include "verdict/zero_diagonal.h"
 
@@ -60,11 +60,9 @@ struct Posed {
   }
 
   /// What those near the solver's show.
-  Refutation refined() const {
+  Refutation on_boundary() const {
     const lmi::Formulation asked = formulation();
-    const sdp::Solution solution = sdp::solve(asked.problem, {});
-    return refute_refined(of, lmi, asked, multipliers_of(asked, lmi.blocks.size(), solution),
-                          Steps::in_wide);
+    return refute_on_boundary(of, lmi, asked, sdp::solve(asked.problem, {}));
   }
 };
 
@@ -120,7 +118,7 @@ TEST(RefutationTest, AnUnstableAIsRefuted) {
   std::mt19937 generator(2);
   for (int trial = 0; trial < 6; ++trial) {
     const Matrix A = with_abscissa(random_matrix(2 + trial % 3, generator), 0.2);
-    const Refutation found = Posed(lyapunov(A)).refined();
+    const Refutation found = Posed(lyapunov(A)).on_boundary();
     EXPECT_TRUE(found.exact || found.backward_error <= kNothing)
         << A << "\nbackward error " << found.backward_error;
   }

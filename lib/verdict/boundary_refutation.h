@@ -1,4 +1,4 @@
-// Certificates inside and on the boundary of the cone, from multipliers that are only nearly one.
+// Certificates on the boundary of the cone, from multipliers that are only nearly one.
 #pragma once
 
 #include "lmi/scale.h"
@@ -19,14 +19,5 @@ Refutation refute_by_violation(const lmi::Inequalities& of, const lmi::Lmi& lmi,
 Refutation refute_by_violation(const lmi::Inequalities& of, const lmi::Lmi& lmi,
                                const lmi::Scale& scale, const lmi::Formulation& formulation,
                                const sdp::Solution& solution);
-
-/// In which arithmetic the steps of a refinement are computed.
-enum class Steps { in_double, in_wide };
-
-/// The same of multipliers alone (refined_multipliers.h): certificates inside of the cone however
-/// small their eigenvalues are, and with steps of 31 and 100 digits those on its boundary where a
-/// solution beside them has no gap to it.
-Refutation refute_refined(const lmi::Inequalities& of, const lmi::Lmi& lmi,
-                          const lmi::Formulation& formulation, const Multipliers& Y, Steps steps);
 
 }  // namespace gainsmith::verdict

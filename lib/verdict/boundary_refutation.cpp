@@ -1,53 +1,16 @@
-#include "verdict/refined_refutation.h"
+#include "verdict/boundary_refutation.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <set>
 #include <utility>
 
 #include "verdict/boundary_pair.h"
-#include "verdict/implied_equations.h"
-#include "verdict/refined_multipliers.h"
 #include "verdict/wide_algebra.h"
 
 namespace gainsmith::verdict {
 
 namespace {
-
-double trace_of(const numbers::MatrixOf<DoubleDouble>& Y) {
-  return as<double>(DoubleDouble(Y.trace()));
-}
-
-/// Those blocks that have a share of the multipliers, with factors of these.
-struct Kept {
-  std::vector<FactoredMultiplier> multipliers;
-  std::vector<std::size_t> which;
-};
-
-/// Blocks with tr(Y_k) >= share, and of them what is above `least`.
-Kept kept_of(const std::vector<ExactBlock<Decimal100>>& blocks, const Multipliers& Y, double share,
-             double least) {
-  Kept kept;
-  for (std::size_t k = 0; k < blocks.size(); ++k) {
-    if (!(trace_of(Y[k]) > 0 && trace_of(Y[k]) >= share)) continue;
-    const Wide wide = Y[k].unaryExpr([](const DoubleDouble& y) { return as<Decimal100>(y); });
-    kept.multipliers.push_back({&blocks[k], factor_above(wide, least)});
-    kept.which.push_back(k);
-  }
-  return kept;
-}
-
-Refutation refute_kept(const lmi::Lmi& lmi, const std::vector<ExactBlock<Decimal100>>& blocks,
-                       const Multipliers& Y, const Kept& kept, Steps steps) {
-  std::vector<Wide> refined;
-  for (const auto& y : Y) refined.push_back(Wide::Zero(y.rows(), y.cols()));
-  for (std::size_t a = 0; a < kept.which.size(); ++a)
-    refined[kept.which[a]] = kept.multipliers[a].value();
-  // They have next to no residual: whether an exact one is near may take longer than all the rest.
-  return refute<Decimal100>(lmi, blocks, refined,
-                            steps == Steps::in_double ? Exactness::in_double : Exactness::in_wide);
-}
 
 /// x_0 > 0, whose multiplier is v.
 ExactBlock<Decimal100> block_of_constant() { return {1, {{0, {{0, 0, Decimal100(1), 0}}}}}; }
@@ -180,46 +143,6 @@ Refutation refute_by_violation(const lmi::Inequalities& of, const lmi::Lmi& lmi,
                         violated_pair_of(lmi, formulation, solution));
   if (!Y || !close(blocks, scale, formulation.free_variables.kept[scale.block], *Y)) return {};
   return refute<Decimal100>(lmi, blocks, std::move(*Y), Exactness::in_double);
-}
-
-Refutation refute_refined(const lmi::Inequalities& of, const lmi::Lmi& lmi,
-                          const lmi::Formulation& formulation, const Multipliers& Y, Steps steps) {
-  // A block that a certificate does not need may keep the others from being one.
-  constexpr double kShares[] = {0, 1e-8, 1e-4};
-  // What is left beside the range of a singular certificate.
-  constexpr double kRanges[] = {1e-4, 1e-7, 1e-2, 1e-10};
-  Refutation best;
-  if (!lmi.represents_points()) return best;
-  auto blocks = exact_blocks<Decimal100>(of, lmi, formulation);
-  drop_implied(of, lmi, formulation, blocks);
-  double whole = 0;
-  for (const auto& y : Y) whole += trace_of(y);
-  const auto excludes = [&](const Kept& kept) {
-    const Refutation found = refute_kept(lmi, blocks, Y, kept, steps);
-    if (found.exact || found.backward_error < best.backward_error) best = found;
-    return best.exact || best.backward_error <= kNothing;
-  };
-  std::size_t checked = 0;
-  for (const double share : kShares) {
-    Kept kept = kept_of(blocks, Y, share * whole, 0);
-    if (kept.which.size() == checked) continue;
-    checked = kept.which.size();
-    const bool settled = steps == Steps::in_double
-                             ? refine_in_double(kept.multipliers, lmi.unknowns)
-                             : refine(kept.multipliers, lmi.unknowns);
-    if (settled && excludes(kept)) return best;
-  }
-  if (steps == Steps::in_double) return best;
-  std::set<std::vector<Eigen::Index>> tried;
-  for (const double range : kRanges) {
-    Kept kept = kept_of(blocks, Y, range * whole, range * whole);
-    std::vector<Eigen::Index> ranks(blocks.size(), 0);
-    for (std::size_t a = 0; a < kept.which.size(); ++a)
-      ranks[kept.which[a]] = kept.multipliers[a].L.cols();
-    if (!tried.insert(std::move(ranks)).second) continue;
-    if (refine_on_range(kept.multipliers, lmi.unknowns) && excludes(kept)) return best;
-  }
-  return best;
 }
 
 }  // namespace gainsmith::verdict
