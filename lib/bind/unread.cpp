@@ -32,13 +32,10 @@ std::vector<std::string> unread_names(const Binding& binding, const std::set<std
   for (const model::Let& let : method.let) say("definition", let.signature.name, let);
   if (!method.observers.empty()) add("output", method.plant.outputs);
   for (const model::Component& observer : method.observers) add("state", observer.states);
-  const bool has_runs = method.has_dynamics && !method.gains.empty();
-  if (has_runs && is_own(method.gains.front()) &&
-      std::none_of(method.gains.begin(), method.gains.end(),
-                   [&](const auto& gain) { return read.contains(gain.name); }))
-    sentences.push_back(
-        "neither the plant nor an observer reads a gain: the runs say nothing of '" +
-        method.gains.front().name + "'");
+  for (const auto& gain : method.gains)
+    if (method.has_dynamics && is_own(gain) && !is_read(gain.name))
+      sentences.push_back("neither the plant nor an observer reads the gain '" + gain.name +
+                          "': the runs say nothing of it");
   return sentences;
 }
 

@@ -176,6 +176,12 @@ class Doubts {
     }
   }
 
+  /// As it stands in the text: a datum that is 0 is meant.
+  bool is_zero(const model::Formula& formula) const {
+    const auto value = value_of(formula);
+    return value && value->isZero(0) && formula.program.inputs.empty();
+  }
+
   void about(const Dynamics::Noise& noise) {
     const std::string& name = noise.name;
     const Readers readers(dynamics_, name);
@@ -194,6 +200,8 @@ class Doubts {
     }
     // Amplitudes and frequencies of a sinusoid are drawn once by their meaning.
     if (name.find('.') != std::string::npos) return;
+    if (std::ranges::all_of(noise.values, [&](const auto& formula) { return is_zero(formula); }))
+      found_.push_back("the noise " + quoted(name) + " is always 0");
     const bool random = noise.has_center() || noise.kind == Dynamics::NoiseKind::uniform;
     const std::vector<std::size_t> events = readers.events();
     if (!noise.event && !noise.every) {

@@ -55,13 +55,15 @@ TEST(Shortest, IsTheFirstThatReadsBack) {
     const double values[] = {bits, inside(random), std::round(1e4 * inside(random)) / 1e4,
                              std::round(inside(random)) * std::pow(10.0, tenth(random))};
     for (const double value : values)
-      if (std::isnormal(value)) ASSERT_EQ(shortest(value), tried_in_turn(value));
+      if (std::isnormal(value)) {
+        ASSERT_EQ(shortest(value), tried_in_turn(value));
+      }
   }
   EXPECT_EQ(shortest(0), "0");
   EXPECT_EQ(shortest(0.3), "0.3");
   EXPECT_EQ(shortest(-0.001), "-0.001");
   EXPECT_EQ(shortest(1e15), "1e+15");
-  EXPECT_EQ(shortest(123456789012345678), "1.2345678901234568e+17");
+  EXPECT_EQ(shortest(123456789012345678.0), "1.2345678901234568e+17");
   EXPECT_EQ(shortest(std::numeric_limits<double>::denorm_min()), "5e-324");
   EXPECT_EQ(shortest(std::numeric_limits<double>::infinity()), "inf");
   EXPECT_EQ(shortest(std::numeric_limits<double>::quiet_NaN()), "nan");

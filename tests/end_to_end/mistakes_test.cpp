@@ -249,6 +249,24 @@ TEST(WrongCommandLines, AreNamedWithWhatWasExpected) {
   EXPECT_EQ(runs.json()["runs"], 10);
 }
 
+TEST(SilentMistakes, AGainThatNoRunReadsIsNamed) {
+  const Folder folder;
+  const std::string text =
+      "problem: p\nmethod:\n  method: m\n  data: {a: scalar}\n  unknowns: {p: scalar, y: scalar}\n"
+      "  require: {positive: p > 1, decay: p*a - y < 0}\n  gains: {L: y/p, K: 2*y/p}\n"
+      "  plant: {state: {x: scalar}, flow: {x: a*x}, output: {y1: x}}\n"
+      "  observer: {state: {z: scalar}, flow: {z: a*z + L*(y1 - z)}}\n"
+      "  claims: {settles: {below: \"abs(x - z)\", bound: 1, after: 9}}\n"
+      "data: {a: -1}\ncampaign: {runs: 3, horizon: 10, initial: {x: {box: [-1, 1]}, z: 0}}\n";
+  const std::string note =
+      "neither the plant nor an observer reads the gain 'K': the runs say nothing of it";
+  const Outcome found = gainsmith({"check", folder.file("p.yaml", text)});
+  EXPECT_TRUE(has(found.out, note)) << found.out << found.err;
+  const Outcome read = gainsmith({"check", folder.file("p.yaml", with(text, "+ L*(", "+ K*("))});
+  EXPECT_TRUE(has(read.out, "reads the gain 'L'")) << read.out << read.err;
+  EXPECT_FALSE(has(read.out, note)) << read.out;
+}
+
 /// A file that says what was perhaps not meant is valid, with a note; --strict refuses it.
 TEST(SilentMistakes, AreHeardOf) {
   const Folder folder;
@@ -290,6 +308,7 @@ TEST(SilentMistakes, AreHeardOf) {
            {"sample: {every: [0.05, 0.2]}}",
             "sample: {every: [0.05, 0.2]}, gust: {every: 1, lost: 0.5}}",
             "the event 'gust' may be lost, and no observer has a map there"},
+           {"normal: 0.03", "normal: 0", "the noise 'w' is always 0"},
            {"to: 0.5", "to: 5", "the claim 'small' lets a value above 0 grow: `to` is 5"},
            {"method: filter\n  let:", "method: filter\n  parameters: {a: {default: 2}}\n  let:",
             "nothing reads the parameter 'a'"},
