@@ -10,6 +10,7 @@
 #include "base/file.h"
 #include "base/stop.h"
 #include "bind/instance.h"
+#include "design/excluded_inequalities.h"
 #include "design/optimize.h"
 #include "design/semidefinite_program.h"
 #include "design/synthesize.h"
@@ -44,8 +45,15 @@ struct SynthOptions {
 /// Why there are no gains, in one line; `spent`: the work of finding that there are none.
 std::string reason(const model::Instance& instance, const model::Gains& gains, double spent) {
   constexpr double kLeast = 0.1, kMost = 1, kTimes = 1.5;
+  const double seconds = std::clamp(kTimes * spent, kLeast, kMost);
+  // A search says no of what it does not change alone.
+  const auto excluded =
+      design::held_scalars(instance).empty()
+          ? std::nullopt
+          : design::excluded_inequalities(instance, design::request_of(instance), {});
   const auto conflict =
-      design::guess_conflict(instance, gains, {}, std::clamp(kTimes * spent, kLeast, kMost));
+      excluded ? design::guess_conflict(excluded->inequalities, excluded->gains, {}, seconds)
+               : design::guess_conflict(instance, gains, {}, seconds);
   return explanation_line(conflict.value(), design::find_reaches(instance, {}));
 }
 

@@ -32,8 +32,14 @@ std::vector<std::string> unread_names(const Binding& binding, const std::set<std
   for (const model::Let& let : method.let) say("definition", let.signature.name, let);
   if (!method.observers.empty()) add("output", method.plant.outputs);
   for (const model::Component& observer : method.observers) add("state", observer.states);
-  for (const auto& gain : method.gains)
-    if (method.has_dynamics && is_own(gain) && !is_read(gain.name))
+  // A formula of other gains tells of these, as a covariance does.
+  const auto is_alone = [&](const model::Gain& gain) {
+    const std::set<std::string> names = expr::names_in(gain.value);
+    return std::ranges::none_of(method.gains,
+                                [&](const auto& one) { return names.contains(one.name); });
+  };
+  for (const model::Gain& gain : method.gains)
+    if (method.has_dynamics && is_own(gain) && !is_read(gain.name) && is_alone(gain))
       sentences.push_back("neither the plant nor an observer reads the gain '" + gain.name +
                           "': the runs say nothing of it");
   return sentences;

@@ -50,7 +50,7 @@ std::optional<Excluded> excluded_inequalities(const model::Instance& instance,
   if (fixed.empty()) return std::nullopt;
   const model::Instance rest = with_inequalities(all, fixed);
   try {
-    model::Gains gains = synthesize(rest, solver, Depth::quick);
+    model::Gains gains = synthesize(rest, solver);
     if (gains.verdict == model::Verdict::no && gains.certificate->is_about_problem())
       return Excluded{rest, std::move(gains)};
   } catch (const InputError&) {
