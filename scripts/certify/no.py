@@ -32,6 +32,8 @@ Block = namedtuple("Block", "sign terms shape multiplier")
 CHOICES = [(1e-13, 0), (1e-9, 0), (1e-13, 1e-14), (1e-13, 1e-9), (1e-9, 1e-9), (1e-6, 0),
            (1e-6, 1e-6)]
 NEAR = 10 ** 6      # an objective is proved above its stated bound, but for this part of it
+FAR = "the multipliers of the file are too far from exact ones, or dependent"
+BOUNDED = "the bound is one within bounds of the gains that the text does not state"
 def prove_no(gain, certificate, name="no solution"):
     """The claim that the inequalities of the file have no solution."""
     try:
@@ -63,8 +65,7 @@ def prove_inside(blocks, tiny, small):
         rows[0]["x0"], residual[0] = v, Ball(0)
     elif not any(block.sign in STRICT for block in used):
         return "no strict inequality has a multiplier"
-    if correction(rows, residual) is not None: return None
-    return "the multipliers of the file are too far from exact ones, or dependent"
+    return FAR if correction(rows, residual) is None else None
 def prove_optimum(gain):
     """The claim that the objective is nowhere below its bound in the file, or hardly; it names the
     bound that is proved. With r' inv(H) r <= s (see `near`), v = r_0 - sum_k <S_k, G_k0> is at
@@ -81,7 +82,7 @@ def prove_optimum(gain):
         first, constant = residual.pop(0), rows.pop(0, {})
         if not set(residual) <= set(rows): raise Undecided("an unknown of the objective alone")
         s = correction(rows, residual)
-        if s is None: raise Undecided("the multipliers of the file are too far from exact ones")
+        if s is None: raise Undecided(FAR if len(blocks) == len(gain["optimum"]) else BOUNDED)
         shown = (first - function("sqrt", s * inner(constant, constant))) * scale
         low = middle(shown) - upper(shown - middle(shown))
         if low < stated - abs(stated) / NEAR: return Claim(name, "open", "shown: >= %.10g" % low)
@@ -89,7 +90,6 @@ def prove_optimum(gain):
         return Claim("objective >= %s" % digits, "proved", "multipliers near those of the file")
     except NOT_EVALUATED as error:
         return Claim(name, "open", reason(error))
-# The blocks of a certificate.
 def blocks_of(statement, multipliers):
     """The inequalities that have multipliers. A label is such as `flow at i = 1, tau = 0.7`."""
     expect(isinstance(multipliers, dict), "multipliers: an object")

@@ -228,9 +228,8 @@ TEST(ProblemsTest, TheLogAndJUnitNameTheCause) {
 TEST(ProblemsTest, AnUndecidedProblemSaysSoFirst) {
   const Folder folder;
   const std::string open =
-      "problem: open\nmethod: static-output-feedback\ndata: {A: [[0, 1, 0], [0, 0, 1], [-1, -1, "
-      "0]], "
-      "B: [[0], [0], [1]], C: [-1, 0, -1]}\n";
+      "problem: open\nmethod: {method: m, data: {h: {shape: scalar, default: 2}}, unknowns: {x: "
+      "scalar}, require: {low: x > h, high: x < -1}}\nsearch: {over: {h: [1, 3]}}\n";
   std::filesystem::create_directory(folder.path("p"));
   folder.file("p/a.yaml", open + "expect: {verdict: \"yes\"}\n");
   folder.file("p/b.yaml", open);
