@@ -16,6 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kPython = "python3";
+
 /// Beside the program, as installed or as built.
 std::string folder_of_certify() {
   std::error_code error;
@@ -37,12 +39,16 @@ struct CertifyOptions {
 
 }  // namespace
 
-ExitCode certify(std::vector<std::string> arguments) {
-  constexpr const char* kPython = "python3";
+void require_certify() {
   if (!is_installed(kPython))
     throw InputError({"certify"},
                      "it runs in Python 3, which is not installed (packages python3 and "
                      "python3-yaml in Debian)");
+  static_cast<void>(folder_of_certify());
+}
+
+ExitCode certify(std::vector<std::string> arguments) {
+  require_certify();
   arguments.insert(arguments.begin(), {kPython, folder_of_certify()});
   std::fflush(stdout);
   const auto code = run_program(std::move(arguments));
@@ -54,28 +60,28 @@ ExitCode certify(std::vector<std::string> arguments) {
 
 Command certify_command() {
   auto options = std::make_shared<CertifyOptions>();
-  return {
-      "certify",
-      "Prove what gain files say by a second program, which shares no code with this one",
-      {Option("gains", options->files, "gain files (JSON); - for standard input").required(),
-       Option("--claims", options->claims, "a line for each claim"),
-       Option("--json", options->json, "print the report as JSON"),
-       Option("--time", options->seconds, "seconds of a file, after which it is open")
-           .within(0.1, 1e6)},
-      "The second program is Python with PyYAML: scripts/certify, described in docs/trust.md.\n"
-      "Exit code: 0 all is proved, 1 something is refuted, 2 no gain file, 3 something is open.\n"
-      "Examples:\n"
-      "  gainsmith certify gains.json\n"
-      "  gainsmith certify results/*/gains.json --claims",
-      [options] {
-        std::vector<std::string> arguments = {"--time", brief(options->seconds)};
-        if (options->claims) arguments.emplace_back("--claims");
-        if (options->json) arguments.emplace_back("--json");
-        arguments.emplace_back("--");
-        arguments.insert(arguments.end(), options->files.begin(), options->files.end());
-        return certify(std::move(arguments));
-      },
-      false};
+  return {"certify",
+          "Prove what gain files say by a second program, which shares no code with this one",
+          {Option("gains", options->files, "gain files (JSON); - for standard input").required(),
+           Option("--claims", options->claims, "a line for each claim"),
+           Option("--json", options->json, "print the report as JSON"),
+           Option("--time", options->seconds, "seconds of a file, after which it is open")
+               .within(0.1, 1e6)},
+          "The second program is Python with PyYAML: scripts/certify, described in docs/trust.md.\n"
+          "Exit code: 0 all is proved, or there is nothing to prove, 1 something is refuted, 2 no "
+          "gain file, 3 something is open.\n"
+          "Examples:\n"
+          "  gainsmith certify gains.json\n"
+          "  gainsmith certify results/*/gains.json --claims",
+          [options] {
+            std::vector<std::string> arguments = {"--time", brief(options->seconds)};
+            if (options->claims) arguments.emplace_back("--claims");
+            if (options->json) arguments.emplace_back("--json");
+            arguments.emplace_back("--");
+            arguments.insert(arguments.end(), options->files.begin(), options->files.end());
+            return certify(std::move(arguments));
+          },
+          false};
 }
 
 }  // namespace gainsmith::app

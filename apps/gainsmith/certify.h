@@ -9,9 +9,11 @@
 
 namespace gainsmith::app {
 
+/// InputError when python3 or the folder is not there.
+void require_certify();
+
 /// Its answer about gain files, with its own options: yes when all is proved, no when something is
-/// refuted, undecided when something is open. It prints to standard output. InputError when python3
-/// or the folder is not there.
+/// refuted, undecided when something is open. It prints to standard output. InputError as above.
 ExitCode certify(std::vector<std::string> arguments);
 
 }  // namespace gainsmith::app

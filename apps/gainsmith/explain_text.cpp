@@ -88,7 +88,10 @@ std::string conflict_text(const design::Conflict& conflict) {
   text +=
       "            certificate of these alone: " + certificate_brief(conflict.certificate) + "\n";
   if (conflict.undecided.empty())
-    return text + "            without any one of them the others can be satisfied\n";
+    return text + (conflict.names.size() == 1
+                       ? "            without it the others can be satisfied\n"
+                       : "            without any one of them the others can "
+                         "be satisfied\n");
   return text + fmt::format("            whether {} {} needed is undecided\n",
                             listed(conflict.undecided),
                             conflict.undecided.size() == 1 ? "is" : "are");

@@ -83,7 +83,7 @@ void refuse_without_gains(const model::Gains& gains, const model::Design& design
     return;
   throw InputError({file}, "the verdict is " + std::string(to_string(gains.verdict)) +
                                ": the file has no gains; 'gainsmith explain' of its "
-                               "problem says why");
+                               "problem says why, 'gainsmith certify' proves a no");
 }
 
 /// The scalars that the search of a file set.

@@ -158,8 +158,19 @@ ExitCode certified(const RunOptions& options, const std::vector<JobResult>& resu
   return agrees ? ExitCode::yes : ExitCode::undecided;
 }
 
+/// As the result of one more problem, for JUnit.
+JobResult disagreement() {
+  JobResult result;
+  result.exit = ExitCode::undecided;
+  result.name = "certify";
+  result.line = "the second program does not agree with each gain file: its lines say why";
+  result.causes = {result.line};
+  return result;
+}
+
 ExitCode run(const RunOptions& options) {
   refuse_standard_output(options);
+  if (options.certify) require_certify();
   const std::vector<ProblemFile> items = own_problems(options);
   if (items.empty()) say(fmt::format("part {} has no problem\n", options.shard));
   const std::string page = options.report ? report_file(options) : "";
@@ -189,8 +200,11 @@ ExitCode run(const RunOptions& options) {
   if (options.json) fmt::print("{}", json_text(results, worst));
   if (!options.json && results.size() > 1) fmt::print("{}", lines.total());
   if (options.report) write_report(options, results);
+  if (options.certify && certified(options, results) != ExitCode::yes) {
+    worst = std::max(worst, ExitCode::undecided);
+    results.push_back(disagreement());
+  }
   if (!options.junit.empty()) write_atomically(options.junit, junit_text(results));
-  if (options.certify) worst = std::max(worst, certified(options, results));
   const auto open = std::count_if(results.begin(), results.end(),
                                   [](const JobResult& result) { return result.interrupted; });
   if (open > 0)

@@ -187,10 +187,10 @@ std::string objective_line(const model::Gains& gains) {
     const std::string optimum = is_within_gain_bounds(gains)
                                     ? "with the condition on the gains the optimum"
                                     : "the optimum";
-    const std::string low = brief(*gains.objective_lower_bound, 10);
-    const std::string high = brief(*gains.objective, 10);
+    const std::string low = brief_below(*gains.objective_lower_bound, 10);
+    const std::string high = brief_above(*gains.objective, 10);
     const double width = *gains.objective - *gains.objective_lower_bound;
-    if (low == high)
+    if (brief(*gains.objective_lower_bound, 10) == text)
       text += fmt::format("  ({} is this to all digits shown)", optimum);
     else if (width < kTells * std::abs(*gains.objective))
       text += fmt::format("  ({} is between {} and {})", optimum, low, high);

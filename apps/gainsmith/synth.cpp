@@ -87,7 +87,9 @@ ExitCode synth(const SynthOptions& options) {
   if (options.only_write && options.sdpa.empty())
     throw InputError({"--no-solve"}, "nothing to do: --sdpa FILE says where the program goes");
   if (options.certify && (options.output.empty() || options.output == "-"))
-    throw InputError({"--certify"}, "it reads the gain file: -o GAINS.json writes one");
+    throw InputError({"--certify"},
+                     "it reads the gain file, which -o GAINS.json writes: -o is missing");
+  if (options.certify) require_certify();
   const model::Instance instance =
       load_problem(options.problem, options.set, effort(options.effort));
   const design::SearchRequest request = wanted_search(instance);

@@ -59,6 +59,18 @@ std::string shortest(double value) {
 
 std::string brief(double value, int digits) { return general(value, digits); }
 
+std::string brief_below(double value, int digits) {
+  const std::string nearest = brief(value, digits);
+  if (!(parse_decimal(nearest).value_or(value) > value)) return nearest;
+  const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) + 1 - digits);
+  return brief(value - 0.5 * unit, digits);
+}
+
+std::string brief_above(double value, int digits) {
+  const std::string below = brief_below(-value, digits);
+  return below.starts_with('-') ? below.substr(1) : value == 0 ? "0" : "-" + below;
+}
+
 std::optional<double> parse_decimal(std::string_view text) {
   // from_chars knows no plus sign.
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);

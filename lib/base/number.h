@@ -17,6 +17,9 @@ std::string shortest(double value);
 
 /// For people: `digits` significant digits, no trailing zeros ("%.*g").
 std::string brief(double value, int digits = 6);
+/// The same, rounded down or up where it is a bound.
+std::string brief_below(double value, int digits = 6);
+std::string brief_above(double value, int digits = 6);
 
 /// The double nearest to a whole decimal text (sign allowed; no spaces, nothing after it; an
 /// exponent may follow "e" or "E"). Empty when the text is no finite decimal number, is beyond the range

@@ -7,7 +7,6 @@
 #include "base/scalars.h"
 #include "design/attempts.h"
 #include "verdict/weak_duality.h"
-#include "verdict/zero_diagonal.h"
 
 namespace gainsmith::design {
 
@@ -206,7 +205,7 @@ void note_bracket(const Climb& climb, const Attempt& point, const ExcludesObject
                                                            point.formulation, point.solution));
   if (!is_priced && !is_estimated) gains.solver.status = "feasible";
   gains.solver.add_message(
-      least ? "the optimum is between the lower bound " + brief(*least, 10) + " and the objective"
+      least ? "the optimum is between the lower bound " + brief_below(*least, 10) + " and the objective"
       : is_estimated
           ? std::string("the objective is the optimum of solutions at most twice as large; of all "
                         "it is not shown")
@@ -363,21 +362,6 @@ void note_undecided(const Climb& climb, model::Gains& gains) {
                              brief(refutation->backward_error, 2) + " of the coefficients");
 }
 
-/// A no without multipliers (verdict/refutation.h).
-bool refute_by_zero_diagonal(const Climb& climb, model::Gains& gains) {
-  const auto found = verdict::find_zero_diagonal(climb.posed().inequalities, climb.posed().lmi,
-                                                 climb.last().formulation.balance);
-  if (!found) return false;
-  gains.verdict = model::Verdict::no;
-  gains.solver.status = "infeasible";
-  gains.certificate = model::CertificateRecord{true, 0, kQuadDigits, {}};
-  gains.solver.add_message(found->inequality + ": element (" + std::to_string(found->row) + ", " +
-                           std::to_string(found->row) + ") is 0 for all unknowns, and element (" +
-                           std::to_string(found->row) + ", " + std::to_string(found->column) +
-                           ") of its row is a constant other than 0");
-  return true;
-}
-
 }  // namespace
 
 void conclude(const Climb& climb, const ExcludesObjective& excludes, model::Gains& gains) {
@@ -385,10 +369,7 @@ void conclude(const Climb& climb, const ExcludesObjective& excludes, model::Gain
   const Attempt* point = climb.point();
   const Attempt* refuted = climb.refutation();
   const bool has_objective = climb.posed().lmi.has_objective;
-  if (point == nullptr || !point->holds()) {
-    gains.solver = record_of(climb.last(), has_objective);
-    if (refuted == nullptr && refute_by_zero_diagonal(climb, gains)) return;
-  }
+  if (point == nullptr || !point->holds()) gains.solver = record_of(climb.last(), has_objective);
   if (point != nullptr && (point->holds() || refuted == nullptr)) {
     gains.solver = record_of(*point, has_objective);
     if (!point->holds()) gains.solver.status = "undecided";

@@ -125,6 +125,10 @@ std::string results_hash(const Gains& gains) {
   if (gains.certificate) add_certificate(*gains.certificate, "certificate");
   if (gains.search && gains.search->certificate)
     add_certificate(*gains.search->certificate, "search.certificate");
+  for (const StatedFunction& function : gains.functions)
+    (((text += '\0') += function.signature) += '\0') += function.text;
+  for (const GainFunction& gain : gains.gain_functions)
+    (((text += '\0') += gain.name) += '\0') += gain.formula;
   return sha256(text);
 }
 

@@ -36,14 +36,14 @@ def check(path, seconds):
         found["says"] = gain["verdict"]
         within(seconds, lambda: check_verdict(gain, found))
         check_beside(gain, found, seconds - (time.process_time() - began))
+        if any(c.result == "refuted" for c in found["beside"]): found["verdict"] = "refuted"
     except (OutOfTime, MemoryError) as error:
         limit = "%g s" % seconds if isinstance(error, OutOfTime) else "the memory"
         after = " after the claim %s" % found["claims"][-1].name if found["claims"] else ""
         found.update(verdict="open", message="the limit of %s was reached%s" % (limit, after))
     except Exception as error:      # Damaged, or a form of the file that no check expects
-        unexpected = "it cannot be read: %s " % type(error).__name__
-        found.update(verdict="not a gain file",
-                     message=("" if isinstance(error, Damaged) else unexpected) + str(error))
+        found.update(verdict="not a gain file", message=("" if isinstance(error, Damaged) else
+                     "it cannot be read: %s " % type(error).__name__) + str(error))
     found["seconds"] = time.process_time() - began
     return found
 def check_verdict(gain, found):
@@ -51,7 +51,7 @@ def check_verdict(gain, found):
     if gain["verdict"] == "undecided": found["message"] = "the file says undecided"
     elif gain["verdict"] == "no":
         expect(isinstance(gain.get("certificate"), dict), "certificate: an object")
-        claims.append(prove_no(gain, gain["certificate"]))
+        claims.append(prove_no(dict(gain, searched=None), gain["certificate"]))
     else:
         _, found["gains"], found["proved_at_printed_gains"] = prove_yes(gain, claims)
         if not claims: found["message"] = "the method has no inequalities"
@@ -63,8 +63,7 @@ def check_verdict(gain, found):
     if found["verdict"] == "proved" and far:
         found.update(verdict="open", message="far from their formulas: " + ", ".join(far))
 def check_beside(gain, found, seconds):
-    """Claims beside the verdict, which they do not change: the bound of the objective, and the
-    certificate at the value beyond the best one of a search."""
+    """Claims beside the verdict: bounds of the objective, a no beyond the best searched value."""
     if gain["verdict"] == "yes" and isinstance(gain.get("objective"), str):
         found["beside"].append(within(seconds, lambda: prove_objective(gain)))
     if gain["verdict"] == "yes" and gain["optimum"] and "objective_lower_bound" in gain:
@@ -81,7 +80,6 @@ def check_beside(gain, found, seconds):
     except OutOfTime:
         claim = Claim(label, "open", "not decided in %d s" % SECONDS_BESIDE)
     found["beside"].append(claim)
-
 # Reports.
 def summary(found):
     """The rest of the line about a file."""
@@ -111,7 +109,7 @@ def summary_of_claims(claims):
 def counted(number, word): return "%d %s%s" % (number, word, "s" if number > 1 else "")
 def text_of_claim(c):
     lines = ["  %-9s %s  (%s%s)" % (c.result, c.name, c.how,
-                                    ", %d pieces" % c.pieces if c.pieces else "")]
+                                    ", " + counted(c.pieces, "piece") if c.pieces else "")]
     if c.point: lines.append("at " + ", ".join("%s = %s" % p for p in c.point.items()))
     if c.vector: lines.append("v = [%s]" % ", ".join(map(str, c.vector)))
     return "\n            ".join(lines)
@@ -128,6 +126,7 @@ def main():
                         help="limit for each file; what is not decided then is open (60)")
     options = parser.parse_args()
     sys.setrecursionlimit(5000)
+    sys.set_int_max_str_digits(0)
     counts = Counter()
     for path in options.files:
         found = check(path, options.time)

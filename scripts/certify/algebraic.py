@@ -19,7 +19,6 @@ from arithmetic import Ball, Undecided, ball, is_exact, sign
 from matrices import Matrix, filled, zeros
 from statement import expect, listed
 STRICT = ("<", ">")
-
 def fractions(texts, what):
     """A list of fractions of a list of texts such as "-1/3"."""
     expect(isinstance(texts, list) and all(isinstance(x, str) for x in texts), what + ": texts")
@@ -31,7 +30,6 @@ def companion(p):
     """C with l e = C e for e = (1, l, ..., l^(n-1))'."""
     n = len(p) - 1
     return filled(n, n, lambda i, j: Fraction(int(j == i + 1)) if i < n - 1 else -p[j])
-
 # The root.
 def root_near(p, re, im):
     """(Re l, Im l, |l|^2) of the root l of p in a small disk around a point near re + i im. Rouche:
@@ -73,7 +71,6 @@ def value_at(x, re, im):
         u, v = complex_value(row, re, im)
         a, b = a * re + b * im + u, b * re - a * im + v
     return a
-
 # The certificate.
 def prove_algebraic(given, block_of):
     """None if the multipliers of `given` exclude a solution; else why not."""

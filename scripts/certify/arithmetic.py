@@ -138,7 +138,6 @@ def sign(x):
 def typical(x):         # a fraction near |x|, which chooses pivots; nothing is concluded from it
     if isinstance(x, Series): return typical(x.constant())
     return abs(x) if is_exact(x) else Fraction(max(abs(x.m) - x.r, 0), ONE)
-
 # Elementary functions of balls.
 def series_sum(first, ratio):
     """first (1 + ratio(0) + ratio(0) ratio(1) + ...) in balls. All ratios must be at most 1/2. Then
@@ -194,7 +193,6 @@ def ball_inverse(x):
 BALL_FUNCTIONS = {"exp": ball_exp, "log": ball_log, "sqrt": ball_sqrt, "inv": ball_inverse,
                   "sin": lambda x: ball_sin_cos(x)[0], "cos": lambda x: ball_sin_cos(x)[1]}
 PI = 16 * odd_series(ball(Fraction(1, 5)), -1) - 4 * odd_series(ball(Fraction(1, 239)), -1)
-
 # Elementary functions of all kinds.
 EXACT = {("exp", 0): 1, ("cos", 0): 1, ("sin", 0): 0, ("log", 1): 0}
 def function(name, x):

@@ -14,7 +14,6 @@ from arithmetic import (BITS, PI, Affine, Dual, Taylor, Undecided, Unsupported, 
 from matrices import (Matrix, beside, column, diagonal, exactly, filled, flat, identity, invert,
                       join_blocks, null_space, number, pivots_of, reduced, spectral_norm, stacked,
                       zeros)
-
 # Trees: a tuple of a kind and its parts. In 2./v the point belongs to the operator.
 TOKEN = re.compile(r"""\s*(?:
     (?P<number>\d+(?=\.[*/^])|(?:\d+(?:\.(?!\.)\d*)?|\.\d+)(?:[eE][+-]?\d+)?)
@@ -108,7 +107,6 @@ def decimal(text):
 @cache
 def parse(text): return Parser(text).whole(Parser.expression)
 def parse_range(text): return Parser(text).whole(Parser.argument)
-
 # Names.
 class Scope:
     """Names with their values; an inner scope hides names of the outer one."""
@@ -123,7 +121,6 @@ class Scope:
 class Later:
     """A value that is computed when it is first used, once."""
     def __init__(self, compute): self.get = cache(compute)
-
 # A definition with arguments, or an unknown that is a function.
 Function = namedtuple("Function", "apply")
 def defined(names, text, scope):
@@ -133,7 +130,6 @@ def defined(names, text, scope):
         return matrix(parse(text), Scope(scope, zip(names, values)))
     return Function(apply)
 class Family(dict): """Members by their indices, a tuple of whole numbers."""
-
 # Evaluation.
 CONSTANTS = {"I": Matrix([[Fraction(1)]], flexible=True), "pi": number(PI)}
 def evaluate(tree, scope):      # the matrix (or Function, Family) that a tree means
@@ -204,22 +200,20 @@ def part_of(value, arguments, scope):
     if len(arguments) != 2: raise Unsupported("the number of indices")
     return value.part(places(arguments[0], value.rows), places(arguments[1], value.cols))
 def relation(name): return elementwise(lambda x, y: RELATIONS[name](sign(x - y), 0))
-def holds(tree, scope):         # whether a condition holds for all elements
+both, either = elementwise(operator.and_), elementwise(operator.or_)
+def truths(tree, scope):        # of a condition, element by element
     kind, *parts = tree
-    if kind in ("and", "or"): return {"and": all, "or": any}[kind](holds(x, scope) for x in parts)
-    if kind == "not": return not holds(parts[0], scope)
+    if kind == "not": return truths(parts[0], scope).map(operator.not_)
+    if kind in ("and", "or"):
+        return (both if kind == "and" else either)(*[truths(x, scope) for x in parts])
     if kind != "compare": raise Unsupported("a value where a condition is expected")
     values, names = [matrix(x, scope) for x in parts[0][::2]], parts[0][1::2]
-    return all(all(flat(relation(r)(a, b))) for a, r, b in zip(values, names, values[1:]))
+    return reduce(both, [relation(r)(a, b) for a, r, b in zip(values, names, values[1:])])
+def holds(tree, scope): return all(flat(truths(tree, scope)))
 def choose(condition, yes, no, scope):
-    """where(condition, yes, no); a single comparison element by element."""
-    if condition[0] == "compare" and len(condition[1]) == 3:
-        left, name, right = condition[1]
-        truths = relation(name)(matrix(left, scope), matrix(right, scope))
-    else: truths = number(holds(condition, scope))
-    if truths.is_number(): return yes if truths.number() else no
-    return filled(*truths.shape(), lambda i, j: (yes if truths[i, j] else no).spread(i, j))
-
+    found = truths(condition, scope)
+    if found.is_number(): return yes if found.number() else no
+    return filled(*found.shape(), lambda i, j: (yes if found[i, j] else no).spread(i, j))
 # The matrix exponential.
 def matrix_exponential(a):
     """expm(a) by parts that commute, or by scaling, Taylor series and squaring."""
@@ -267,13 +261,14 @@ def exponential_series(a, embed=lambda x, j: x, last=None):
             if paths[i][k]: paths[i] = [x or y for x, y in zip(paths[i], paths[k])]
     return filled(a.rows, a.rows, lambda i, k: total[i, k] if not paths[i][k] else
                   (ball(total[i, k]) if is_exact(total[i, k]) else total[i, k]).widened(error))
-
 # Functions.
-def determinant(a):         # by the first row
-    def minor(j): return a.part(range(1, a.rows), [k for k in range(a.cols) if k != j])
-    if a.rows == 0: return Fraction(1)
-    return sum(((-1) ** j * x * determinant(minor(j)) for j, x in enumerate(a.elements[0])
-                if not is_zero(x)), Fraction(0))
+def determinant(a):         # by rows, with one minor of the last rows for each set of columns
+    @cache
+    def minor(columns):
+        row = a.elements[a.rows - len(columns)] if columns else []
+        return sum(((-1) ** j * row[k] * minor(columns[:j] + columns[j + 1:])
+                    for j, k in enumerate(columns) if not is_zero(row[k])), Fraction(not columns))
+    return minor(tuple(range(a.rows)))
 def observability(a, c):
     return stacked([c * repeated(a, k, identity(a.rows)) for k in range(max(a.rows, 1))])
 def solved(system, q):
@@ -414,6 +409,7 @@ def builtin(name, arguments, scope):
         if name == "sum" and len(arguments) == 1: items = [number(x) for x in flat(items[0])]
         return LISTS[name](items)
     values = [matrix(x, scope) for x in arguments]
+    if any(x.flexible for x in values): raise Unsupported(name + " of I, whose size is not known")
     if name in DEFINITIONS: return DEFINITIONS[name].apply(*values)
     if name not in BUILTINS: raise Unsupported("the function " + name)
     return BUILTINS[name](*values)

@@ -28,6 +28,7 @@ class Matrix:
     def is_zero(self):      # the number 0, which takes any size
         return self.is_number() and is_zero(self.elements[0][0])
     def spread(self, i, j):     # element (i, j), where a number stands for all elements
+        if self.flexible: raise Unsupported("elements of I, whose size is not known")
         return self.elements[0][0] if self.is_number() else self.elements[i][j]
     def map(self, f):
         return Matrix([[f(x) for x in row] for row in self.elements], *self.shape(), self.flexible)
@@ -108,7 +109,6 @@ def join_blocks(blocks):
             if size is not None: known = {a: size, b: size, **known}
     return stacked([beside([x.sized(known.get(i, 1), known.get(count + j, 1))
                             for j, x in enumerate(row)]) for i, row in enumerate(blocks)])
-
 # Elimination.
 def reduced(a, cols):
     """(pivot columns, rows) of the Gauss-Jordan elimination in the first columns of a; the pivot is
@@ -154,7 +154,6 @@ def pivots_of(rows):
             if not is_zero(rows[i][k]):
                 f = rows[i][k] * factor
                 for j in range(k + 1, i + 1): rows[i][j] = rows[i][j] - f * rows[j][k]
-
 # Definite matrices.
 POSITIVE, SEMIDEFINITE, UNKNOWN, NEGATIVE = "positive", "semidefinite", "unknown", "negative"
 def classify(a):

@@ -13,7 +13,6 @@ shows that there are some near those of the file; algebraic.py checks those that
 """
 import math
 from collections import namedtuple
-from decimal import ROUND_FLOOR, Context, Decimal
 from fractions import Fraction
 from itertools import product
 from algebraic import STRICT, prove_algebraic
@@ -22,12 +21,10 @@ from arithmetic import (Ball, Undecided, Unsupported, affine_terms, ball, functi
 from language import decimal, matrix, parse
 from matrices import filled, least, pivots_of
 from statement import NOT_EVALUATED, Statement, Symbols, expect, inequality, matrix_of_json, refuse
-from yes import Claim, is_outside, outward, reason, scope_at
-
+from yes import Claim, is_outside, outward, reason, scope_at, ten_digits
 # One inequality at one point: its matrix as {i: {(row, column): coefficient of x_i}}, x_0 = 1, its
 # shape, and the rows of its multiplier.
 Block = namedtuple("Block", "sign terms shape multiplier")
-
 # (smallest pivot kept, smallest multiplier kept), relative to the largest
 CHOICES = [(1e-13, 0), (1e-9, 0), (1e-13, 1e-14), (1e-13, 1e-9), (1e-9, 1e-9), (1e-6, 0),
            (1e-6, 1e-6)]
@@ -71,7 +68,7 @@ def prove_optimum(gain):
     bound that is proved. With r' inv(H) r <= s (see `near`), v = r_0 - sum_k <S_k, G_k0> is at
     least r_0 - sqrt(s) |G_0|. Bounds on gains that the text does not state get no multipliers."""
     stated = decimal(str(gain["objective_lower_bound"]))
-    name = "objective >= %.10g" % stated
+    name = "objective >= " + ten_digits(stated, "ROUND_FLOOR")
     try:
         statement = Statement(gain, Symbols())
         text = statement.method.get("minimize") or refuse("the objective of another problem")
@@ -85,9 +82,9 @@ def prove_optimum(gain):
         if s is None: raise Undecided(FAR if len(blocks) == len(gain["optimum"]) else BOUNDED)
         shown = (first - function("sqrt", s * inner(constant, constant))) * scale
         low = middle(shown) - upper(shown - middle(shown))
-        if low < stated - abs(stated) / NEAR: return Claim(name, "open", "shown: >= %.10g" % low)
-        digits = Context(10, ROUND_FLOOR).divide(Decimal(low.numerator), Decimal(low.denominator))
-        return Claim("objective >= %s" % digits, "proved", "multipliers near those of the file")
+        shown = ten_digits(low, "ROUND_FLOOR")
+        if low < stated - abs(stated) / NEAR: return Claim(name, "open", "shown: >= " + shown)
+        return Claim("objective >= " + shown, "proved", "multipliers near those of the file")
     except NOT_EVALUATED as error:
         return Claim(name, "open", reason(error))
 def blocks_of(statement, multipliers):
@@ -122,8 +119,6 @@ def place(interval, value):
         if value is None or is_rounded(value, end): return end
     if is_outside(interval, value): raise Unsupported("a point outside of its interval")
     return value
-
-# Multipliers near those of the file.
 def near(blocks, costs, tiny, small, dead):
     """(scale, {i: G_ki, by (k, row, column)}, {i: r_i}, the blocks with L_k) for multipliers of the
     scale 1. Let L_k be any matrices, such as factors of the multipliers of the file, G_ki = L_k'

@@ -25,7 +25,6 @@ def listed(x): return x if isinstance(x, list) else [x]
 def refuse(text): raise Unsupported(text)
 def expect(condition, what):
     if not condition: raise Damaged("expected " + what)
-
 # Reading.
 def read_gain_file(path):
     """The JSON object, with numbers as Numeral; its form is checked as far as it is used."""
@@ -50,7 +49,6 @@ def read_gain_file(path):
 def unique_keys(pairs):
     if len({key for key, _ in pairs}) < len(pairs): raise ValueError("a key occurs twice")
     return dict(pairs)
-
 # Hashes; docs/gain-file.md says of which bytes.
 def expect_sha256(stated, parts, what):
     found = hashlib.sha256("\0".join(parts).encode()).hexdigest()
@@ -91,9 +89,10 @@ def check_results(gain):
         for term in algebraic.get("terms", []):
             add("", {term.get("block"): term.get("vector", [])})
             parts.extend(map(str, term.get("weight", [])))
+    for name, text in gain["functions"].items(): parts += [name, str(text)]
+    for name, entry in gain["gain_functions"].items(): parts += [name, entry.get("formula", "")]
     expect(isinstance(gain["proof"], dict), "proof: an object")
-    expect_sha256(gain["proof"].get("sha256"), parts, "results with their sha256: they "
-                  "were edited (without the key proof the file is taken as it is)")
+    expect_sha256(gain["proof"].get("sha256"), parts, "results with their sha256: they were edited")
 def matrix_of_json(value, where):
     """The matrix of a number, a list of numbers (a column) or a list of rows."""
     rows = [listed(row) for row in listed(value)]
@@ -113,8 +112,8 @@ def read_yaml(text):
     except (yaml.YAMLError, RecursionError, ValueError) as error:
         raise Damaged("a YAML text was expected: %s" % " ".join(str(error).split()))
     expect(isinstance(result, dict), "a YAML mapping")
+    expect(not re.search("[\x85\u2028\u2029]", text), "a text without Unicode's ends of lines")
     return result
-
 # Problems that are like another one, methods with parts replaced (docs/language.md).
 def variant(base, over):
     """Sections of `base`, also those of its method, with the entries of `over` in their place. An
@@ -124,7 +123,8 @@ def variant(base, over):
         old, new = base[key], over[key]
         if key == "method" and not isinstance(new, str):
             result[key] = variant({"like": old} if isinstance(old, str) else old, new)
-        elif isinstance(old, dict) and isinstance(new, dict): result[key] = {**old, **new}
+        elif isinstance(old, dict) and isinstance(new, dict):
+            result[key] = variant(old, new) if key == "search" else {**old, **new}
     return result
 def without_none(mapping):
     return {key: {k: v for k, v in value.items() if v != "none"} if isinstance(value, dict)
@@ -176,20 +176,30 @@ class Statement:
     def __init__(self, gain, unknown_value):
         self.gain, self.unknown_value, self.scope = gain, unknown_value, Scope()
         self.problem, self.method = problem_and_method(gain["statement"])
-        self.settings, searched = gain["statement"].get("set", {}), gain.get("searched", {})
-        self.searched = {name: x for name, x in searched.items() if name != "gain_bound"}
+        self.settings, found = gain["statement"].get("set", {}), gain.get("searched", {})
+        self.searched = found and {name: x for name, x in found.items() if name != "gain_bound"}
         self.given = {**section(self.problem, "data"), **section(self.problem, "parameters")}
         self.unknowns = declarations(self.method, "unknowns")
-        self.check_searched()
+        self.ranges = self.searched_ranges()
         self.declare_definitions()
         self.declare_data()
+        self.check_searched()
         for name, declared in self.unknowns.items(): self.declare(name, self.unknown, declared)
-    def check_searched(self):
-        """Values under `searched` replace those of the texts: the texts must ask for a search."""
-        asked = {name for name, p in section(self.method, "parameters").items() if "search" in p}
+    def searched_ranges(self):
+        """{name: range} of what the texts ask to search. A value that is given ends that."""
+        found = {name: p["search"] for name, p in
+                 declarations(self.method, "parameters", "default").items() if "search" in p}
+        for name in (*self.given, *self.settings): found.pop(name, None)
         for value in section(self.problem, "search").values():
-            asked |= set(value) if isinstance(value, dict) else set()
-        for name in self.searched: expect(name in asked, "a search for the searched name " + name)
+            if isinstance(value, dict): found.update(value)
+        return found
+    def check_searched(self):
+        """Values under `searched` replace those of the texts, which must ask for a search."""
+        for name, x in (self.searched or {}).items():
+            expect(name in self.ranges, "a search for the searched name " + name)
+            low, high = [middle(y) for y in flat(self.value(self.ranges[name]))]
+            x, most = decimal(x), max(abs(low), abs(high))
+            expect(low - most / 10 ** 9 <= x <= high + most / 10 ** 9, "the range of " + name)
     # Definitions and data.
     def later(self, name, compute): self.scope.names[name] = Later(compute)
     def declare(self, name, compute, declared):
@@ -201,7 +211,7 @@ class Statement:
             self.later(name, lambda: refuse(text))
     def declare_definitions(self):
         for head, text in {**section(self.method, "let"), **section(self.problem, "let")}.items():
-            text, call = self.settings.get(head, text), HEAD.fullmatch(head)
+            text, call = self.given_value(head) or text, HEAD.fullmatch(head)
             if call:
                 names = [x.split()[0] for x in call.group(2).split(",")]
                 self.scope.names[call.group(1)] = defined(names, text, self.scope)
@@ -212,7 +222,8 @@ class Statement:
                 self.later(name, lambda name=name: self.value(self.given_value(name)))
     def given_value(self, name):
         """The value of a datum or parameter: searched, set on the command line, or given."""
-        if name in self.searched: return str(self.searched[name])
+        if self.searched is None and name in self.ranges: refuse("the searched value of " + name)
+        if self.searched and name in self.searched: return str(self.searched[name])
         if name in self.settings:
             text = self.settings[name].strip()
             is_list = text[:1] in "[{" and ";" not in text
@@ -225,7 +236,8 @@ class Statement:
         if isinstance(x, str): return matrix(parse(x), scope)
         rows = x if x and isinstance(x[0], list) else [x]
         result = Matrix([[matrix(parse(y), scope).number() for y in row] for row in rows])
-        return result.transposed() if rows[0] is x and shape[1] == 1 != shape[0] else result
+        return result.transposed() if rows[0] is x and \
+            shape[0] != 1 and (shape[1] == 1 or shape[0] == len(x)) else result
     def matrix_of_file(self, reference):
         path = next((reference[k] for k in ("csv", "mat", "npy", "json") if k in reference), "")
         for entry in files_named(self.gain["statement"], path):
@@ -236,10 +248,11 @@ class Statement:
         for name, declared in declarations(self.method, "data").items():
             self.declare(name, self.datum, declared)
         for name, declared in declarations(self.method, "parameters", "default").items():
-            found = [self.given_value(name), declared.get("default"),
-                     self.gain.get("parameters", {}).get(name)]
-            x = next((x for x in found if x is not None), None)
-            self.later(name, lambda x=x: self.value(x))
+            self.later(name, lambda n=name, d=declared: self.value(self.parameter(n, d)))
+    def parameter(self, name, declared):
+        stated = self.gain.get("parameters", {}).get(name)
+        found = [self.given_value(name), declared.get("default"), stated]
+        return next((x for x in found if x is not None), None)
     def datum(self, name, declared):
         x = self.given_value(name)
         if "of" in declared: return self.function_of_data(name, x, declared)
@@ -375,10 +388,11 @@ class Statement:
         return found
 def named_blocks(entry):
     """The comparison of a matrix that is given by named block rows and columns."""
-    rows = entry["blocks"]
+    rows = {a: row or {} for a, row in entry["blocks"].items()}
+    for b in [b for row in rows.values() for b in row]: rows.setdefault(b, {})
     def place(a, b):
-        if b in (rows[a] or {}): return parse(rows[a][b])
-        return ("'", parse(rows[b][a])) if a in (rows[b] or {}) else ("number", Fraction(0))
+        if b in rows[a]: return parse(rows[a][b])
+        return ("'", parse(rows[b][a])) if a in rows[b] else ("number", Fraction(0))
     sign, right = re.fullmatch(r"\s*(<=|>=|<|>)(.*)", entry["is"]).groups()
     return ("compare", [("block", [[place(a, b) for b in rows] for a in rows]), sign, parse(right)])
 def choices(domain, scope, name, where):
@@ -438,7 +452,6 @@ class Symbols:
             if kind == "symmetric" and j < i: result.elements[i][j] = result.elements[j][i]
             elif kind != "diagonal" or i == j: result.elements[i][j] = next(self.new)
         return result
-
 # Inequalities as symmetric matrices.
 BOUNDED = {1: ("norm", "abs", "max", "lambda_max"), -1: ("min", "lambda_min")}
 def inequality(comparison, scope):

@@ -1,6 +1,7 @@
 """The proof of a yes: every comparison of every requirement, at the decimals of the file."""
 import math, re
 from collections import namedtuple
+from decimal import Context, Decimal
 from fractions import Fraction
 from functools import reduce
 from itertools import product
@@ -12,12 +13,13 @@ from matrices import (POSITIVE, SEMIDEFINITE, classify, column, exactly, filled,
                       is_positive_on_box, number, witness)
 from statement import (NOT_EVALUATED, Comparison, Statement, checked, inequality, matrix_of_json,
                        refuse, section, values_of_file)
-
 # result: proved, refuted or open. `how` says by what it was proved, or why it is open.
 Claim = namedtuple("Claim", "name result how pieces point vector", defaults=(0, {}, []))
 Gain = namedtuple("Gain", "name ulps how")      # ulps: None where the formula has no value here
 ORDERS = {1: 9}     # of Taylor models, by the number of variables; else 5
 SMALLEST_PIECE = Fraction(1, 10 ** 12)      # of the interval
+def ten_digits(x, rounding):
+    return str(Context(10, rounding).divide(Decimal(x.numerator), Decimal(x.denominator)))
 def cases(statement):
     """(name, comparison, domain) of each comparison and each finite choice of its forall."""
     for label, comparison in statement.comparisons():
@@ -79,7 +81,6 @@ def check_affine(comparison, domain):
     if any(x.shape() != (rows, cols) for x in values): refuse("elements of several shapes")
     symbols = filled(rows, cols, lambda i, j: Affine({1 + i * cols + j: Fraction(1)}))
     inequality(comparison, Scope(domain.scope, {name: symbols}))
-
 # Intervals.
 def outward(span):
     """The ends as fractions; an end that is a ball is moved outward."""
@@ -162,7 +163,6 @@ def refutation(name, comparison, domain, piece, corners):
         except Undecided:
             pass
     return None
-
 # Gains.
 def gains_of(statement):
     """(name in the file, text of its formula, scope, argument or None) of all gains."""
@@ -175,19 +175,22 @@ def gains_of(statement):
             yield "_".join(map(str, (name, *key))), text, scope, arguments[0] if arguments else None
 def compare_gains(statement):
     """|formula - printed| in units of the last place of the largest element of each gain. A gain
-    that is a polynomial with d + 1 coefficients is compared at the points 0, ..., d. One that is
-    given by its formula has no decimals."""
+    that is a polynomial with d + 1 coefficients is compared at the points 0, ..., d and 30 more, as
+    its formula may have a higher degree. One that is given by its formula has no decimals."""
     for name, text, scope, argument in gains_of(statement):
         try:
-            parts = statement.gain.get("gain_functions", {}).get(name, {}).get("coefficients", [])
+            entry = statement.gain.get("gain_functions", {}).get(name, {})
+            parts = entry.get("coefficients", [])
             if name in statement.gain["gains"]: parts = [statement.gain["gains"][name]]
-            parts, worst = [matrix_of_json(x, name) for x in parts], Fraction(0)
-            for t in map(Fraction, range(len(parts))):
+            same = entry.get("formula", text).split() == text.split()
+            parts = [matrix_of_json(x, name) for x in parts]
+            worst = Fraction(0 if same else 10 ** 9)
+            for t in map(Fraction, range(len(parts) + 30 * bool(argument and parts))):
                 value = matrix(parse(text), Scope(scope, {argument: number(t)}))
                 decimals = reduce(add, [part * number(t ** k) for k, part in enumerate(parts)])
                 worst = max(worst, distance(value, decimals))
                 if not argument: statement.scope.names.setdefault(name, value)
-            if parts: yield Gain(name, worst, "")
+            if parts or not same: yield Gain(name, worst, "")
         except NOT_EVALUATED as error:
             yield Gain(name, None, reason(error))
 def distance(value, decimals):
@@ -235,11 +238,11 @@ def values_with_gains(gain, found, hull):
 def prove_objective(gain):
     """The claim that the objective at the unknowns is at most the one of the file, rounded."""
     stated = decimal(str(gain["objective"]))
-    name = "objective <= %.10g" % stated
+    limit = stated + abs(stated) / 10 ** 12 + Fraction(1, 10 ** 30)
+    name = "objective <= " + ten_digits(limit, "ROUND_CEILING")
     try:
         statement = Statement(gain, values_of_file(gain))
         text = statement.method.get("minimize") or refuse("the objective of another problem")
-        limit = stated + abs(stated) / 10 ** 12 + Fraction(1, 10 ** 30)
         found = Comparison(parse(text), "<=", ("number", limit), [])
         return judge(name, found, inequality(found, statement.scope))
     except NOT_EVALUATED as error:

@@ -132,6 +132,27 @@ TEST(ParseDecimal, RoundsToTheNearestDouble) {
 }
 
 /// Whatever the truth within the error: the last digit is right within one, or the error behind it holds.
+TEST(Brief, OfABoundIsOnItsSide) {
+  EXPECT_EQ(brief_below(0.63582855), "0.635828");
+  EXPECT_EQ(brief_above(0.6358281), "0.635829");
+  EXPECT_EQ(brief_below(-0.6358281), "-0.635829");
+  EXPECT_EQ(brief_above(-0.63582855), "-0.635828");
+  EXPECT_EQ(brief_above(0.5), "0.5");
+  EXPECT_EQ(brief_above(0), "0");
+  EXPECT_EQ(brief_below(999999.9), "999999");
+  EXPECT_EQ(brief_above(999999.1), "1e+06");
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> exponent(-300, 300), factor(-10, 10);
+  for (int k = 0; k < 10000; ++k) {
+    const double value = factor(random) * std::pow(10, exponent(random));
+    const double below = parse_decimal(brief_below(value, 10)).value();
+    const double above = parse_decimal(brief_above(value, 10)).value();
+    EXPECT_LE(below, value);
+    EXPECT_GE(above, value);
+    EXPECT_LE(above - below, 1.1e-9 * std::abs(value));
+  }
+}
+
 TEST(Brief, HasNoMoreDigitsThanAreKnown) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> part(-1, 1);

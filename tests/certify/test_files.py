@@ -289,6 +289,55 @@ class No(unittest.TestCase):
             claim = prove_no(found, found["certificate"])
             self.assertEqual(claim.result, "open", (name, change))
 
+    def test_columns_of_blocks_without_a_row(self):
+        text = ("problem: p\nmethod:\n  data: {A: 2 x 2}\n  unknowns: {P: symmetric 2}\n"
+                "  require: {f: {blocks: {x: {x: He(P*A), w: P}}, is: \"<= 0\"}}\n"
+                "data: {A: [[-1, 1], [0, -1]]}\n")
+        self.assertEqual(results(problem(text, {"P": [["2", "0"], ["0", "2"]]})), {"f": "refuted"})
+
+    def test_a_flat_list_of_known_length_is_a_column(self):
+        text = ("problem: p\nmethod:\n  data: {A: n x n, B: n x m}\n  unknowns: {x: scalar}\n"
+                "  require: {c: \"x > [0, 1]*B\"}\ndata: {A: [[1, 2], [3, 4]], B: [7, 1]}\n")
+        self.assertEqual(results(problem(text, {"x": "1.5"})), {"c": "proved"})
+
+    def test_ends_of_lines_that_yaml_alone_knows_are_refused(self):
+        for end in "\x85\u2028\u2029":
+            text = ("problem: p # a%s\nmethod:\n  unknowns: {x: scalar}\n"
+                    "  require: {c: x > 0}\n" % end)
+            with self.assertRaises(Damaged): results(problem(text, {"x": "1"}))
+
+    def test_searched_values_are_in_their_ranges(self):
+        text = ("problem: p\nmethod:\n  parameters: {b: {search: [0.1, 100]}}\n"
+                "  unknowns: {x: scalar}\n  require: {c: x > b}\n%s")
+        for more, b, expected in (("", "0.5", "proved"), ("", "2", "refuted"), ("", "-50", None),
+                                  ("", "101", None), ("parameters: {b: 50}\n", "0.5", None),
+                                  ("search: {over: {b: [0.7, 1]}}\n", "0.5", None)):
+            found = problem(text % more, {"x": "1"})
+            found["searched"] = {"b": helper.Numeral(b)}
+            if expected: self.assertEqual(results(found), {"c": expected}, (more, b))
+            else:
+                with self.assertRaises(Damaged, msg=(more, b)): results(found)
+
+    def test_a_no_is_one_of_all_searched_values(self):
+        text = ("problem: p\nmethod:\n  parameters: {b: {search: [0.1, 100]}}\n"
+                "  unknowns: {x: scalar}\n  require: {c: x > %s, d: x < 1}\n")
+        for least, expected in (("2", "proved"), ("b", "open")):
+            found = dict(problem(text % least, {}), searched=None)
+            one = helper.Numeral("1")
+            claim = prove_no(found, {"multipliers": {"c": one, "d": one}})
+            self.assertEqual(claim.result, expected, least)
+
+    def test_gains_are_compared_beyond_their_own_degree(self):
+        text = ("problem: p\nmethod:\n  unknowns: {P: scalar, Y: {shape: scalar, of: t, degree: 2}}\n"
+                "  require: {c: P > 0}\n  gains: {\"F(t)\": Y(t)/P}\n")
+        values = {"P": "1", "Y_0": "1", "Y_1": "2", "Y_2": "-1"}
+        for coefficients, most in ((["1", "2", "-1"], 1), (["1"], None), (["1", "2"], None)):
+            found = problem(text, values)
+            found["gain_functions"] = {"F": {"of": "t", "kind": "polynomial", "coefficients": [
+                helper.Numeral(x) for x in coefficients]}}
+            _, gains, _ = prove_yes(found)
+            self.assertEqual(gains[0].ulps <= 1, most is not None, coefficients)
+
     def test_what_a_file_may_not_replace(self):
         """A basis of another datum, the value of a name gain_bound, a formula of another kind."""
         text = ("problem: p\nmethod:\n  data: {A: scalar}\n  unknowns: {x: scalar}\n"
@@ -504,7 +553,9 @@ class Hash(unittest.TestCase):
         multipliers = {"flow at t = 0.1": self.N, "e": "7"}
         found.update({
             "gains": {"K": self.N, "L": "12"}, "unknowns": {"P": self.N, "g": "0.25"},
-            "gain_functions": {"F": {"of": "t", "coefficients": [[["31"]], [["32", "33"]]]}},
+            "gain_functions": {"F": {"of": "t", "coefficients": [[["31"]], [["32", "33"]]]},
+                               "G": {"of": "t", "formula": "Y(t)/P"}},
+            "functions": {"Y(t)": "Y_0 + Y_1*t"},
             "parameters": {"T": "0.7"}, "bases": {"B": [["0.6"], ["0.8"]]},
             "searched": {"rho": "0.5"}, "optimum": {"a": self.N},
             "certificate": {"multipliers": multipliers},
@@ -521,6 +572,7 @@ class Hash(unittest.TestCase):
                 ("certificate.multipliers.e", ["7"]),
                 ("search.certificate.multipliers.b at t = 0.25", rows)):
             parts += [name] + elements
+        parts += ["Y(t)", "Y_0 + Y_1*t", "F", "", "G", "Y(t)/P"]
         digest = hashlib.sha256(b"\0".join(x.encode() for x in parts)).hexdigest()
         found["proof"] = {"version": "1", "sha256": digest}
         return found
@@ -546,7 +598,14 @@ class Hash(unittest.TestCase):
 
     def test_a_changed_digit_is_named(self):
         self.assertIsNone(self.error(self.file()))
-        places = list(self.places({key: self.file()[key] for key in self.RESULTS}))
+        for change in (lambda f: f["functions"].update({"Y(t)": "-Y_1"}),
+                       lambda f: f["gain_functions"]["G"].update(formula="0*t")):
+            found = self.file()
+            change(found)
+            self.assertIn("they were edited", self.error(found) or "")
+        places = [place for place in
+                  self.places({key: self.file()[key] for key in self.RESULTS})
+                  if place[-1] != "formula"]
         self.assertEqual(len(places), 30)
         for place in places:
             found = self.file()
@@ -584,6 +643,20 @@ class Program(unittest.TestCase):
                               stdin=stdin)
         self.assertEqual(done.stderr, "")
         return done.returncode, done.stdout
+
+    def test_a_no_at_a_searched_value_is_open(self):
+        text = ("problem: p\nmethod:\n  parameters: {b: {search: [0.1, 100]}}\n"
+                "  unknowns: {x: scalar}\n  require: {c: x > b, d: x < 1}\n")
+        digest = hashlib.sha256(("\0" + text).encode()).hexdigest()
+        found = {"verdict": "no", "gains": {}, "unknowns": {}, "searched": {"b": 50},
+                 "certificate": {"multipliers": {"c": 1, "d": 1}},
+                 "statement": {"method_text": "", "problem_text": text, "sha256": digest}}
+        with tempfile.TemporaryDirectory() as folder:
+            name = os.path.join(folder, "gains.json")
+            with open(name, "w", encoding="utf-8") as stream: json.dump(found, stream)
+            code, out = self.run_program(name)
+        self.assertEqual(code, 3, out)
+        self.assertIn("the searched value of b", out)
 
     def test_exit_codes_and_lines(self):
         code, out = self.run_program(path("lyapunov"))

@@ -18,7 +18,6 @@
 #include "verdict/boundary_refutation.h"
 #include "verdict/plants.h"
 #include "verdict/relaxed_backward_error.h"
-#include "verdict/zero_diagonal.h"
 
 namespace gainsmith::verdict {
 namespace {
@@ -300,23 +299,6 @@ TEST(RefutationTest, AGainBoundHasItsOwnBackwardError) {
     const double backward_error = relaxed_backward_error(posed.lmi, posed.bounds, asked, solution);
     EXPECT_EQ(backward_error < 1e-6, bound == 1) << backward_error;
   }
-}
-
-TEST(RefutationTest, AZeroOnTheDiagonalIsFound) {
-  const auto found = [](const std::string& require) {
-    const Posed posed("  unknowns: {x: scalar}\n  require: {a: \"" + require + "\"}\n");
-    const lmi::Formulation asked = posed.formulation();
-    return find_zero_diagonal(posed.of, posed.lmi, asked.balance);
-  };
-  const auto zero = found("[x, 0, 3; 0, 0, 2; 3, 2, x] >= 0");
-  ASSERT_TRUE(zero);
-  EXPECT_EQ(zero->inequality, "a");
-  EXPECT_EQ(zero->row, 2);
-  EXPECT_EQ(zero->column, 3);
-  EXPECT_FALSE(found("[x, 0, 3; 0, 0, x; 3, x, x] >= 0"));
-  EXPECT_FALSE(found("[x, 0, 3; 0, 0.1, 2; 3, 2, x] >= 0"));
-
-  EXPECT_TRUE(found("[0, 2; 2, x] >= 0"));
 }
 
 }  // namespace
