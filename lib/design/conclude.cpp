@@ -205,7 +205,8 @@ void note_bracket(const Climb& climb, const Attempt& point, const ExcludesObject
                                                            point.formulation, point.solution));
   if (!is_priced && !is_estimated) gains.solver.status = "feasible";
   gains.solver.add_message(
-      least ? "the optimum is between the lower bound " + brief_below(*least, 10) + " and the objective"
+      least ? "the optimum is between the lower bound " + brief_below(*least, 10) +
+                  " and the objective"
       : is_estimated
           ? std::string("the objective is the optimum of solutions at most twice as large; of all "
                         "it is not shown")
@@ -340,6 +341,7 @@ void accept_refutation(const Climb& climb, const Attempt& refuted, model::Gains&
   gains.verdict = model::Verdict::no;
   gains.certificate = model::CertificateRecord{found.exact, found.backward_error, found.digits, {}};
   if (!refuted.chain.empty()) gains.solver.add_message(refuted.chain);
+  if (gains.solver.iterations == 0) gains.solver.cause = model::kNothingToSolve;
   if (found.algebraic) {
     gains.certificate->algebraic = record_of(*found.algebraic, lmi);
     gains.certificate->multipliers = rounded_multipliers(*found.algebraic, lmi);

@@ -323,7 +323,7 @@ model::Gains evaluated(const model::Instance& instance) {
   model::Gains gains = stated(instance);
   gains.verdict = model::Verdict::yes;
   gains.solver.status = "feasible";
-  gains.solver.cause = "nothing to solve";
+  gains.solver.cause = model::kNothingToSolve;
   add_gains(lmi::Inequalities(instance), gains);
   return gains;
 }

@@ -96,6 +96,9 @@ struct Multiplier {
   double trace = 0;
 };
 
+/// The cause of a result that no solver was asked for.
+constexpr const char* kNothingToSolve = "nothing to solve";
+
 struct SolverRecord {
   std::string status;  ///< optimal, infeasible, undecided
   std::string cause;
