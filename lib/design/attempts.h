@@ -22,8 +22,8 @@
 //                                                              them alone
 //
 // (An exchange grows by the points at which a solution fails, and begins again. After some rounds a
-// point near the minimum ends it.) Each attempt is made once at most and its record stays; what they mean
-// together is conclude(). A no comes from an attempt without bounds.
+// point near the minimum ends it.) Each attempt is made once at most and its record stays; what they
+// mean together is conclude(). A no comes from an attempt without bounds.
 #pragma once
 
 #include <functional>

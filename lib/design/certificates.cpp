@@ -34,7 +34,8 @@ class Certificates {
     return found;
   }
 
-  /// Exact where others are not, and no sooner.
+  /// It takes the time of several others, which decide as well; it alone is exact. So it is for
+  /// those who are told more than a verdict.
   verdict::Refutation by_eigenvalue() const {
     if (!posed_.check.describe) return {};
     constexpr double kWorth = 0.5;  // what is spent here the other certificates lack
