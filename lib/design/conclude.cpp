@@ -340,8 +340,10 @@ void accept_refutation(const Climb& climb, const Attempt& refuted, model::Gains&
   const lmi::Lmi& lmi = climb.posed().lmi;
   gains.verdict = model::Verdict::no;
   gains.certificate = model::CertificateRecord{found.exact, found.backward_error, found.digits, {}};
-  if (!refuted.chain.empty()) gains.solver.add_message(refuted.chain);
-  if (gains.solver.iterations == 0) gains.solver.cause = model::kNothingToSolve;
+  if (!refuted.chain.empty()) {
+    gains.solver.add_message(refuted.chain);
+    if (gains.solver.iterations == 0) gains.solver.cause = model::kNothingToSolve;
+  }
   if (found.algebraic) {
     gains.certificate->algebraic = record_of(*found.algebraic, lmi);
     gains.certificate->multipliers = rounded_multipliers(*found.algebraic, lmi);

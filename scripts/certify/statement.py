@@ -199,7 +199,7 @@ class Statement:
             expect(name in self.ranges, "a search for the searched name " + name)
             low, high = [middle(y) for y in flat(self.value(self.ranges[name]))]
             x, most = decimal(x), max(abs(low), abs(high))
-            expect(low - most / 10 ** 9 <= x <= high + most / 10 ** 9, "the range of " + name)
+            expect(low - most / 10 ** 9 <= x <= high + most / 10 ** 9, "the range of %s to hold it" % name)
     # Definitions and data.
     def later(self, name, compute): self.scope.names[name] = Later(compute)
     def declare(self, name, compute, declared):
@@ -250,9 +250,8 @@ class Statement:
         for name, declared in declarations(self.method, "parameters", "default").items():
             self.later(name, lambda n=name, d=declared: self.value(self.parameter(n, d)))
     def parameter(self, name, declared):
-        stated = self.gain.get("parameters", {}).get(name)
-        found = [self.given_value(name), declared.get("default"), stated]
-        return next((x for x in found if x is not None), None)
+        given = self.given_value(name)
+        return declared.get("default") if given is None else given
     def datum(self, name, declared):
         x = self.given_value(name)
         if "of" in declared: return self.function_of_data(name, x, declared)

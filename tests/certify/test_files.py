@@ -318,6 +318,13 @@ class No(unittest.TestCase):
             else:
                 with self.assertRaises(Damaged, msg=(more, b)): results(found)
 
+    def test_a_parameter_of_the_file_replaces_no_search(self):
+        text = ("problem: p\nmethod:\n  parameters: {b: {search: [0.1, 100]}}\n"
+                "  unknowns: {x: scalar}\n  require: {c: x > b}\n")
+        found = problem(text, {"x": "1"})
+        found["parameters"] = {"b": helper.Numeral("-50")}
+        self.assertEqual(results(found), {"c": "open"})
+
     def test_a_no_is_one_of_all_searched_values(self):
         text = ("problem: p\nmethod:\n  parameters: {b: {search: [0.1, 100]}}\n"
                 "  unknowns: {x: scalar}\n  require: {c: x > %s, d: x < 1}\n")
