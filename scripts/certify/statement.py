@@ -198,8 +198,8 @@ class Statement:
         for name, x in (self.searched or {}).items():
             expect(name in self.ranges, "a search for the searched name " + name)
             low, high = [middle(y) for y in flat(self.value(self.ranges[name]))]
-            x, most = decimal(x), max(abs(low), abs(high))
-            expect(low - most / 10 ** 9 <= x <= high + most / 10 ** 9, "the range of %s to hold it" % name)
+            x, off = decimal(x), max(abs(low), abs(high)) / 10 ** 9
+            expect(low - off <= x <= high + off, "a value in the range of " + name)
     # Definitions and data.
     def later(self, name, compute): self.scope.names[name] = Later(compute)
     def declare(self, name, compute, declared):

@@ -177,7 +177,7 @@ FAULTS = [
     ("columns of blocks without a row are dropped", "statement.py",
      "for b in [b for row in rows.values() for b in row]: rows.setdefault(b, {})", "pass"),
     ("searched values outside of their ranges", "statement.py",
-     "expect(low - most / 10 ** 9 <= x <= high + most / 10 ** 9", "expect(True"),
+     "expect(low - off <= x <= high + off", "expect(True"),
     ("a searched value is taken from the parameters of the file", "statement.py",
      "return declared.get(\"default\") if given is None else given",
      "return self.gain[\"parameters\"].get(name) if given is None else given"),
