@@ -137,8 +137,13 @@ class OuterSearch {
     auto excluded = excluded_inequalities(*at, request_, solver_);
     if (!excluded) return std::nullopt;
     std::string names;
-    for (const SearchedScalar& scalar : request_.over)
-      names += (names.empty() ? "" : ", ") + scalar.name;
+    for (const SearchedScalar& scalar : request_.over) {
+      const std::string& name = scalar.name;
+      names += (names.empty() ? "" : ", ") + name;
+      // It was solved at a value that says nothing.
+      excluded->gains.searched.erase(name);
+      std::erase_if(excluded->gains.parameters, [&](const auto& one) { return one.first == name; });
+    }
     excluded->gains.solver.add_message(
         "the certificate is about inequalities that no searched value changes: no " + names +
         " has gains");

@@ -75,9 +75,12 @@ TEST(SearchTest, ANoForAllSearchedValuesIsExplainedAsOne) {
   const std::string file = folder.file("mass.yaml",
                                        "problem: mass\nmethod: static-output-feedback\ndata:\n"
                                        "  A: [[0, 1], [-1, 0]]\n  B: [[0], [1]]\n  C: [1, 0]\n");
-  const Outcome found = gainsmith({"synth", file});
+  const std::string gains = folder.path("no.json");
+  const Outcome found = gainsmith({"synth", file, "-o", gains});
   EXPECT_EQ(found.exit, 1);
   EXPECT_TRUE(has(found.out, "no b, q has gains")) << found.out;
+  EXPECT_FALSE(has(found.out, "searched")) << found.out;
+  EXPECT_TRUE(has(gainsmith({"check", gains}).err, "'gainsmith certify' proves a no"));
   const Outcome explained = gainsmith({"explain", file});
   EXPECT_EQ(explained.exit, 1);
   EXPECT_TRUE(has(explained.out, "verdict     no, infeasible")) << explained.out;
