@@ -112,6 +112,15 @@ TEST(DataIn, EveryCommandTakesASetting) {
             0);
 }
 
+TEST(DataIn, ASettingIsNotSearched) {
+  const std::string file = problem("switched-state-feedback/smallest-rho.yaml");
+  const Outcome given = gainsmith({"synth", file, "--set", "rho=1.5"});
+  EXPECT_EQ(given.exit, 0) << given.err;
+  EXPECT_NE(given.out.find("rho = 1.5"), std::string::npos) << given.out;
+  EXPECT_EQ(given.out.find("searched"), std::string::npos) << given.out;
+  EXPECT_EQ(gainsmith({"synth", file, "--set", "rho=0.5"}).exit, 1);
+}
+
 TEST(DataIn, AGainFileKeepsItsProblem) {
   const Folder folder;
   const std::string file = folder.path("gains.json");
