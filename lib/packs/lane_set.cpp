@@ -13,6 +13,9 @@ using VariableKind = Dynamics::VariableKind;
 
 namespace {
 
+/// So many lanes step without the others: a step costs the same for few.
+constexpr int kMostLanes = 7 * static_cast<int>(kLanes) / 8;
+
 constexpr PackAccuracy kAccuracies[] = {{kFirstRelative, kFirstAbsolute},
                                         {kAgainRelative, kAgainAbsolute},
                                         {kLastRelative, kLastAbsolute}};
@@ -79,11 +82,11 @@ void LaneSet::run_waiting(const PackAccuracy& accuracy) {
   while (true) {
     check_stop();
     const std::uint32_t stepping = in(Phase::step);
-    if (2 * std::popcount(stepping) >= static_cast<int>(kLanes)) {
+    if (std::popcount(stepping) >= kMostLanes) {
       step_all(stepping);
       continue;
     }
-    // Few that step wait for the others.
+    // Those that step wait for the others.
     refill();
     if (const std::uint32_t jumping = in(Phase::jump)) {
       jump_all(jumping);
