@@ -84,7 +84,7 @@ void ClaimLane::at(double t, const Reading& reading, std::optional<std::size_t> 
   compare(value, reading.terms, change == 0, is_rounding);
 }
 
-void ClaimLane::along(double t, const StepSamples& samples, const StepPolynomial& along,
+void ClaimLane::along(double t, const StepSamples& samples, const pieces::StepPolynomial& along,
                       const Reading& end, bool breaks, bool halved) {
   const Known value = known(end, false);
   if (claim_->over || !claims::is_after(t, false, claim_->after)) return;
@@ -140,8 +140,8 @@ void ClaimLane::compare(Known value, double terms, bool same, bool crowded) {
 }
 
 /// The value between the points of a step. `along`: as it is compared, with sign_.
-void ClaimLane::compare_within(const StepSamples& samples, const StepPolynomial& along, Known end,
-                               double terms, bool breaks) {
+void ClaimLane::compare_within(const StepSamples& samples, const pieces::StepPolynomial& along,
+                               Known end, double terms, bool breaks) {
   // Where the value branches it goes up and down no faster than at the points.
   const double rate = std::max(
       {std::abs(samples.start.rate), std::abs(samples.middle.rate), std::abs(samples.end.rate)});
@@ -168,7 +168,7 @@ void ClaimLane::compare_within(const StepSamples& samples, const StepPolynomial&
   // From a start that has been compared; noise drawn anew makes a start that has not.
   const bool is_known = score_of(along.coefficients().front()) <= score_;
   if (is_known && !breaks && along.falls(4 * along.error())) return;
-  const StepPolynomial::Highest highest = along.highest();
+  const pieces::StepPolynomial::Highest highest = along.highest();
   score_ = std::max(score_, score_of(highest.attained));
   // The careful run compares costs at samples alone.
   if (highest.attained - error > most && claim_->kind != ClaimKind::cost) violated_ = true;

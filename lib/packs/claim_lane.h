@@ -12,7 +12,7 @@
 #include <limits>
 
 #include "packs/pack_system.h"
-#include "packs/step_polynomial.h"
+#include "packs/quintics.h"
 
 namespace gainsmith::packs {
 
@@ -34,8 +34,8 @@ class ClaimLane {
   /// A step up to t, `along` through its samples. `end`: there. `breaks`: whether the value may
   /// branch on it. `halved`: it ends nearer to its start than errors ask for, so that a value may
   /// hardly have changed.
-  void along(double t, const StepSamples& samples, const StepPolynomial& along, const Reading& end,
-             bool breaks, bool halved);
+  void along(double t, const StepSamples& samples, const pieces::StepPolynomial& along,
+             const Reading& end, bool breaks, bool halved);
   void finish();
   /// What a run made otherwise came to; values with the sign that they are compared with.
   struct Course {
@@ -61,7 +61,7 @@ class ClaimLane {
   };
   Known known(const Reading& reading, bool jumped);
   void compare(Known value, double terms, bool same, bool crowded);
-  void compare_within(const StepSamples& samples, const StepPolynomial& along, Known end,
+  void compare_within(const StepSamples& samples, const pieces::StepPolynomial& along, Known end,
                       double terms, bool breaks);
   void check_parting(double value, double difference, double terms);
   /// How near a value comes to what it must not exceed (claims::Finding::score), by their roots where

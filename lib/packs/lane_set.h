@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "hybrid/tolerances.h"
@@ -159,9 +160,11 @@ class LaneSet {
   bool judge_step(std::size_t l, bool fault, bool& takes);
   /// The polynomials of claims and watches over the step.
   void follow(std::uint32_t active);
-  StepPolynomial along_claim(std::size_t claim, std::size_t l) { return {polynomials_, claim, l}; }
-  StepPolynomial along_watch(std::size_t watch, std::size_t l) {
-    return {polynomials_, pack_.claims.size() + watch, l};
+  pieces::StepPolynomial along_claim(std::size_t claim, std::size_t l) {
+    return quintic(polynomials_, claim, l);
+  }
+  pieces::StepPolynomial along_watch(std::size_t watch, std::size_t l) {
+    return quintic(polynomials_, pack_.claims.size() + watch, l);
   }
   StepSamples claim_samples(std::size_t claim, std::size_t l) const {
     const auto at = [&](const LanePoint& seen) {
@@ -183,19 +186,19 @@ class LaneSet {
   bool decides(std::size_t w, const PackLane& lane);
   /// Of what may be 0 at the start of the step: the side that it is on a moment later; 0: that is
   /// not certain.
-  std::int8_t left_side(std::size_t w, std::size_t l, const std::array<double, 6>& b,
+  std::int8_t left_side(std::size_t w, std::size_t l, std::span<const double> b,
                         double error) const;
   bool arrives(const PackLane& lane) const {
     return (lane.forced == 0 && lane.h == lane.stop - lane.t) ||
            lane.stop - (lane.t + lane.h) <= hybrid::kOneInstant * lane.stop;
   }
   /// Whether a difference comes to 0 just where a step ends anyway, and not before.
-  bool ends_at_root(const PackLane& lane, std::size_t w, const std::array<double, 6>& b,
+  bool ends_at_root(const PackLane& lane, std::size_t w, std::span<const double> b,
                     double error) const;
   /// From 0, where a flow or a jump has left it on this side, to the other one.
-  static bool leaves_at_once(const std::array<double, 6>& b, int side, double error);
+  static bool leaves_at_once(std::span<const double> b, int side, double error);
   /// From its side to the other, which it may have left a moment ago.
-  static bool crosses_once(const std::array<double, 6>& b, int side);
+  static bool crosses_once(std::span<const double> b, int side);
   /// How far the end of the step is from the root that it goes to.
   double time_beside_root(const PackLane& lane, std::size_t l) const;
   bool judge_claims(std::size_t l, bool& takes);

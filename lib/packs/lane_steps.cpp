@@ -181,11 +181,11 @@ bool LaneSet::find_root(std::size_t l, int& target, double& share) {
   roots_.clear();
   for (std::size_t w = 0; w < pack_.watches.size(); ++w) {
     if (lane.relevant[w] == 0 || !pack_.watches[w].moves) continue;
-    const StepPolynomial along = along_watch(w, l);
+    const pieces::StepPolynomial along = along_watch(w, l);
     const double error =
         std::max(error_of(w, l, start_, coarse_start_), error_of(w, l, end_, coarse_at_end_)) +
         along.error();
-    const auto& b = along.coefficients();
+    const auto b = along.coefficients();
     const int known = lane.sides[w];
     const int side = known != 0 ? known : sign_of(b[5]);
     bool clear = true;
@@ -202,7 +202,8 @@ bool LaneSet::find_root(std::size_t l, int& target, double& share) {
     }
     const std::int8_t from = known != 0 ? lane.sides[w] : left_side(w, l, b, error);
     if (from == 0 || !(from * b[5] < -error) || !crosses_once(b, from)) return false;
-    roots_.push_back({along.root(from), w, from});
+    roots_.push_back(
+        {along.first_change(from, std::max(0.0, -from * b.front())).value_or(1), w, from});
   }
   return roots_.empty() || choose_root(lane, target, share);
 }
@@ -244,13 +245,13 @@ bool LaneSet::decides(std::size_t w, const PackLane& lane) {
                      [&](const PackEvent& one) { return one.when && changes(*one.when); });
 }
 
-std::int8_t LaneSet::left_side(std::size_t w, std::size_t l, const std::array<double, 6>& b,
+std::int8_t LaneSet::left_side(std::size_t w, std::size_t l, std::span<const double> b,
                                double error) const {
   const std::int8_t side = lanes_[l]->undetermined ? std::int8_t{0} : leaving_side(w, l);
   return side * b[1] > error ? side : std::int8_t{0};
 }
 
-bool LaneSet::ends_at_root(const PackLane& lane, std::size_t w, const std::array<double, 6>& b,
+bool LaneSet::ends_at_root(const PackLane& lane, std::size_t w, std::span<const double> b,
                            double error) const {
   if (!arrives(lane)) return false;
   for (std::size_t k = 1; k + 1 < b.size(); ++k)
@@ -258,13 +259,13 @@ bool LaneSet::ends_at_root(const PackLane& lane, std::size_t w, const std::array
   return std::abs(b.back()) <= error;
 }
 
-bool LaneSet::leaves_at_once(const std::array<double, 6>& b, int side, double error) {
+bool LaneSet::leaves_at_once(std::span<const double> b, int side, double error) {
   bool leaves = std::abs(b[0]) <= error;
   for (std::size_t k = 1; k < b.size(); ++k) leaves = leaves && side * b[k] < -error;
   return leaves;
 }
 
-bool LaneSet::crosses_once(const std::array<double, 6>& b, int side) {
+bool LaneSet::crosses_once(std::span<const double> b, int side) {
   if (side * b[0] <= 0 && side * b[1] <= 0) return false;
   int changes = 0;
   for (std::size_t k = 1; k < b.size(); ++k) {

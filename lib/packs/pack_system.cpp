@@ -10,8 +10,8 @@
 #include "numbers/scalar_rules.h"
 #include "ode/dormand_prince.h"
 #include "packs/jump_code.h"
+#include "packs/quintics.h"
 #include "packs/sharp_parts.h"
-#include "packs/step_polynomial.h"
 #include "packs/tolerances.h"
 
 namespace gainsmith::packs {

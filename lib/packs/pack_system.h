@@ -83,7 +83,7 @@ struct PackClaim {
 struct PackSystem {
   const hybrid::System* system = nullptr;
   const hybrid::Scenario* scenario = nullptr;
-  double accuracy = 0;    ///< relative, of the careful run
+  double accuracy = 0;  ///< relative, of the careful run
   /// Times the difference of both runs: the error of a value (claims/twin_parts.h).
   double error_factor = claims::kErrorOfDifference;
   std::size_t whole = 0;  ///< values
@@ -99,7 +99,7 @@ struct PackSystem {
   /// At the points of steps; at the end of the coarser run, without rates and terms of claims; and
   /// between the points, values alone.
   std::optional<lanes::LaneCode> point, coarse_point, between_points;
-  /// Of claims, then of watches, over a step (step_polynomial.h).
+  /// Of claims, then of watches, over a step (quintics.h).
   std::optional<lanes::LaneCode> polynomials;
 
   /// Results of `step`.

@@ -1,13 +1,13 @@
 // The quintic of a function over a step, as a lane computes it.
 #pragma once
 
-#include "packs/step_polynomial.h"
+#include "packs/quintics.h"
 
 namespace gainsmith::packs {
 
 template <class Value, class Rate>
-StepPolynomial polynomial_through(const Value& value, const Rate& rate, double from,
-                                  double length) {
+pieces::StepPolynomial polynomial_through(const Value& value, const Rate& rate, double from,
+                                          double length) {
   static const lanes::LaneCode code = StepPolynomials::code(1);
   lanes::LaneMachine machine(code);
   const double middle = from + length / 2, end = from + length;
@@ -24,7 +24,7 @@ StepPolynomial polynomial_through(const Value& value, const Rate& rate, double f
   std::size_t next = 0;
   for (const double one : inputs) machine.input(next++)[lane] = one;
   machine.run();
-  return {machine, 0, lane};
+  return quintic(machine, 0, lane);
 }
 
 }  // namespace gainsmith::packs

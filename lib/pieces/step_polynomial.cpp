@@ -1,0 +1,187 @@
+#include "pieces/step_polynomial.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gainsmith::pieces {
+
+namespace {
+
+constexpr std::size_t kMost = StepPolynomial::kMostTerms;
+using Coefficients = StepPolynomial::Coefficients;
+
+/// A search for a zero ends so near to it.
+constexpr double kZeroWithin = 2e-15;
+/// After a step of Newton's method that is such a part of the zero, the digits double.
+constexpr double kLastStep = 1e-8;
+/// Terms that are smaller beside the largest do not count.
+constexpr double kNoTerm = 1e-18;
+
+/// C(j, k) / C(n, k): what term k of n adds to B_j.
+struct Weights {
+  std::array<std::array<std::array<double, kMost>, kMost>, kMost> of{};
+  Weights() {
+    for (std::size_t n = 0; n < kMost; ++n)
+      for (std::size_t j = 0; j <= n; ++j) {
+        double weight = 1;
+        for (std::size_t k = 0; k <= j; ++k) {
+          of[n][j][k] = weight;
+          if (k < n) weight *= static_cast<double>(j - k) / static_cast<double>(n - k);
+        }
+      }
+  }
+};
+
+/// The `count` coefficients of its two halves.
+void split(const Coefficients& b, std::size_t count, Coefficients& left, Coefficients& right) {
+  left = right = b;
+  for (std::size_t level = 1; level < count; ++level) {
+    for (std::size_t k = count - 1; k >= level; --k) left[k] = (left[k] + left[k - 1]) / 2;
+    for (std::size_t k = 0; k < count - level; ++k) right[k] = (right[k] + right[k + 1]) / 2;
+  }
+}
+
+/// Widens what the polynomial attains, at the ends of halves of halves, and what it is not above,
+/// their coefficients. Parts that cannot attain more are left out.
+void widen(const Coefficients& b, std::size_t count, int depth, StepPolynomial::Highest& highest) {
+  highest.attained = std::max({highest.attained, b[0], b[count - 1]});
+  const double largest = *std::max_element(b.begin(), b.begin() + static_cast<long>(count));
+  if (largest <= highest.attained) return;
+  if (depth == 0) {
+    highest.most = std::max(highest.most, largest);
+    return;
+  }
+  Coefficients left, right;
+  split(b, count, left, right);
+  widen(left, count, depth - 1, highest);
+  widen(right, count, depth - 1, highest);
+}
+
+/// The sum of all rises, of the coefficients of parts that are so short.
+double rise_of(const Coefficients& b, std::size_t count, int depth) {
+  double rise = 0;
+  for (std::size_t k = 1; k < count; ++k) rise += std::max(b[k] - b[k - 1], 0.0);
+  if (depth == 0 || rise == 0) return rise;
+  Coefficients left, right;
+  split(b, count, left, right);
+  return rise_of(left, count, depth - 1) + rise_of(right, count, depth - 1);
+}
+
+/// Whether the derivative is below -margin on parts that are so short.
+bool falls_within(const Coefficients& b, std::size_t count, double margin, int depth) {
+  const double part = margin / static_cast<double>(count - 1);
+  const auto rises = [&](std::size_t k) { return b[k] - b[k - 1] > -part; };
+  bool everywhere = true;
+  for (std::size_t k = 1; k < count; ++k) everywhere = everywhere && !rises(k);
+  if (everywhere) return true;
+  if (depth == 0 || rises(1) || rises(count - 1)) return false;
+  Coefficients left, right;
+  split(b, count, left, right);
+  return falls_within(left, count, margin / 2, depth - 1) &&
+         falls_within(right, count, margin / 2, depth - 1);
+}
+
+struct Point {
+  double value = 0;
+  double slope = 0;
+};
+
+/// By de Casteljau's algorithm.
+Point at(Coefficients b, std::size_t count, double share) {
+  for (std::size_t level = count - 1; level > 1; --level)
+    for (std::size_t k = 0; k < level; ++k) b[k] += share * (b[k + 1] - b[k]);
+  if (count == 1) return {b[0], 0};
+  return {b[0] + share * (b[1] - b[0]), static_cast<double>(count - 1) * (b[1] - b[0])};
+}
+
+/// The only zero, from `side` to the other one: Newton's steps between bounds.
+double only_zero(const Coefficients& b, std::size_t count, int side) {
+  double low = 0, high = 1, share = b[0] / (b[0] - b[count - 1]);
+  while (high - low > kZeroWithin) {
+    const Point here = at(b, count, share);
+    (side * here.value > 0 ? low : high) = share;
+    const double step = -here.value / here.slope;
+    if (std::abs(step) <= kLastStep * share) return share + step;
+    const double next = share + step;
+    share = next > low && next < high ? next : (low + high) / 2;
+  }
+  return share;
+}
+
+int changes_of_sign(const Coefficients& b, std::size_t count) {
+  int changes = 0;
+  for (std::size_t k = 1; k < count; ++k) changes += (b[k] > 0) != (b[k - 1] > 0) ? 1 : 0;
+  return changes;
+}
+
+/// The first change of side on the part [from, from + width], of which b are the coefficients.
+std::optional<double> change_within(const Coefficients& b, std::size_t count, int side, double zero,
+                                    double from, double width) {
+  bool stays = true;
+  for (std::size_t k = 0; k < count; ++k) stays = stays && side * b[k] >= -zero;
+  if (stays) return std::nullopt;
+  if (width <= kZeroWithin) return from + width;
+  if (side * b[0] > 0 && side * b[count - 1] < -zero && changes_of_sign(b, count) == 1)
+    return from + width * only_zero(b, count, side);
+  Coefficients left, right;
+  split(b, count, left, right);
+  if (const auto found = change_within(left, count, side, zero, from, width / 2)) return found;
+  return change_within(right, count, side, zero, from + width / 2, width / 2);
+}
+
+}  // namespace
+
+StepPolynomial::StepPolynomial(std::span<const double> b, double error)
+    : count_(b.size()), error_(error) {
+  std::ranges::copy(b, b_.begin());
+}
+
+StepPolynomial StepPolynomial::of_series(const double* c, std::size_t stride, std::size_t terms,
+                                         double length) {
+  Coefficients a{}, b{};
+  double power = 1, size = 0;
+  for (std::size_t k = 0; k < terms; ++k) {
+    a[k] = c[k * stride] * power;
+    size = std::max(size, std::abs(a[k]));
+    power *= length;
+  }
+  const double error = std::abs(a[terms - 1]) + std::abs(a[terms - 2]);
+  std::size_t count = terms;
+  while (count > 1 && std::abs(a[count - 1]) <= kNoTerm * size) --count;
+  static const Weights weights;
+  for (std::size_t j = 0; j < count; ++j)
+    for (std::size_t k = 0; k <= j; ++k) b[j] += weights.of[count - 1][j][k] * a[k];
+  return {std::span(b).first(count), error};
+}
+
+StepPolynomial StepPolynomial::negated() const {
+  StepPolynomial other = *this;
+  for (double& one : other.b_) one = -one;
+  return other;
+}
+
+double StepPolynomial::operator()(double share) const { return at(b_, count_, share).value; }
+
+double StepPolynomial::largest() const { return std::ranges::max(coefficients()); }
+
+StepPolynomial::Highest StepPolynomial::highest() const {
+  Highest highest{b_[0], b_[0]};
+  widen(b_, count_, 10, highest);
+  highest.most = std::max(highest.most, highest.attained);
+  return highest;
+}
+
+double StepPolynomial::rise() const { return rise_of(b_, count_, 6); }
+
+bool StepPolynomial::falls(double margin) const {
+  return count_ > 1 ? falls_within(b_, count_, margin, 6) : margin <= 0;
+}
+
+std::optional<double> StepPolynomial::first_change(int side, double zero) const {
+  for (std::size_t k = 0; side == 0 && k < count_; ++k)
+    if (std::abs(b_[k]) > zero) side = b_[k] > 0 ? 1 : -1;
+  if (side == 0) return std::nullopt;
+  return change_within(b_, count_, side, zero, 0, 1);
+}
+
+}  // namespace gainsmith::pieces
