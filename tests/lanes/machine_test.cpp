@@ -11,6 +11,7 @@
 
 #include "base/random.h"
 #include "base/sine.h"
+#include "lanes/variants.h"
 #include "numbers/tape.h"
 
 namespace gainsmith::lanes {
@@ -18,13 +19,6 @@ namespace {
 
 using numbers::ScalarGraph;
 using numbers::ScalarOp;
-
-std::vector<const Variant*> variants() {
-  std::vector<const Variant*> all;
-  for (const char* name : {"v2", "v3", "v4"})
-    if (const Variant* one = find_variant(name)) all.push_back(one);
-  return all;
-}
 
 /// Sums, products, quotients, selections and constants at random; the last nodes are results.
 struct RandomGraph {
