@@ -421,7 +421,8 @@ const LaneStep* run(const LaneStep* step, const LaneStep* end, const double* con
 }  // namespace
 
 extern const Variant GAINSMITH_VARIANT;
-const Variant GAINSMITH_VARIANT{GAINSMITH_VARIANT_NAME, run, uniforms, sines, reached,
-                                run_flow, run_step, series_values, series_growth};
+const Variant GAINSMITH_VARIANT{
+    GAINSMITH_VARIANT_NAME, run,          uniforms, sines, reached, run_flow, run_step,
+    series_values,          series_growth};
 
 }  // namespace gainsmith::lanes

@@ -38,6 +38,15 @@ class Planted(unittest.TestCase):
     def test_clean_tree(self):
         self.assertEqual(check(CLEAN), (0, []))
 
+    def test_rooms_say_what_they_hold(self):
+        table = "| room | contents |\n|---|---|\n"
+        rooms = {path: "# of " + path.split("/")[1] + "\n" + text for path, text in CLEAN.items() if path.endswith(".txt")}
+        guide = {"CONTRIBUTING.md": "The rooms:\n\n" + table + "| base | of base |\n| verify | of verify |\n\nRules\n"}
+        self.assertEqual(check({**CLEAN, **rooms, **guide}), (0, []))
+        rooms["lib/verify/CMakeLists.txt"] = rooms["lib/verify/CMakeLists.txt"].replace("of verify", "of runs")
+        self.assertIn("the table of rooms", check({**CLEAN, **rooms, **guide})[1][0])
+        self.assertIn("lib/base/CMakeLists.txt:1", check({**CLEAN, **guide})[1][0])
+
     def test_room_below_the_wall(self):
         self.assert_found("lib/verify/a.cpp", '\n#include "design/synthesize.h"\n', "lib/verify/a.cpp:2",
                           "verify may not include design")
