@@ -17,6 +17,13 @@ using model::ClaimKind;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
+/// Where a value branches it goes up and down no faster than at the points.
+double rise_at_branch(const StepSamples& samples) {
+  return samples.length / 2 *
+         std::max({std::abs(samples.start.rate), std::abs(samples.middle.rate),
+                   std::abs(samples.end.rate)});
+}
+
 double rounding(double value, double terms) {
   return 8 * kUnitRoundoff * std::abs(value) + hybrid::kTermRounding * terms;
 }
@@ -98,6 +105,18 @@ void ClaimLane::along(double t, const StepSamples& samples, const pieces::StepPo
   compare_within(samples, sign_ < 0 ? along.negated() : along, value, end.terms, breaks);
 }
 
+bool ClaimLane::is_blurred(double t, const StepSamples& samples,
+                           const pieces::StepPolynomial& along, const Reading& end) const {
+  if (claim_->over || always_ || !claims::is_after(t, false, claim_->after)) return false;
+  if (claim_->kind == ClaimKind::nonincreasing) return !violated_;
+  if (claim_->kind != ClaimKind::below && claim_->kind != ClaimKind::above) return false;
+  const double possible = (sign_ < 0 ? along.negated() : along).largest() +
+                          std::max(along.error(), rise_at_branch(samples));
+  const double known = std::max(score_, score_of(sign_ * end.fine));
+  return possible > limit_ + forgiven(end.terms) ||
+         score_of(possible) > known + kScore * (1 + std::abs(known)) / 2;
+}
+
 /// The value at a point where the claim is made.
 void ClaimLane::compare(Known value, double terms, bool same, bool crowded) {
   last_ = value;
@@ -142,11 +161,8 @@ void ClaimLane::compare(Known value, double terms, bool same, bool crowded) {
 /// The value between the points of a step. `along`: as it is compared, with sign_.
 void ClaimLane::compare_within(const StepSamples& samples, const pieces::StepPolynomial& along,
                                Known end, double terms, bool breaks) {
-  // Where the value branches it goes up and down no faster than at the points.
-  const double rate = std::max(
-      {std::abs(samples.start.rate), std::abs(samples.middle.rate), std::abs(samples.end.rate)});
   const double error =
-      end.error + limit_error_ + std::max(along.error(), breaks ? samples.length * rate / 2 : 0);
+      end.error + limit_error_ + std::max(along.error(), breaks ? rise_at_branch(samples) : 0);
   if (claim_->kind == ClaimKind::shrinks) return;
   if (claim_->kind == ClaimKind::nonincreasing) {
     if (violated_) return;

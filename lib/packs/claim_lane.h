@@ -36,6 +36,9 @@ class ClaimLane {
   /// hardly have changed.
   void along(double t, const StepSamples& samples, const pieces::StepPolynomial& along,
              const Reading& end, bool breaks, bool halved);
+  /// Whether a step up to t on which the value branches says too little of it.
+  bool is_blurred(double t, const StepSamples& samples, const pieces::StepPolynomial& along,
+                  const Reading& end) const;
   void finish();
   /// What a run made otherwise came to; values with the sign that they are compared with.
   struct Course {

@@ -202,6 +202,16 @@ class LaneSet {
   /// How far the end of the step is from the root that it goes to.
   double time_beside_root(const PackLane& lane, std::size_t l) const;
   bool judge_claims(std::size_t l, bool& takes);
+  /// A step on which a claim has a kink ends just before it, and a short one passes it. False: it is
+  /// short already.
+  bool stop_beside_kink(std::size_t claim, std::size_t l);
+  /// Of a difference on the step; none: it does not change its sign.
+  std::optional<double> root_of_extra(std::size_t k, std::size_t l) const {
+    return first_root({start_.at(PackSystem::extras, k, l), quarter_.at(PackSystem::extras, k, l),
+                       middle_.at(PackSystem::extras, k, l),
+                       three_quarters_.at(PackSystem::extras, k, l),
+                       end_.at(PackSystem::extras, k, l)});
+  }
   double end_of_step(const PackLane& lane) const {
     return arrives(lane) ? lane.stop : lane.t + lane.h;
   }

@@ -122,12 +122,7 @@ bool LaneSet::shorten(PackLane& lane, double factor) {
 bool LaneSet::shorten_by_error(std::size_t l) {
   PackLane& lane = *lanes_[l];
   double share = 1;
-  for (const std::size_t k : pack_.kinks) {
-    const auto at = [&](const LanePoint& seen) { return seen.at(PackSystem::extras, k, l); };
-    const std::array<double, 5> values = {at(start_), at(quarter_), at(middle_),
-                                          at(three_quarters_), at(end_)};
-    share = std::min(share, first_root(values).value_or(1));
-  }
+  for (const std::size_t k : pack_.kinks) share = std::min(share, root_of_extra(k, l).value_or(1));
   const double length = share * lane.h;
   const bool is_inside = share > kKinkInside && share < 1 - kKinkInside;
   if (!is_inside || length <= kShortestStep * horizon_)
@@ -289,7 +284,14 @@ bool LaneSet::judge_claims(std::size_t l, bool& takes) {
   for (std::size_t c = 0; c < lane.claims.size(); ++c) {
     Reading end = reading(c, l, end_, coarse_at_end_);
     end.late = late * std::abs(end_.at(PackSystem::claim_rates, c, l));
-    lane.claims[c].along(now, claim_samples(c, l), along_claim(c, l), end, may_branch(c, l),
+    const StepSamples samples = claim_samples(c, l);
+    const pieces::StepPolynomial along = along_claim(c, l);
+    const bool breaks = may_branch(c, l);
+    if (breaks && lane.claims[c].is_blurred(now, samples, along, end) && stop_beside_kink(c, l)) {
+      lane.claims = lane.claims_before;
+      return true;
+    }
+    lane.claims[c].along(now, samples, along, end, breaks,
                          lane.halvings > 0 || 2 * lane.h < lane.wanted);
     if (!lane.claims[c].open()) continue;
     // Two halves may say more.
@@ -308,6 +310,20 @@ bool LaneSet::judge_claims(std::size_t l, bool& takes) {
             std::max(lane.largest(k), std::abs(values->at(static_cast<std::size_t>(k), l)));
   find_new_sides(l);
   takes = true;
+  return true;
+}
+
+bool LaneSet::stop_beside_kink(std::size_t claim, std::size_t l) {
+  PackLane& lane = *lanes_[l];
+  const double beside = kBesideKink * std::min(lane.wanted, lane.stop - lane.flow_start);
+  if (lane.h <= 4 * beside) return false;
+  double share = 1;
+  for (const std::size_t k : pack_.claims[claim].kinks)
+    share = std::min(share, root_of_extra(k, l).value_or(1));
+  if (share == 1) return false;
+  const double reach = share * lane.h;
+  forget_root(lane);
+  lane.forced = reach > 2 * beside ? reach - beside : reach + beside;
   return true;
 }
 

@@ -172,6 +172,7 @@ class PointCode {
     for (const expr::Branch& branch : expr::branches_of(text, moves))
       for (const int node : texts_.value(branch.difference, x_).value) {
         made.branches.push_back(results_[PackSystem::extras].size());
+        if (!branch.jumps) made.kinks.push_back(made.branches.back());
         push(PackSystem::extras, node);
       }
     for (const int node : sharp_.roots(value.value[0])) {

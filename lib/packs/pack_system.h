@@ -77,6 +77,7 @@ struct PackClaim {
   bool rests = false;                 ///< along flows: jumps alone change it
   bool squared = false;               ///< the value is the square of the claim's, a norm
   std::vector<std::size_t> branches;  ///< extras: what its value branches on
+  std::vector<std::size_t> kinks;     ///< those of them where it is continuous
   std::vector<std::size_t> roots;     ///< extras: of what it has square roots, norms among them
 };
 

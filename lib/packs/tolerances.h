@@ -34,6 +34,8 @@ constexpr int kMostHalvings = 4;  ///< times | a step is halved so often where a
         ///< on it | UnusualRuns.AreLeftOpen
 constexpr double kKinkInside = 0.01;  ///< of a step | a step with too large an error goes up to a kink
         ///< that is so far from both ends | Systems/PackRuns.AgreeWithCarefulRuns
+constexpr double kBesideKink = 1e-4;  ///< of a step | a step ends so near to a kink of a claim |
+        ///< SharpClaims.KinksAreLeftToNoCarefulRun
 constexpr double kScore = 0.02;  ///< relative, and absolute | how near a run comes to its bound is known
         ///< so well, or it is left to the careful run | Systems/PackRuns.AgreeWithCarefulRuns
 constexpr double kFlatRoot = 0.25;  ///< of the largest operand on a step | a square root whose operand

@@ -10,6 +10,7 @@
 
 #include "bind/bind.h"
 #include "io/problem_text.h"
+#include "verify/pack_agreement.h"
 #include "verify/pack_cases.h"
 
 namespace gainsmith::verify {
@@ -261,6 +262,28 @@ campaign: {runs: 120, horizon: 5, initial: {x: {box: [-1.5, 1.5]}}}
   }
   EXPECT_GT(violated, 3U);
   EXPECT_LT(open, 60U);
+}
+
+/// Steps pass the kinks of abs, max and min where these are all that is to be known of a claim.
+TEST(SharpClaims, KinksAreLeftToNoCarefulRun) {
+  const std::string text = R"yaml(problem: p
+method:
+  method: m
+  plant:
+    state: {x: {shape: 2, start: 0}}
+    flow: {x: "[x(2); -9.8 - 0.1*x(2)]"}
+    events: {impact: {when: x(1) <= 0 and x(2) < 0}}
+    at: {impact: {x: "[0; 5 - 0.5*x(2)]"}}
+  claims:
+    fast: {below: abs(x(2)), bound: 13}
+    both: {below: "max(x(1)/3, -x(2)) + min(x(2), 0)", bound: 2.8}
+campaign: {runs: 120, horizon: 20, initial: {x: {box: ["[1; -5]", "[10; 5]"]}}}
+)yaml";
+  const auto setup = make_setup(bind::bind(io::read_problem(text)), {});
+  const Packs packs = make_packs(*setup, 96);
+  ASSERT_NE(packs.any, nullptr);
+  expect_agreement(
+      *setup, 5, packs::PackRunner(*packs.any).run(5, 0, 120), [](std::size_t) { return 2e-2; }, 2);
 }
 
 }  // namespace
