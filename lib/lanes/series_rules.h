@@ -3,7 +3,7 @@
 
 constexpr std::size_t kParts = kGroup / kWidth;  ///< vectors of one order
 
-/// Of numbers of other rooms, wherever they are.
+/// Memory of any alignment.
 inline V loaded(const double* x) {
   V out;
   __builtin_memcpy(&out, x, sizeof out);
@@ -59,7 +59,7 @@ inline Order convolution(const V* a, const V* b, std::size_t k, std::size_t firs
       [&](std::size_t v) { return (sums[0][v] + sums[1][v]) + (sums[2][v] + sums[3][v]); });
 }
 
-/// As far as k reaches, by the symmetry of the sum.
+/// Order k of a^2, by the symmetry of its sum.
 inline Order square_of(const V* a, std::size_t k) {
   Order half = convolution(a, a, k, 0, k == 0 ? 0 : (k - 1) / 2);
   if (k == 0) return half;
@@ -70,8 +70,10 @@ inline Order square_of(const V* a, std::size_t k) {
   });
 }
 
-inline V by_number(V x, double (*function)(double)) {
-  for (std::size_t l = 0; l < kWidth; ++l) x[l] = function(x[l]);
+/// A function of the numbers of a vector, one by one; l is the place of each.
+template <class Function>
+inline V one_by_one(V x, const Function& function) {
+  for (std::size_t l = 0; l < kWidth; ++l) x[l] = function(x[l], l);
   return x;
 }
 
@@ -178,7 +180,9 @@ inline __attribute__((always_inline)) void run_order(SeriesOp op, std::size_t k,
       break;
     case SeriesOp::log:
       if (k == 0) {
-        over([&](std::size_t v) { return by_number(a[v], __builtin_log); });
+        over([&](std::size_t v) {
+          return one_by_one(a[v], [](double x, std::size_t) { return __builtin_log(x); });
+        });
       } else {
         const Order sum = convolution<true>(r, a, k, 1, k - 1);
         over([&](std::size_t v) { return (ak[v] - sum.part[v] * of_k) / a[v]; });
@@ -187,9 +191,8 @@ inline __attribute__((always_inline)) void run_order(SeriesOp op, std::size_t k,
     case SeriesOp::power:
       if (k == 0) {
         over([&](std::size_t v) {
-          V x = a[v];
-          for (std::size_t l = 0; l < kWidth; ++l) x[l] = __builtin_pow(x[l], b[v][l]);
-          return x;
+          return one_by_one(a[v],
+                            [&](double x, std::size_t l) { return __builtin_pow(x, b[v][l]); });
         });
       } else {
         // k a_0 r_k = sum (p j - (k - j)) a_j r_(k-j), p = b.
@@ -234,9 +237,8 @@ inline __attribute__((always_inline)) void run_order(SeriesOp op, std::size_t k,
         length_squared[k * kParts + v] = aa.part[v] + bb.part[v];
       if (k == 0) {
         over([&](std::size_t v) {
-          V x = a[v];
-          for (std::size_t l = 0; l < kWidth; ++l) x[l] = __builtin_atan2(x[l], b[v][l]);
-          return x;
+          return one_by_one(a[v],
+                            [&](double x, std::size_t l) { return __builtin_atan2(x, b[v][l]); });
         });
       } else {
         // (a^2 + b^2) r' = b a' - a b'.

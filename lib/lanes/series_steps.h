@@ -1,10 +1,10 @@
-// Operations on Taylor series in time over lanes: each slot holds the coefficients of one value, of
-// order 0 to kOrder, for kGroup runs. Order k of a result follows from orders up to k of its operands
-// (Griewank and Walther, Evaluating Derivatives, 2008, chapter 13).
+// Operations on Taylor series in time over lanes. Order k of a result follows from orders up to k of its
+// operands (Griewank and Walther, Evaluating Derivatives, 2008, chapter 13).
 //
-// A slot is (kOrder + 1)*kGroup numbers, order by order: of values of which later orders need all orders
-// before. A register is kGroup numbers: the order that is computed, of all others; so that most of
-// a flow is in the nearest cache. What does not move keeps its value in both, zeros behind it in a slot.
+// A register holds one order of a value, the one that is computed. A slot holds all of them, order by
+// order. Only values have slots of which later orders need the orders before, so that most of a flow
+// stays in the nearest cache. A value that rests is in its register at every order, and in its
+// slot at order 0, with zeros behind it.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,8 @@
 
 namespace gainsmith::lanes {
 
-constexpr std::size_t kGroup = 8;
-constexpr std::size_t kOrder = 16;
+constexpr std::size_t kGroup = 8;   ///< runs that are computed together; numbers of a register
+constexpr std::size_t kOrder = 16;  ///< the last one
 constexpr std::size_t kSlot = (kOrder + 1) * kGroup;
 
 enum class SeriesOp : std::uint8_t {
@@ -44,11 +44,11 @@ enum class SeriesOp : std::uint8_t {
 
 constexpr std::uint32_t kNoSlot = 0xFFFFFFFF;
 
-/// An operand or a result: its register and its slot; either may be missing where nothing reads it.
+/// Where a value is.
 struct SeriesPlace {
-  std::uint32_t at = 0;
+  std::uint32_t at = 0;  ///< its register
   std::uint32_t slot = kNoSlot;
-  bool rests = false;  ///< 0 from order 1 on
+  bool rests = false;  ///< it does not move
 };
 
 struct SeriesStep {
@@ -56,13 +56,13 @@ struct SeriesStep {
   SeriesPlace out, beside, a, b, c;
 };
 
-/// A step with its numbers found, for one order: 0, or any other, where what rests is 0.
+/// A step by addresses. There is one for order 0 and one for all others, where what rests is 0.
 struct FlowStep {
   SeriesOp op = SeriesOp::add;
-  double* out = nullptr;
-  const double *ak = nullptr, *bk = nullptr, *ck = nullptr;  ///< of this order
-  double* r = nullptr;                                       ///< slots; nullptr: none
-  const double *a = nullptr, *b = nullptr;                   ///< slots, or order 0 of what has none
+  double* out = nullptr;                                     ///< register
+  const double *ak = nullptr, *bk = nullptr, *ck = nullptr;  ///< registers, or zeros
+  double* r = nullptr;                                       ///< slot of the result; nullptr: none
+  const double *a = nullptr, *b = nullptr;                   ///< slots; registers of what has none
   double *beside = nullptr, *beside_out = nullptr;
 };
 
