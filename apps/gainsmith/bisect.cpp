@@ -89,6 +89,9 @@ void add_range(const BisectOptions& options, model::Problem& problem) {
   const std::string name = !named                     ? search->extreme->name
                            : options.smallest.empty() ? options.largest
                                                       : options.smallest;
+  for (const model::Setting& setting : problem.settings)
+    if (setting.name == name)
+      throw InputError({"--set " + name}, "a scalar that is bisected has no value of its own");
   problem.questions.ranges = {range_of(options, problem, name)};
 }
 

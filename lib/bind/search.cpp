@@ -126,22 +126,11 @@ void bind_search(Binding& binding) {
   if (!binding.problem().search) return;
   const model::Search& search = *binding.problem().search;
   refuse_repetition(search);
-  // A value of the command line takes a scalar out of the search.
-  const auto is_set = [&](const model::ScalarRange& text) {
-    const auto& settings = binding.problem().settings;
-    return std::any_of(settings.begin(), settings.end(),
-                       [&](const model::Setting& one) { return one.name == text.name; });
-  };
-  const bool keeps_extreme = search.extreme && !is_set(*search.extreme);
-  const bool keeps_some =
-      keeps_extreme || !std::all_of(search.over.begin(), search.over.end(), is_set);
-  if (!keeps_some) return;
   model::Design::Search bound;
-  if (keeps_extreme) bound.extreme = checked(*search.extreme);
+  if (search.extreme) bound.extreme = checked(*search.extreme);
   bound.largest = search.largest;
   bound.tolerance = search.tolerance;
-  for (const model::ScalarRange& text : search.over)
-    if (!is_set(text)) bound.over.push_back(checked(text));
+  for (const model::ScalarRange& text : search.over) bound.over.push_back(checked(text));
   if (search.minimize) bound.minimize = scalar(*search.minimize, binding.names->results);
   if (search.run_figure) bound.run_figure = only(figures(binding, *search.run_figure));
   bound.runs = search.runs;

@@ -150,6 +150,15 @@ class Setter {
   std::string name_;
 };
 
+/// A scalar that has a value is not searched.
+void leave_out_of_search(const std::string& name, model::Problem& problem) {
+  if (!problem.search) return;
+  model::Search& search = *problem.search;
+  if (search.extreme && search.extreme->name == name) search.extreme.reset();
+  std::erase_if(search.over, [&](const model::ScalarRange& one) { return one.name == name; });
+  if (!search.extreme && search.over.empty()) problem.search.reset();
+}
+
 }  // namespace
 
 void set_values(const std::vector<model::Setting>& settings, Sources& sources,
@@ -159,6 +168,7 @@ void set_values(const std::vector<model::Setting>& settings, Sources& sources,
       if (known.name == setting.name)
         throw InputError({sources.shown_option("--set " + setting.name)}, "this is given twice");
     Setter(setting, sources, problem).run();
+    leave_out_of_search(setting.name, problem);
     problem.settings.push_back(setting);
   }
 }

@@ -119,6 +119,10 @@ TEST(DataIn, ASettingIsNotSearched) {
   EXPECT_NE(given.out.find("rho = 1.5"), std::string::npos) << given.out;
   EXPECT_EQ(given.out.find("searched"), std::string::npos) << given.out;
   EXPECT_EQ(gainsmith({"synth", file, "--set", "rho=0.5"}).exit, 1);
+  const Outcome nothing = gainsmith({"bisect", file, "--set", "rho=0.5"});
+  EXPECT_EQ(nothing.exit, 2);
+  EXPECT_NE(nothing.err.find("nothing to bisect"), std::string::npos) << nothing.err;
+  EXPECT_EQ(gainsmith({"bisect", file, "--smallest", "rho", "--set", "rho=0.7"}).exit, 2);
 }
 
 TEST(DataIn, AGainFileKeepsItsProblem) {
