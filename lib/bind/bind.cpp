@@ -38,6 +38,13 @@ std::vector<int> Recorder::units(const expr::Program& A, const expr::Program& C)
   return units_found.back().exponents;
 }
 
+std::vector<double> Recorder::output_gain(const expr::Program& A, const expr::Program& B,
+                                          const expr::Program& C, bool discrete) const {
+  for (const expr::Program* matrix : {&A, &B, &C})
+    plants.push_back({*matrix, numbers::evaluate(*matrix, values)});
+  return numbers::KnownDoubles(values).output_gain(A, B, C, discrete);
+}
+
 Binding::Binding(std::shared_ptr<const model::Problem> problem, const model::Overrides& overriding,
                  Checks checking)
     : source(std::move(problem)),
@@ -83,6 +90,7 @@ model::Instance bound(Binding binding) {
   finish_dynamics(binding);
   binding.design->ranks = binding.recorder->ranks;
   binding.design->units = binding.recorder->units_found;
+  binding.design->plants = binding.recorder->plants;
   const auto read = std::move(binding.names->known.read);
   for (expr::Scope* scope : {&binding.names->known, &binding.names->design, &binding.names->running,
                              &binding.names->results})

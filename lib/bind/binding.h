@@ -22,15 +22,19 @@ struct Names {
   std::vector<std::string> unread;  ///< unread_names()
 };
 
-/// The values of data and parameters so far. Notes the ranks and units that were asked for.
+/// The values of data and parameters so far. Notes the ranks, units and gains that were asked
+/// for.
 struct Recorder : expr::KnownValues {
   numbers::Values values;
   mutable std::vector<model::Design::Rank> ranks;
   mutable std::vector<model::Design::Units> units_found;
+  mutable std::vector<model::Design::Plant> plants;
 
   double number(const expr::Program& program) const override;
   int rank(const expr::Program& matrix, const expr::Program* tolerance) const override;
   std::vector<int> units(const expr::Program& A, const expr::Program& C) const override;
+  std::vector<double> output_gain(const expr::Program& A, const expr::Program& B,
+                                  const expr::Program& C, bool discrete) const override;
 };
 
 /// What is asked of values besides data and assumptions: that ranges have ends in order, and that

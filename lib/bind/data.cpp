@@ -194,8 +194,11 @@ void add_datum(Binding& binding, const Given& given) {
                       fits_as_column(datum, value, dimensions);
   model::Value turned{value.name, oriented(value, column), false, value.place};
   bound.place = value.place;
+  const std::size_t plants = binding.recorder->plants.size();
   bound.value =
       formula(turned.value, binding.names->known, has_free_size(value) ? expected : std::nullopt);
+  bound.chosen =
+      model::chooses_basis(bound.value->program) || binding.recorder->plants.size() > plants;
   binding.data_texts.insert_or_assign(datum.name, turned.value);
   bound.shape = bound.value->program.shape();
   if (!learn(datum.shape, bound.shape, dimensions))

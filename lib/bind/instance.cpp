@@ -57,7 +57,11 @@ bool has_same_shapes(const model::Design& design, const numbers::Values& values)
   const auto has_same_units = [&](const model::Design::Units& known) {
     return doubles.units(known.A, known.C) == known.exponents;
   };
+  const auto is_same_plant = [&](const model::Design::Plant& known) {
+    return numbers::evaluate(known.matrix, values) == known.value;
+  };
   return std::all_of(design.units.begin(), design.units.end(), has_same_units) &&
+         std::all_of(design.plants.begin(), design.plants.end(), is_same_plant) &&
          std::all_of(design.unknowns.begin(), design.unknowns.end(), is_same_degree) &&
          std::all_of(design.ranks.begin(), design.ranks.end(), is_same_rank);
 }

@@ -61,12 +61,12 @@ class Builder {
     numbers::Values bases;
     for (const auto& [name, basis] : gains_.bases) {
       const auto datum = std::find_if(
-          design_.data.begin(), design_.data.end(), [&](const model::Design::Datum& known) {
-            return known.name == name && known.value && model::chooses_basis(known.value->program);
-          });
+          design_.data.begin(), design_.data.end(),
+          [&](const model::Design::Datum& known) { return known.name == name && known.chosen; });
       if (datum == design_.data.end())
-        throw InputError({gains_.file}, "the gain file has a basis " + name +
-                                            ", which is no datum that takes one by orth or null");
+        throw InputError({gains_.file},
+                         "the gain file has a basis " + name +
+                             ", which is no datum that takes one by orth, null or output_gain");
       take(name, datum->shape, basis);
       bases[name] = basis;
     }

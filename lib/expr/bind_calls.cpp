@@ -245,6 +245,9 @@ Bound Binder::bind_composed(const Expression& expression, const Node& node, Comp
       return controllability(expression, node);
     case Composed::units:
       return units(expression, node);
+    case Composed::output_gain:
+    case Composed::discrete_output_gain:
+      return output_gain(expression, node, function == Composed::discrete_output_gain);
     case Composed::rank:
       return rank(expression, node);
     case Composed::chol:

@@ -248,6 +248,26 @@ Bound Binder::lyapunov(const Expression& expression, const Node& node, bool disc
   return {unstacked(make, make.multiply(inverse, make.negate(stacked(make, q))), n)};
 }
 
+Bound Binder::output_gain(const Expression& expression, const Node& node, bool discrete) {
+  const int a = square_argument(expression, node, node.text);
+  const int b = input_matrix(expression, node, a);
+  const Node& outputs = *node.children[2];
+  const int c = sized(expression, outputs, bind(expression, outputs));
+  if (shape(c).cols != shape(a).rows)
+    materialise(expression, outputs, {c}, {shape(c).rows, shape(a).rows});
+  const std::string why = "the arguments of " + node.text;
+  const Program A = known_program(expression, *node.children[0], a, why);
+  const Program B = known_program(expression, *node.children[1], b, why);
+  const Program C = known_program(expression, outputs, c, why);
+  const Emitter make(*this, expression, node);
+  const Shape of{shape(b).cols, shape(c).rows};
+  if (of.size() == 0) return {make.zeros(of)};
+  std::vector<int> elements;
+  for (const double element : scope_.known->output_gain(A, B, C, discrete))
+    elements.push_back(make.number(fmt::format("{}", element)));
+  return {make.blocks(std::move(elements), of.cols)};
+}
+
 Bound Binder::riccati(const Expression& expression, const Node& node, Op op) {
   const int a = square_argument(expression, node, node.text);
   const int b = input_matrix(expression, node, a);

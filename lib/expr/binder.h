@@ -198,6 +198,7 @@ class Binder {
   int input_matrix(const Expression& expression, const Node& node, int a);
   Bound sampled(const Expression& expression, const Node& node);
   Bound lyapunov(const Expression& expression, const Node& node, bool discrete);
+  Bound output_gain(const Expression& expression, const Node& node, bool discrete);
   Bound riccati(const Expression& expression, const Node& node, Op op);
   // bind_elementary.cpp
   Bound elementary(const Expression& expression, const Node& node, Composed function);

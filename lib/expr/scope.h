@@ -40,6 +40,9 @@ class KnownValues {
   virtual int rank(const Program& matrix, const Program* tolerance) const = 0;
   /// Exponents of two of the units in which A, n x n, and C, p x n, are near 1 (numerics/balance.h).
   virtual std::vector<int> units(const Program& A, const Program& C) const = 0;
+  /// The elements of a gain, row by row (numerics/output_gain.h).
+  virtual std::vector<double> output_gain(const Program& A, const Program& B, const Program& C,
+                                          bool discrete) const = 0;
 };
 
 /// "derivative(P)": under this name a scope has the derivative of a function, where it has one.

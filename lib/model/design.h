@@ -72,6 +72,7 @@ struct Design {
     std::vector<Place> elements;  ///< row by row, when it is written element by element
     std::string declared;         ///< its shape, as written
     std::string missing;          ///< what is said when it has no value
+    bool chosen = false;  ///< one of many, by orth, null or output_gain: gain files say which
   };
 
   /// A comparison of scalars that data and parameters must satisfy.
@@ -265,6 +266,12 @@ struct Design {
     std::vector<int> exponents;
   };
 
+  /// The same of a matrix for which output_gain has found a gain.
+  struct Plant {
+    expr::Program matrix;
+    numbers::Matrix value;
+  };
+
   std::string name;  ///< of the problem
   std::string file;
   std::string method;
@@ -310,6 +317,7 @@ struct Design {
 
   std::vector<Rank> ranks;
   std::vector<Units> units;
+  std::vector<Plant> plants;
   std::shared_ptr<const Problem> source;
   std::shared_ptr<const bind::Names> names;
 };

@@ -4,6 +4,7 @@
 #include "numbers/foundation.h"
 #include "numbers/real_rules.h"
 #include "numerics/balance.h"
+#include "numerics/output_gain.h"
 
 namespace gainsmith::numbers {
 
@@ -24,6 +25,15 @@ int KnownDoubles::rank(const expr::Program& matrix, const expr::Program* toleran
 
 std::vector<int> KnownDoubles::units(const expr::Program& A, const expr::Program& C) const {
   return numerics::units(evaluate(A, values_).cwiseAbs(), evaluate(C, values_).cwiseAbs());
+}
+
+std::vector<double> KnownDoubles::output_gain(const expr::Program& A, const expr::Program& B,
+                                              const expr::Program& C, bool discrete) const {
+  const auto time = discrete ? numerics::Time::discrete : numerics::Time::continuous;
+  const Matrix rows =
+      numerics::output_gain(evaluate(A, values_), evaluate(B, values_), evaluate(C, values_), time)
+          .transpose();
+  return {rows.data(), rows.data() + rows.size()};
 }
 
 int numerical_rank(const Matrix& matrix, double tolerance) {

@@ -51,6 +51,8 @@ class KnownDoubles : public expr::KnownValues {
   double number(const expr::Program& program) const override;
   int rank(const expr::Program& matrix, const expr::Program* tolerance) const override;
   std::vector<int> units(const expr::Program& A, const expr::Program& C) const override;
+  std::vector<double> output_gain(const expr::Program& A, const expr::Program& B,
+                                  const expr::Program& C, bool discrete) const override;
 
  private:
   Values values_;

@@ -279,6 +279,7 @@ class Statement:
         for text in words:          # and those of the definitions that it uses
             used = set(re.findall(r"\w+", text))
             words += [str(lets.pop(head)) for head in list(lets) if head.split("(")[0] in used]
+        if re.search(r"\b(discrete_)?output_gain\b", str(words)): return result  # any gain will do
         if not re.search(r"\b(orth|null)\b", str(words)): refuse("a basis without orth or null")
         scale = max(map(abs, flat(result)), default=0)
         if all(upper(y) <= scale / 10 ** 13 for y in flat(self.value(x, result.shape()) - result)):

@@ -106,6 +106,20 @@ TEST(Evaluation, UnitsFollowTheirArguments) {
             (numbers::Matrix{{1, 0}, {0, 0.25}}));
 }
 
+TEST(Evaluation, GainsOfOutputsFollowTheirPlant) {
+  const Small small(kSmallProblem, changed(kMethod, "  M: {",
+                                           "  F0: {shape: scalar, default: \"output_gain([0, T1; 1, "
+                                           "0], [0; 1], [1, 1])\"}\n  M: {"));
+  const auto is_stable = [](const model::Instance& instance, double T1) {
+    const double F = instance.values.at("F0")(0, 0);  // s^2 - F s - T1 (1 + F)
+    return F < 0 && T1 * (1 + F) < 0;
+  };
+  EXPECT_TRUE(is_stable(small.instance, 0.5));
+  const model::Instance other = evaluate(small.instance.design, {{"T1", 4.25}});
+  EXPECT_TRUE(is_stable(other, 4.25));
+  EXPECT_EQ(other.values, bind(small.problem, {{"T1", 4.25}}).values);
+}
+
 /// The programs of another rank may fail where those of this one do not.
 TEST(Evaluation, AChangedRankIsSeenBeforeWhatFollowsFromIt) {
   const std::string method = changed(

@@ -191,6 +191,19 @@ TEST_F(ControlWords, UnitsArePowersOfTwo) {
   expect("units(eye(2), [1, 0, 0])", 15, "1 x 3");
 }
 
+TEST_F(ControlWords, AGainOfTheOutputsIsKnownBeforehand) {
+  world.set("A", Matrix{{0, 1}, {2, 0}}).set("B", Matrix{{0}, {1}});
+  world.define("F", "output_gain(A, B, eye(2))").define("G", "discrete_output_gain(A, B, eye(2))");
+  EXPECT_LT(world("max(eig(A + B*F)(:, 1))")(0, 0), 0);
+  EXPECT_LT(world("max(eig(A + B*G)(:, 1).^2 + eig(A + B*G)(:, 2).^2)")(0, 0), 1);
+  EXPECT_EQ(world("output_gain(A, B, zeros(0, 2))").size(), 0);
+  world.scope.symbols["X"] = {{2, 2}, false};
+  expect("1 + output_gain(X, B, eye(2))", 17, "must not depend on 'X'");
+  expect("output_gain([1, 2], B, eye(2))", 13, "square");
+  expect("output_gain(A, [1, 2], eye(2))", 16, "2 rows");
+  expect("output_gain(A, B, [1, 2, 3])", 19, "1 x 3");
+}
+
 /// X = 0 solves the equation too, but does not stabilise.
 TEST_F(ControlWords, WeightsNeedNotSeeUnstableModes) {
   EXPECT_EQ(world("dare(2, 1, 0, 1)")(0, 0), 3);

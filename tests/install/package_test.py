@@ -50,7 +50,7 @@ class OfPackages:
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
-        run("cpack", "-G", "DEB", "-B", cls.folder.name, "--config", os.path.join(BUILD, "CPackConfig.cmake"))
+        run("cpack", "-G", "DEB", "-D", "CPACK_DEBIAN_COMPRESSION_TYPE=gzip", "-B", cls.folder.name, "--config", os.path.join(BUILD, "CPackConfig.cmake"))
         cls.packages = {os.path.basename(path).split("_")[0]: path for path in glob.glob(cls.folder.name + "/*.deb")}
         with open(os.path.join(TREE, "CMakeLists.txt"), encoding="utf-8") as file:
             cls.version = re.search(r"VERSION (\S+)", file.read().partition("project(")[2]).group(1)
