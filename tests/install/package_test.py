@@ -1,6 +1,6 @@
 """The Debian packages of this build: their fields, and a clean Debian in which they are installed, used and removed.
 
-    package_test.py TREE BUILD [Packages]
+    package_test.py TREE BUILD [Program | Development]
 """
 import glob
 import os
@@ -49,15 +49,14 @@ def in_clean_debian(package, files, commands):
 class OfPackages:
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        run("cpack", "-G", "DEB", "-D", "CPACK_DEBIAN_COMPRESSION_TYPE=gzip", "-B", cls.folder.name, "--config", os.path.join(BUILD, "CPackConfig.cmake"))
-        cls.packages = {os.path.basename(path).split("_")[0]: path for path in glob.glob(cls.folder.name + "/*.deb")}
+        if not OfPackages.packages:  # made once: cpack looks at each file by a process
+            run("cpack", "-G", "DEB", "-B", OfPackages.folder.name, "--config", os.path.join(BUILD, "CPackConfig.cmake"))
+            OfPackages.packages = {os.path.basename(path).split("_")[0]: path for path in glob.glob(OfPackages.folder.name + "/*.deb")}
         with open(os.path.join(TREE, "CMakeLists.txt"), encoding="utf-8") as file:
             cls.version = re.search(r"VERSION (\S+)", file.read().partition("project(")[2]).group(1)
 
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
+    folder = tempfile.TemporaryDirectory()
+    packages = {}
 
     def try_in_clean_debian(self, package, files, commands):
         reason = in_clean_debian(self.packages[package], files, commands)
@@ -66,7 +65,7 @@ class OfPackages:
             self.skipTest(reason)
 
 
-class Packages(OfPackages, unittest.TestCase):
+class Program(OfPackages, unittest.TestCase):
     def test_their_fields_are_right(self):
         self.assertEqual(sorted(self.packages), ["gainsmith", "gainsmith-dev"])
         for name, package in self.packages.items():

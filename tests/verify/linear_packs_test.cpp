@@ -37,7 +37,7 @@ class LinearPacks : public testing::TestWithParam<Case> {};
 TEST_P(LinearPacks, AgreeWithCarefulRuns) {
   const Made made = make(GetParam().text);
   ASSERT_NE(made.packs.linear, nullptr);
-  constexpr std::uint64_t runs = 160;
+  constexpr std::uint64_t runs = 80;
   const std::vector<packs::PackVerdict> verdicts =
       packs::LinearRunner(*made.packs.linear).run(7, 0, runs);
   Judge judge(*made.setup);
