@@ -194,11 +194,12 @@ void add_datum(Binding& binding, const Given& given) {
                       fits_as_column(datum, value, dimensions);
   model::Value turned{value.name, oriented(value, column), false, value.place};
   bound.place = value.place;
-  const std::size_t plants = binding.recorder->plants.size();
   bound.value =
       formula(turned.value, binding.names->known, has_free_size(value) ? expected : std::nullopt);
-  bound.chosen =
-      model::chooses_basis(bound.value->program) || binding.recorder->plants.size() > plants;
+  const expr::Node& root = *value.value.root;
+  const bool is_gain = root.kind == expr::NodeKind::call &&
+                       (root.text == "output_gain" || root.text == "discrete_output_gain");
+  bound.chosen = is_gain || model::chooses_basis(bound.value->program);
   binding.data_texts.insert_or_assign(datum.name, turned.value);
   bound.shape = bound.value->program.shape();
   if (!learn(datum.shape, bound.shape, dimensions))
@@ -225,8 +226,22 @@ void check_shape(const Binding& binding, const Given& given) {
                        (given.value ? found_text(*given.value, shape) : to_string(shape)));
 }
 
+/// The text of a parameter: the problem's, or the method's default.
+const expr::Expression* text_of(const Binding& binding, const model::Parameter& parameter) {
+  if (const model::Value* given = find_named(binding.problem().parameters, parameter.name))
+    return &given->value;
+  return parameter.fallback ? &*parameter.fallback : nullptr;
+}
+
+/// Whether it is a number, which data may read.
+bool comes_first(const Binding& binding, const model::Parameter& parameter) {
+  const expr::Expression* text = text_of(binding, parameter);
+  return text != nullptr && names_in(*text).empty();
+}
+
 void add_parameter(Binding& binding, const model::Parameter& parameter) {
   model::Design::Datum bound;
+  bound.first = comes_first(binding, parameter);
   bound.name = parameter.name;
   bound.structure = model::Structure::scalar;
   bound.declared = "scalar";
@@ -235,10 +250,9 @@ void add_parameter(Binding& binding, const model::Parameter& parameter) {
   const model::Value* given = find_named(binding.problem().parameters, parameter.name);
   const model::ScalarRange* searched = find_searched(binding, parameter.name);
   if (searched == nullptr && parameter.search) searched = &*parameter.search;
-  if (given != nullptr || parameter.fallback) {
-    const expr::Expression& text = given ? given->value : *parameter.fallback;
-    bound.value = scalar(text, binding.names->known);
-    binding.data_texts.insert_or_assign(parameter.name, text);
+  if (const expr::Expression* text = text_of(binding, parameter)) {
+    bound.value = scalar(*text, binding.names->known);
+    binding.data_texts.insert_or_assign(parameter.name, *text);
     bound.place = given ? given->place : parameter.place;
   } else if (searched != nullptr) {
     start_at_end(binding, *searched, bound);
@@ -395,6 +409,8 @@ void bind_data(Binding& binding) {
     if (!std::isfinite(value))
       throw InputError({binding.problem().file}, name + ": expected a finite number");
   }
+  for (const model::Parameter& parameter : binding.method().parameters)
+    if (comes_first(binding, parameter)) add_parameter(binding, parameter);
   add_problem_definitions(binding);
   std::vector<Given> all;
   for (const model::Declaration& datum : binding.method().data) {
@@ -409,7 +425,10 @@ void bind_data(Binding& binding) {
   }
   for (const Given& datum : all) check_shape(binding, datum);
   for (const model::Parameter& parameter : binding.method().parameters)
-    add_parameter(binding, parameter);
+    if (!comes_first(binding, parameter)) add_parameter(binding, parameter);
+  std::ranges::sort(binding.design->parameters, {}, [&](const model::Design::Datum& datum) {
+    return find_named(binding.method().parameters, datum.name);
+  });
   for (const auto& [name, value] : binding.overrides)
     check_scalar_name(*binding.design, name, {binding.problem().file});
   add_definitions(binding);

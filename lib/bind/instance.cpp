@@ -18,9 +18,8 @@ class Evaluation {
 
   numbers::Values run() {
     check_overrides();
-    for (const auto* list : {&design_.data, &design_.parameters})
-      for (const model::Design::Datum& datum : *list)
-        values_[datum.name] = value_of(design_, datum, overrides_, values_);
+    for (const model::Design::Datum* datum : in_order(design_))
+      values_[datum->name] = value_of(design_, *datum, overrides_, values_);
     for (const model::Design::Assumption& assumption : design_.assumptions)
       check_assumption(design_, assumption, values_);
     for (const model::Design::Unknown& unknown : design_.unknowns)

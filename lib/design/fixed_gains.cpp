@@ -102,9 +102,8 @@ class Fixing {
   void evaluate() {
     model::Instance& instance = result_.instance;
     numbers::Values values;
-    for (const auto* list : {&instance.design->data, &instance.design->parameters})
-      for (const model::Design::Datum& datum : *list)
-        values[datum.name] = model::value_of(*instance.design, datum, instance.overrides, values);
+    for (const model::Design::Datum* datum : in_order(*instance.design))
+      values[datum->name] = model::value_of(*instance.design, *datum, instance.overrides, values);
     instance.values = std::move(values);
   }
 

@@ -147,7 +147,7 @@ std::vector<std::string> scalars_in_use(const Design& design) {
     use(design.quotient->numerator);
     use(design.quotient->denominator);
   }
-  // Sizes and units are numbers in the programs.
+  // Sizes, units and gains that were found are numbers in the programs.
   for (const Design::Rank& rank : design.ranks) {
     use(rank.matrix);
     if (rank.tolerance) use(*rank.tolerance);
@@ -156,11 +156,11 @@ std::vector<std::string> scalars_in_use(const Design& design) {
     use(units.A);
     use(units.C);
   }
+  for (const Design::Plant& plant : design.plants) use(plant.matrix);
   for (std::size_t before = 0; before != used.size();) {
     before = used.size();
-    for (const auto* list : {&design.data, &design.parameters})
-      for (const Design::Datum& datum : *list)
-        if (datum.value && used.contains(datum.name)) use(datum.value->program);
+    for (const Design::Datum* datum : in_order(design))
+      if (datum->value && used.contains(datum->name)) use(datum->value->program);
   }
   std::vector<std::string> names;
   for (const std::string& name : model::scalar_names(design))

@@ -54,8 +54,7 @@ model::Gains stated(const model::Instance& instance) {
   for (const model::Design::Datum& parameter : instance.design->parameters)
     gains.parameters.emplace_back(parameter.name, instance.values.at(parameter.name));
   for (const model::Design::Datum& datum : instance.design->data)
-    if (datum.chosen)
-      gains.bases.emplace_back(datum.name, instance.values.at(datum.name));
+    if (datum.chosen) gains.bases.emplace_back(datum.name, instance.values.at(datum.name));
   return gains;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/truth.h"
 #include "expr/program.h"
 #include "expr/scope.h"
 
@@ -31,6 +32,21 @@ struct Condition {
     return kind == Kind::positive || kind == Kind::nonnegative || kind == Kind::zero;
   }
 };
+
+/// Of all, any or none of the parts, where `of` says what one is. It stops where that is decided, so
+/// that a part may guard a later one against having no value.
+template <class Parts, class Of>
+Truth joined(Condition::Kind kind, Parts& parts, const Of& of) {
+  if (kind == Condition::Kind::none) return opposite(of(parts.front()));
+  const Truth decides = truth_of(kind == Condition::Kind::any);
+  Truth result = opposite(decides);
+  for (auto& part : parts) {
+    const Truth one = of(part);
+    if (one == decides) return one;
+    if (one == Truth::unknown) result = one;
+  }
+  return result;
+}
 
 /// Whether an expression is a comparison or is made of them.
 bool is_condition(const Expression& expression);

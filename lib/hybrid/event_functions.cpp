@@ -88,25 +88,12 @@ EventCondition::Part EventCondition::make(const expr::Condition& condition, cons
   return part;
 }
 
-/// `any` and `all` ask their parts in order and stop where they are decided. So a part may guard a
-/// later one against having no value.
 template <class Compare>
 Truth EventCondition::truth(const Part& part, const Compare& compare) {
-  if (part.kind == ConditionKind::none) {
-    const Truth inner = truth(part.parts.front(), compare);
-    if (inner == Truth::open) return inner;
-    return inner == Truth::yes ? Truth::no : Truth::yes;
-  }
-  if (part.kind != ConditionKind::all && part.kind != ConditionKind::any)
+  if (part.kind != ConditionKind::all && part.kind != ConditionKind::any &&
+      part.kind != ConditionKind::none)
     return compare(part.comparison);
-  const Truth decides = part.kind == ConditionKind::all ? Truth::no : Truth::yes;
-  Truth result = part.kind == ConditionKind::all ? Truth::yes : Truth::no;
-  for (const Part& one : part.parts) {
-    const Truth inner = truth(one, compare);
-    if (inner == decides) return decides;
-    if (inner == Truth::open) result = Truth::open;
-  }
-  return result;
+  return expr::joined(part.kind, part.parts, [&](const Part& one) { return truth(one, compare); });
 }
 
 bool EventCondition::is_true(std::size_t comparison, const VectorXd& values) {
@@ -119,20 +106,20 @@ bool EventCondition::is_true(std::size_t comparison, const VectorXd& values) {
 
 bool EventCondition::operator()(const VectorXd& values) {
   return truth(whole_, [&](std::size_t comparison) {
-           return is_true(comparison, values) ? Truth::yes : Truth::no;
+           return truth_of(is_true(comparison, values));
          }) == Truth::yes;
 }
 
 Truth EventCondition::at_rest(const VectorXd& values) {
   return truth(whole_, [&](std::size_t comparison) {
-    if (!comparisons_[comparison].function.rests()) return Truth::open;
-    return is_true(comparison, values) ? Truth::yes : Truth::no;
+    if (!comparisons_[comparison].function.rests()) return Truth::unknown;
+    return truth_of(is_true(comparison, values));
   });
 }
 
 bool EventCondition::if_changed(const VectorXd& values, std::size_t comparison) {
   return truth(whole_, [&](std::size_t one) {
-           return is_true(one, values) != (one == comparison) ? Truth::yes : Truth::no;
+           return truth_of(is_true(one, values) != (one == comparison));
          }) == Truth::yes;
 }
 

@@ -77,8 +77,6 @@ class EventFunction {
   std::vector<int> sides_;
 };
 
-enum class Truth { no, yes, open };
-
 class EventCondition {
  public:
   struct Comparison {

@@ -61,15 +61,15 @@ numbers::ValuesOf<Decimal100> exact_values(const model::Instance& instance,
                        [&](const auto& parameter) { return parameter.first == name; });
   };
   const model::Design& design = *instance.design;
-  for (const auto* list : {&design.data, &design.parameters})
-    for (const model::Design::Datum& datum : *list) {
-      const auto used = constants.find(datum.name);
-      if (used == constants.end()) continue;
-      std::optional<Wide> wide;
-      if (!in_file(datum.name) && !instance.overrides.contains(datum.name))
-        wide = from_text(datum, used->second, values);
-      values[datum.name] = wide ? *wide : shortest_decimals(used->second);
-    }
+  for (const model::Design::Datum* one : in_order(design)) {
+    const model::Design::Datum& datum = *one;
+    const auto used = constants.find(datum.name);
+    if (used == constants.end()) continue;
+    std::optional<Wide> wide;
+    if (!in_file(datum.name) && !instance.overrides.contains(datum.name))
+      wide = from_text(datum, used->second, values);
+    values[datum.name] = wide ? *wide : shortest_decimals(used->second);
+  }
   for (const auto& [name, value] : constants)
     if (!values.contains(name)) values[name] = shortest_decimals(value);
   return values;

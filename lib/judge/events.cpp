@@ -90,26 +90,26 @@ Truth EventCheck::without_if(std::size_t event, double t, const Eigen::VectorXd&
   if (memory.clock) {
     // With an `if` it may have been spent just before.
     if (t >= memory.clock->next())
-      return t > memory.clock->next() && texts.only_if ? Truth::unsure : Truth::yes;
+      return t > memory.clock->next() && texts.only_if ? Truth::unknown : Truth::yes;
     const double early = t == horizon_ ? hybrid::kAddedUp * horizon_ : 0;
     const bool near = same_time(t, memory.clock->next()) || memory.clock->next() - t <= early;
-    return near ? Truth::unsure : Truth::no;
+    return near ? Truth::unknown : Truth::no;
   }
   if (texts.condition) {
     if ((*texts.condition)(x)) return memory.spent ? Truth::no : Truth::yes;
-    return texts.condition->truth(x, rounding) == Truth::no ? Truth::no : Truth::unsure;
+    return texts.condition->truth(x, rounding) == Truth::no ? Truth::no : Truth::unknown;
   }
   const double value = crossing(event, x);
   const int now = value > 0 ? 1 : value < 0 ? -1 : 0;
   const int certain = side_of(*texts.crossing, x, rounding);
   const EventKind kind = texts_.dynamics.events[event].kind;
   // Within its rounding it may have crossed 0, or left it, or not yet.
-  if (fires(kind, memory.side, now)) return certain == now ? Truth::yes : Truth::unsure;
+  if (fires(kind, memory.side, now)) return certain == now ? Truth::yes : Truth::unknown;
   if (memory.near_zero && leaves_zero(kind, now))
-    return memory.at_zero && certain == now ? Truth::yes : Truth::unsure;
+    return memory.at_zero && certain == now ? Truth::yes : Truth::unknown;
   // Just before zero: the run may have stopped there by rounding.
   const bool may_stop = !memory.spent && certain == 0 && fires(kind, memory.side, -memory.side);
-  return may_stop ? Truth::unsure : Truth::no;
+  return may_stop ? Truth::unknown : Truth::no;
 }
 
 Truth EventCheck::due(std::size_t event, double t, const Eigen::VectorXd& x,
@@ -118,7 +118,7 @@ Truth EventCheck::due(std::size_t event, double t, const Eigen::VectorXd& x,
   auto& only_if = texts_.events[event].only_if;
   if (occurs == Truth::no || !only_if) return occurs;
   if ((*only_if)(x)) return occurs;
-  return only_if->truth(x, rounding) == Truth::no ? Truth::no : Truth::unsure;
+  return only_if->truth(x, rounding) == Truth::no ? Truth::no : Truth::unknown;
 }
 
 void EventCheck::instant(std::size_t part, double t, const Eigen::VectorXd& x,
@@ -146,7 +146,7 @@ void EventCheck::instant(std::size_t part, double t, const Eigen::VectorXd& x,
       memory.spent = (*condition)(x) && (memory.spent || is_spent);
     if (has_crossing(e) && occurs != Truth::no)
       forget_side(e, x, rounding, false);
-    else if (has_crossing(e) && is_due != Truth::unsure)
+    else if (has_crossing(e) && is_due != Truth::unknown)
       remember_side(e, x, rounding);
     // Within its rounding it may have crossed 0 in the other direction.
     if (has_crossing(e) && memory.side * crossing(e, x) < 0) memory.near_zero = true;

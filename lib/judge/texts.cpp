@@ -37,19 +37,14 @@ Truth compare(Kind kind, const numbers::Matrix& difference, const numbers::Matri
   const auto s = spread.array();
   if (kind == Kind::zero) {
     if ((d.abs() > s).any()) return Truth::no;
-    return (s == 0).all() ? Truth::yes : Truth::unsure;
+    return (s == 0).all() ? Truth::yes : Truth::unknown;
   }
   if (kind == Kind::positive) {
     if ((d <= -s).any()) return Truth::no;
-    return (d > s).all() ? Truth::yes : Truth::unsure;
+    return (d > s).all() ? Truth::yes : Truth::unknown;
   }
   if ((d < -s).any()) return Truth::no;
-  return (d >= s).all() ? Truth::yes : Truth::unsure;
-}
-
-Truth opposite(Truth truth) {
-  if (truth == Truth::unsure) return truth;
-  return truth == Truth::yes ? Truth::no : Truth::yes;
+  return (d >= s).all() ? Truth::yes : Truth::unknown;
 }
 
 }  // namespace

@@ -37,8 +37,6 @@ class Text {
   std::vector<Eigen::Index> elements_;            ///< of x that it uses
 };
 
-enum class Truth { no, unsure, yes };
-
 /// A condition of the variables.
 class Guard {
  public:

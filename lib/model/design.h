@@ -73,6 +73,7 @@ struct Design {
     std::string declared;         ///< its shape, as written
     std::string missing;          ///< what is said when it has no value
     bool chosen = false;  ///< one of many, by orth, null or output_gain: gain files say which
+    bool first = false;   ///< a parameter that is a number: it comes before the data
   };
 
   /// A comparison of scalars that data and parameters must satisfy.

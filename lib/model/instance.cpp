@@ -9,6 +9,18 @@
 
 namespace gainsmith::model {
 
+std::vector<const Design::Datum*> in_order(const Design& design) {
+  std::vector<const Design::Datum*> order;
+  const auto add = [&](const std::vector<Design::Datum>& list, bool first) {
+    for (const Design::Datum& datum : list)
+      if (datum.first == first) order.push_back(&datum);
+  };
+  add(design.parameters, true);
+  add(design.data, false);
+  add(design.parameters, false);
+  return order;
+}
+
 numbers::Matrix value_of(const Design& design, const Design::Datum& datum,
                          const Overrides& overrides, const numbers::Values& values) {
   const auto overridden = overrides.find(datum.name);
@@ -46,13 +58,12 @@ numbers::Values values_with(const Instance& instance, const numbers::Values& bas
   });
   if (same) return instance.values;
   numbers::Values values;
-  for (const auto* list : {&instance.design->data, &instance.design->parameters})
-    for (const Design::Datum& datum : *list) {
-      const auto given = bases.find(datum.name);
-      values[datum.name] = given != bases.end()
-                               ? given->second
-                               : value_of(*instance.design, datum, instance.overrides, values);
-    }
+  for (const Design::Datum* datum : in_order(*instance.design)) {
+    const auto given = bases.find(datum->name);
+    values[datum->name] = given != bases.end()
+                              ? given->second
+                              : value_of(*instance.design, *datum, instance.overrides, values);
+  }
   return values;
 }
 

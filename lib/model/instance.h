@@ -28,7 +28,11 @@ struct Instance {
   numbers::Values values;  ///< of data and parameters
 };
 
-/// The value of a datum or parameter from those declared before it. InputError where it has none,
+/// Data and parameters in the order in which they have values: parameters that are numbers, data,
+/// other parameters.
+std::vector<const Design::Datum*> in_order(const Design& design);
+
+/// The value of a datum or parameter from those before it. InputError where it has none,
 /// its range has no ends in order, or it has not the structure that it must have.
 numbers::Matrix value_of(const Design& design, const Design::Datum& datum,
                          const Overrides& overrides, const numbers::Values& values);

@@ -28,20 +28,11 @@ Truth of_comparison(const WatchedCondition& condition, const std::vector<Watch>&
 
 Truth truth(const WatchedCondition& condition, const std::vector<Watch>& watches,
             const Sides& sides, Zeros zeros) {
-  if (condition.kind == Is::none) {
-    const Truth inner = truth(condition.parts.front(), watches, sides, zeros);
-    return inner == Truth::unknown ? inner : inner == Truth::yes ? Truth::no : Truth::yes;
-  }
-  if (condition.kind != Is::all && condition.kind != Is::any)
+  if (condition.kind != Is::all && condition.kind != Is::any && condition.kind != Is::none)
     return of_comparison(condition, watches, sides, zeros);
-  const Truth decides = condition.kind == Is::all ? Truth::no : Truth::yes;
-  Truth result = condition.kind == Is::all ? Truth::yes : Truth::no;
-  for (const WatchedCondition& part : condition.parts) {
-    const Truth inner = truth(part, watches, sides, zeros);
-    if (inner == decides) return decides;
-    if (inner == Truth::unknown) result = Truth::unknown;
-  }
-  return result;
+  return expr::joined(condition.kind, condition.parts, [&](const WatchedCondition& part) {
+    return truth(part, watches, sides, zeros);
+  });
 }
 
 void mark(const WatchedCondition& condition, std::vector<char>& marked) {

@@ -8,8 +8,6 @@
 
 namespace gainsmith::packs {
 
-enum class Truth : std::int8_t { no, unknown, yes };
-
 /// By watch: -1, 0 or 1. 0: not known, of what moves; of what does not, exactly 0.
 using Sides = std::vector<std::int8_t>;
 

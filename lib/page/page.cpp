@@ -6,7 +6,6 @@
 
 #include "base/number.h"
 #include "base/version.h"
-#include "page/coarse.h"
 #include "page/element.h"
 #include "page/style.h"
 #include "report/text.h"
@@ -106,14 +105,8 @@ void leave_out_pictures(std::vector<Results>& all, std::size_t excess) {
 
 std::string page(const std::vector<Results>& results, const std::string& title) {
   std::string text = whole(results, title);
-  if (results.size() == 1) return text;
+  if (results.size() == 1 || text.size() <= page_size) return text;
   std::vector<Results> lighter = results;
-  for (const double tolerance : {0.25, 0.5, 1.0}) {  // pixels
-    if (text.size() <= page_size) return text;
-    for (Results& one : lighter) one.picture = coarse(one.picture, tolerance);
-    text = whole(lighter, title);
-  }
-  if (text.size() <= page_size) return text;
   leave_out_pictures(lighter, text.size() - page_size);
   return whole(lighter, title);
 }

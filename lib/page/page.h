@@ -12,8 +12,8 @@ namespace gainsmith::page {
 /// give the same bytes. Well-formed XML, whatever the texts hold.
 std::string page(const std::vector<Results>& results, const std::string& title);
 
-/// How many bytes a page should have at most: pictures of many problems are made coarser for it
-/// (coarse.h).
+/// How many bytes a page should have at most: the largest pictures of many problems are left out
+/// for it.
 constexpr std::size_t page_size = 3'000'000;
 
 }  // namespace gainsmith::page

@@ -43,7 +43,7 @@ std::vector<Ends> ends_of(const Band& band, const Axis& time, const Axis& values
 }
 
 /// With no more points than the picture shows.
-Polyline spare(const Polyline& line) { return straightened(thinned({line}).front()); }
+Polyline spare(const Polyline& line) { return coarser(thinned({line}).front()); }
 
 }  // namespace
 

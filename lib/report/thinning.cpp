@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <set>
 #include <span>
 #include <utility>
@@ -85,23 +84,6 @@ void append_column(std::span<const Vertex> points, std::vector<Polyline>& lines)
   append_extremes({last, points.end()}, lines);
 }
 
-/// The slopes of the lines from one point that pass those behind it within a tenth.
-struct Cone {
-  bool upright = false;
-  double low = -std::numeric_limits<double>::infinity();
-  double high = std::numeric_limits<double>::infinity();
-
-  /// Does the line to a point that is dx, dy away pass all before it? If so, it is one of them.
-  bool takes(int dx, int dy) {
-    if (dx == 0) return upright = true;
-    const double slope = static_cast<double>(dy) / dx;
-    if (upright || slope < low || slope > high) return false;
-    low = std::max(low, static_cast<double>(dy - 1) / dx);
-    high = std::min(high, static_cast<double>(dy + 1) / dx);
-    return true;
-  }
-};
-
 /// Without those within a distance of the one before, in tenths; the last stays.
 Polyline spaced(const Polyline& line, double distance) {
   Polyline kept = {line.front()};
@@ -173,8 +155,6 @@ std::vector<Polyline> new_ways(const Polyline& line, int cell) {
 
 constexpr double kFine = 1;  // tenths of a pixel
 
-int sign(int number) { return (number > 0) - (number < 0); }
-
 }  // namespace
 
 std::vector<Polyline> thinned(const std::vector<Polyline>& lines) {
@@ -192,31 +172,8 @@ std::vector<Polyline> thinned(const std::vector<Polyline>& lines) {
   return kept;
 }
 
-Polyline straightened(const Polyline& line) {
-  if (line.empty()) return {};
-  Polyline kept = {line.front()};
-  Point previous = line.front();
-  Cone cone;
-  int direction = 0;
-  for (const Point& point : line) {
-    if (point == previous) continue;
-    const int turn = sign(point.y - previous.y);
-    const bool begins = previous == kept.back();
-    if (begins || turn * direction < 0 ||
-        !cone.takes(point.x - kept.back().x, point.y - kept.back().y)) {
-      if (!begins) kept.push_back(previous);
-      cone = {};
-      cone.takes(point.x - kept.back().x, point.y - kept.back().y);
-      direction = 0;
-    }
-    if (turn != 0) direction = turn;
-    previous = point;
-  }
-  if (previous != kept.back()) kept.push_back(previous);
-  return kept;
-}
-
 Polyline coarser(const Polyline& line, double tolerance) {
+  if (line.empty()) return {};
   constexpr std::size_t piece = 1000;  // the time grows with its square
   std::vector<char> kept(line.size(), 0);
   kept.front() = 1;
@@ -228,6 +185,7 @@ Polyline coarser(const Polyline& line, double tolerance) {
   Polyline left;
   for (std::size_t k = 0; k < line.size(); ++k)
     if (kept[k] != 0) left.push_back(line[k]);
+  if (left.size() == 2 && left.front() == left.back()) left.pop_back();
   return left;
 }
 

@@ -21,13 +21,12 @@ using Polyline = std::vector<Point>;
 /// those within two pixels of each other one. At most 16 points stay of a column, 4 of one line.
 std::vector<Polyline> thinned(const std::vector<Polyline>& lines);
 
-/// The line without the points that its others show to within a tenth of a pixel upwards or
-/// downwards. Its ends and all local extremes stay.
-Polyline straightened(const Polyline& line);
+/// What a picture may be off, in tenths of a pixel.
+constexpr double kShown = 2;
 
 /// The line with as few of its points as show it to within `tolerance` tenths of a pixel (Douglas and
-/// Peucker 1973), in pieces of 1,000.
-Polyline coarser(const Polyline& line, double tolerance);
+/// Peucker 1973), in pieces of 1,000. Its ends stay.
+Polyline coarser(const Polyline& line, double tolerance = kShown);
 
 /// Of a line in any direction the points without which the others would not show it to within 0.3
 /// pixels, its ends always: those nearer than 0.2 pixels to the one before are left out first, then

@@ -74,7 +74,7 @@ void add(const Polyline& line, Trace& trace) {
 Trace trace(const Curve& curve, const Axis& time, const Axis& values, const Box& box) {
   Parts parts = parts_of(curve, time, values, box);
   Trace drawn;
-  for (const Polyline& part : thinned(parts.lines)) add(straightened(part), drawn);
+  for (const Polyline& part : thinned(parts.lines)) add(coarser(part), drawn);
   drawn.jumps = curve.jumps.size() > single_jumps ? joined(parts.jumps) : std::move(parts.jumps);
   return drawn;
 }

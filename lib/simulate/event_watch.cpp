@@ -82,7 +82,7 @@ EventWatch::EventWatch(const hybrid::System& system) : system_(&system) {
 
 void EventWatch::comparisons_of(const Role& role, const VectorXd& values, const Visit& visit) {
   hybrid::EventCondition& condition = *role.condition;
-  if (condition.at_rest(values) != hybrid::Truth::open) return;
+  if (condition.at_rest(values) != Truth::unknown) return;
   using Kind = expr::Condition::Kind;
   for (std::size_t k = 0; k < condition.comparisons().size(); ++k) {
     hybrid::EventCondition::Comparison& one = condition.comparisons()[k];

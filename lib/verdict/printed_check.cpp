@@ -82,19 +82,19 @@ template <class S>
 EnclosedValues<S> enclosed_values(const model::Instance& instance) {
   EnclosedValues<S> values;
   const model::Design& design = *instance.design;
-  for (const auto* list : {&design.data, &design.parameters})
-    for (const model::Design::Datum& datum : *list) {
-      const auto overridden = instance.overrides.find(datum.name);
-      if (overridden != instance.overrides.end()) {
-        values[datum.name] = enclosed_decimal<S>(overridden->second);
-        continue;
-      }
-      if (!datum.value) continue;
-      const Enclosed<S> value = numbers::enclose(datum.value->program, values);
-      const bool symmetric = datum.structure == model::Structure::symmetric ||
-                             datum.structure == model::Structure::diagonal;
-      values[datum.name] = symmetric ? numbers::symmetric_part(value) : value;
+  for (const model::Design::Datum* one : in_order(design)) {
+    const model::Design::Datum& datum = *one;
+    const auto overridden = instance.overrides.find(datum.name);
+    if (overridden != instance.overrides.end()) {
+      values[datum.name] = enclosed_decimal<S>(overridden->second);
+      continue;
     }
+    if (!datum.value) continue;
+    const Enclosed<S> value = numbers::enclose(datum.value->program, values);
+    const bool symmetric = datum.structure == model::Structure::symmetric ||
+                           datum.structure == model::Structure::diagonal;
+    values[datum.name] = symmetric ? numbers::symmetric_part(value) : value;
+  }
   return values;
 }
 

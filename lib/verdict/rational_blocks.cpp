@@ -134,23 +134,23 @@ Rational printed_fraction(double value) {
 RationalValues rational_values(const model::Instance& instance) {
   RationalValues values;
   const model::Design& design = *instance.design;
-  for (const auto* list : {&design.data, &design.parameters})
-    for (const model::Design::Datum& datum : *list) {
-      const auto overridden = instance.overrides.find(datum.name);
-      if (overridden != instance.overrides.end()) {
-        values[datum.name] = RationalMatrix::Constant(1, 1, printed_fraction(overridden->second));
-        continue;
-      }
-      if (!datum.value) continue;
-      try {
-        const RationalMatrix value = numbers::rational_value(datum.value->program, values);
-        const bool symmetric = datum.structure == model::Structure::symmetric ||
-                               datum.structure == model::Structure::diagonal;
-        values[datum.name] = symmetric ? numbers::rational_symmetric_part(value) : value;
-      } catch (const expr::EvaluationError&) {
-        continue;
-      }
+  for (const model::Design::Datum* one : in_order(design)) {
+    const model::Design::Datum& datum = *one;
+    const auto overridden = instance.overrides.find(datum.name);
+    if (overridden != instance.overrides.end()) {
+      values[datum.name] = RationalMatrix::Constant(1, 1, printed_fraction(overridden->second));
+      continue;
     }
+    if (!datum.value) continue;
+    try {
+      const RationalMatrix value = numbers::rational_value(datum.value->program, values);
+      const bool symmetric = datum.structure == model::Structure::symmetric ||
+                             datum.structure == model::Structure::diagonal;
+      values[datum.name] = symmetric ? numbers::rational_symmetric_part(value) : value;
+    } catch (const expr::EvaluationError&) {
+      continue;
+    }
+  }
   return values;
 }
 

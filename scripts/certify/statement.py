@@ -245,10 +245,10 @@ class Statement:
             if found is not None: return found
         return refuse("a matrix from a file")
     def declare_data(self):
-        for name, declared in declarations(self.method, "data").items():
-            self.declare(name, self.datum, declared)
         for name, declared in declarations(self.method, "parameters", "default").items():
             self.later(name, lambda n=name, d=declared: self.value(self.parameter(n, d)))
+        for name, declared in declarations(self.method, "data").items():
+            self.declare(name, self.datum, declared)
     def parameter(self, name, declared):
         given = self.given_value(name)
         return declared.get("default") if given is None else given
@@ -272,14 +272,14 @@ class Statement:
             pass
         return result
     def basis(self, name, x, shape):
-        """The basis of the file, if it is the one of the text up to the rounding of doubles."""
+        """The basis of the file, if it is the one of the text up to rounding; of gains any."""
         result = matrix_of_json(self.gain["bases"][name], name)
         self.unify(shape, result)
+        if re.match("..call., ..name., .(discrete_)?output_gain", str(parse(str(x)))): return result
         words, lets = [str(x)], {**section(self.method, "let"), **section(self.problem, "let")}
         for text in words:          # and those of the definitions that it uses
             used = set(re.findall(r"\w+", text))
             words += [str(lets.pop(head)) for head in list(lets) if head.split("(")[0] in used]
-        if re.search(r"\b(discrete_)?output_gain\b", str(words)): return result  # any gain will do
         if not re.search(r"\b(orth|null)\b", str(words)): refuse("a basis without orth or null")
         scale = max(map(abs, flat(result)), default=0)
         if all(upper(y) <= scale / 10 ** 13 for y in flat(self.value(x, result.shape()) - result)):

@@ -107,9 +107,10 @@ TEST(Evaluation, UnitsFollowTheirArguments) {
 }
 
 TEST(Evaluation, GainsOfOutputsFollowTheirPlant) {
-  const Small small(kSmallProblem, changed(kMethod, "  M: {",
-                                           "  F0: {shape: scalar, default: \"output_gain([0, T1; 1, "
-                                           "0], [0; 1], [1, 1])\"}\n  M: {"));
+  const Small small(kSmallProblem,
+                    changed(kMethod, "  M: {",
+                            "  F0: {shape: scalar, default: \"output_gain([0, T1; 1, "
+                            "0], [0; 1], [1, 1])\"}\n  M: {"));
   const auto is_stable = [](const model::Instance& instance, double T1) {
     const double F = instance.values.at("F0")(0, 0);  // s^2 - F s - T1 (1 + F)
     return F < 0 && T1 * (1 + F) < 0;
@@ -118,6 +119,19 @@ TEST(Evaluation, GainsOfOutputsFollowTheirPlant) {
   const model::Instance other = evaluate(small.instance.design, {{"T1", 4.25}});
   EXPECT_TRUE(is_stable(other, 4.25));
   EXPECT_EQ(other.values, bind(small.problem, {{"T1", 4.25}}).values);
+}
+
+/// Data may read parameters that are numbers, and parameters data.
+TEST(Evaluation, NumbersAmongTheParametersComeBeforeTheData) {
+  const Small small(
+      kSmallProblem,
+      changed(changed(kMethod, "  M: {", "  S: {shape: scalar, default: 2*first}\n  M: {"),
+              "parameters: {", "parameters: {last: S + 1, first: 3, "));
+  EXPECT_EQ(small.instance.values.at("S")(0, 0), 6);
+  EXPECT_EQ(small.instance.values.at("last")(0, 0), 7);
+  EXPECT_EQ(small.instance.design->parameters.front().name, "last");
+  const model::Instance other = evaluate(small.instance.design, {{"first", 5}});
+  EXPECT_EQ(other.values.at("last")(0, 0), 11);
 }
 
 /// The programs of another rank may fail where those of this one do not.

@@ -350,7 +350,10 @@ class No(unittest.TestCase):
         text = ("problem: p\nmethod:\n  data: {A: scalar}\n  unknowns: {x: scalar}\n"
                 "  let: {f: \"%s\"}\n  require: {c: A + 0*x > 1}\ndata: {A: \"%s\"}\n")
         for let, datum, expected in (("1", "1", "open"), ("orth(1)", "1", "open"),
-                                     ("1", "orth(1)", "proved"), ("orth(1)", "f*1", "proved")):
+                                     ("1", "orth(1)", "proved"), ("orth(1)", "f*1", "proved"),
+                                     ("1", "output_gain(1, 1, 1)", "proved"),
+                                     ("1", "1 + 0*output_gain(1, 1, 1)", "open"),
+                                     ("output_gain(1, 1, 1)", "f", "open")):
             found = problem(text % (let, datum), {"x": "0"})
             found["bases"] = {"A": helper.Numeral("1.00000000000005")}
             self.assertEqual(results(found), {"c": expected}, (let, datum))

@@ -42,11 +42,44 @@ TEST(SearchTest, ANoAtAHeldScalarIsNoNoOfTheProblem) {
       << explained.out;
   EXPECT_EQ(gainsmith({"explain", file, "--json"}).json()["held"]["b"], 100);
   EXPECT_EQ(gainsmith({"explain", file, "--set", "b=1e-6"}).exit, 1);
-  const Outcome bisected = gainsmith({"bisect", file, "--largest", "alpha", "--in", "1.91", "1.95"});
+  const Outcome bisected =
+      gainsmith({"bisect", file, "--largest", "alpha", "--in", "1.91", "1.95"});
   EXPECT_EQ(bisected.exit, 3);
   EXPECT_NE(bisected.out.find("values tried in [1.91, 1.95] at b = 100; each is infeasible"),
             std::string::npos)
       << bisected.out;
+}
+
+/// The same two masses with outputs and inputs in other units, near the largest decay rate.
+TEST(SearchTest, OutputFeedbackHasItsAnswerInAllUnits) {
+  const Folder folder;
+  for (const auto& [input, output] : {std::pair("1", "1"), std::pair("1", "1e6"),
+                                      std::pair("1e-6", "1"), std::pair("1e4", "1e-9")}) {
+    const std::string file = folder.file(
+        "masses.yaml",
+        "problem: masses\nmethod: static-output-feedback\ndata:\n  A: [[0, 0, 1, 0], [0, 0, 0, 1], "
+        "[-200, 100, 0, 0], [100, -200, 0, 0]]\n  B: [[0], [0], [" +
+            std::string(input) + "], [0]]\n  C: [0, 0, " + output +
+            ", 0]\nparameters: {alpha: 1.95}\n");
+    const std::string gains = folder.path("gains.json");
+    EXPECT_EQ(gainsmith({"synth", file, "-o", gains}).exit, 0) << input << ", " << output;
+    EXPECT_EQ(gainsmith({"certify", gains}).exit, 0) << input << ", " << output;
+  }
+}
+
+/// Beyond what the regulator alone reaches: the gain to begin with knows the decay rate.
+TEST(SearchTest, OutputFeedbackComesNearItsLimit) {
+  const Folder folder;
+  const std::string file =
+      folder.file("p.yaml",
+                  "problem: p\nmethod: discrete-static-output-feedback\ndata:\n"
+                  "  A: \"[-0.18, 0.15, -0.95, 1.14; 0.07, -0.85, -1.2, -0.2; -0.06, -0.5, 0.06, "
+                  "-0.45; 0.39, -0.51, -0.03, 0.69]\"\n"
+                  "  B: [[2.57], [-1.01], [-0.46], [-0.84]]\n  C: [[0.78, -1.15, -0.48, -0.03], "
+                  "[-0.98, -0.96, -0.48, -2.1]]\n"
+                  "parameters: {rho: 0.7}\n");
+  EXPECT_EQ(gainsmith({"synth", file}).exit, 0);
+  EXPECT_EQ(gainsmith({"synth", file, "--set", "rho=0.3"}).exit, 1);
 }
 
 TEST(SearchTest, WhatIsNecessaryIsCheckedLikeWhatIsRequired) {

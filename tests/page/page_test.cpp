@@ -123,24 +123,7 @@ TEST(Page, ANameOfSeveralWordsIsText) {
   EXPECT_NE(page({results}, "t").find(">largest factor</span>"), std::string::npos);
 }
 
-Results with_picture(std::size_t points) {
-  Results results = some_results();
-  results.name = "p";
-  results.picture = "<svg><path d=\"M0,0l";
-  for (std::size_t k = 0; k < points; ++k) results.picture += k % 2 == 0 ? "0.1,0.1 " : "0.1-0.1 ";
-  results.picture += "\"/></svg>\n";
-  results.picture_title = "Run 0";
-  return results;
-}
-
-TEST(Page, ManyPicturesAreMadeCoarser) {
-  const std::vector<Results> many(20, with_picture(30000));
-  const std::string text = page(many, "t");
-  EXPECT_LE(text.size(), page_size);
-  EXPECT_TRUE(has(elements(text), "svg"));
-}
-
-TEST(Page, PicturesThatCannotBeMadeSmallerAreLeftOut) {
+TEST(Page, TheLargestPicturesAreLeftOut) {
   Results huge = some_results();
   huge.name = "p";
   huge.picture = "<svg><text>" + std::string(page_size / 2, 'x') + "</text></svg>\n";

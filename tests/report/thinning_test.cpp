@@ -129,7 +129,7 @@ double distance(const Polyline& line, const Point& point) {
   return nearest;
 }
 
-TEST(Straightened, StaysWithinATenthAndKeepsLocalExtremes) {
+TEST(Coarser, StaysWithinItsTolerance) {
   RandomStream draw(3, 0);
   for (int k = 0; k < 200; ++k) {
     Polyline line;
@@ -141,45 +141,42 @@ TEST(Straightened, StaysWithinATenthAndKeepsLocalExtremes) {
       line.push_back({static_cast<int>(x), static_cast<int>(std::lround(y))});
       x += step;
     }
-    const Polyline kept = straightened(line);
+    const Polyline kept = coarser(line);
     ASSERT_TRUE(is_part_of(kept, line));
     ASSERT_EQ(kept.front(), line.front());
     ASSERT_EQ(kept.back(), line.back());
-    for (const Point& point : line) ASSERT_LE(distance(kept, point), 1 + 1e-9);
-    for (std::size_t i = 1; i + 1 < line.size(); ++i) {
-      const bool is_extreme = (line[i].y > line[i - 1].y && line[i].y > line[i + 1].y) ||
-                              (line[i].y < line[i - 1].y && line[i].y < line[i + 1].y);
-      ASSERT_TRUE(!is_extreme || std::find(kept.begin(), kept.end(), line[i]) != kept.end());
-    }
+    // Along steep lines more upwards than across.
+    const double steep = std::hypot(1, 1.5 * size / pitch + noise);
+    for (const Point& point : line) ASSERT_LE(distance(kept, point), kShown * steep + 1e-9);
   }
 }
 
-TEST(Straightened, StraightLinesAreTheirEnds) {
+TEST(Coarser, LeavesTheEndsOfStraightLines) {
   RandomStream draw(4, 0);
   for (int k = 0; k < 500; ++k) {
     const double slope = std::tan(3 * (draw.uniform() - 0.5));
     Polyline line;
     for (int x = 0; x <= 2000; x += 1 + static_cast<int>(20 * draw.uniform()))
       line.push_back({x, static_cast<int>(std::lround(slope * x))});
-    ASSERT_LE(straightened(line).size(), 3) << slope;
+    ASSERT_LE(coarser(line).size(), 3) << slope;
   }
 }
 
-TEST(Straightened, UprightLinesKeepTheirTurns) {
-  EXPECT_EQ(straightened({{5, 0}, {5, 3}, {5, 9}, {5, 4}, {5, 20}, {50, 20}}),
-            (Polyline{{5, 0}, {5, 9}, {5, 4}, {5, 20}, {50, 20}}));
+TEST(Coarser, UprightLinesKeepTheirEnds) {
+  EXPECT_EQ(coarser({{5, 0}, {5, 3}, {5, 9}, {5, 4}, {5, 20}, {50, 20}}),
+            (Polyline{{5, 0}, {5, 20}, {50, 20}}));
 }
 
-TEST(Straightened, OnePointStaysOne) {
-  EXPECT_EQ(straightened({{3, 4}, {3, 4}, {3, 4}}), (Polyline{{3, 4}}));
-  EXPECT_TRUE(straightened({}).empty());
+TEST(Coarser, OnePointStaysOne) {
+  EXPECT_EQ(coarser({{3, 4}, {3, 4}, {3, 4}}), (Polyline{{3, 4}}));
+  EXPECT_TRUE(coarser({}).empty());
 }
 
-TEST(Straightened, SmoothCurvesNeedFewPoints) {
+TEST(Coarser, SmoothCurvesNeedFewPoints) {
   Polyline line;
   for (int x = 0; x < 8000; ++x)
     line.push_back({x, static_cast<int>(std::lround(1000 * std::sin(x / 400.0)))});
-  EXPECT_LT(straightened(line).size(), 250);
+  EXPECT_LT(coarser(line).size(), 250);
 }
 
 double distance(const Point& point, const Point& from, const Point& to) {
