@@ -22,6 +22,7 @@
 #include "gainsmith/picture_file.h"
 #include "gainsmith/range_option.h"
 #include "gainsmith/search_figure.h"
+#include "gainsmith/search_wanted.h"
 #include "gainsmith/summary.h"
 #include "gainsmith/terminal.h"
 #include "gainsmith/units.h"
@@ -93,6 +94,11 @@ void add_range(const BisectOptions& options, model::Problem& problem) {
     if (setting.name == name)
       throw InputError({"--set " + name}, "a scalar that is bisected has no value of its own");
   problem.questions.ranges = {range_of(options, problem, name)};
+  model::Search stated;
+  stated.extreme = problem.questions.ranges.front();
+  stated.largest = named ? options.smallest.empty() : search->largest;
+  if (search) stated.over = search->over;
+  if (named) state_search(stated, problem);
 }
 
 /// What the command line asks for, or else the problem.

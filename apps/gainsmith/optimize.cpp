@@ -72,6 +72,8 @@ void add_search(const OptimizeOptions& options, model::Problem& problem) {
   if (options.tolerance) search.tolerance = options.tolerance;
   if (options.evaluations) search.evaluations = *options.evaluations;
   problem.search = search;
+  if (!options.over.empty() || !options.largest.empty() || !options.smallest.empty())
+    state_search(search, problem);
 }
 
 io::Json values_json(const search::KnownValues& known) {

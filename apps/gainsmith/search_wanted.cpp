@@ -4,6 +4,7 @@
 
 #include "base/stop.h"
 #include "bind/instance.h"
+#include "model/names.h"
 #include "verify/run_measure.h"
 
 namespace gainsmith::app {
@@ -42,6 +43,21 @@ design::SearchRequest wanted_search(const model::Instance& instance) {
     return verify::mean_figure(at, gains, *at.design->search->run_figure, runs);
   };
   return request;
+}
+
+void state_search(const model::Search& search, model::Problem& problem) {
+  const auto range = [](const model::ScalarRange& one) {
+    return fmt::format("{}: [{}, {}]", one.name, one.low.text->str(), one.high.text->str());
+  };
+  std::string parts;
+  if (search.extreme)
+    parts =
+        fmt::format("{}: {{{}}}", search.largest ? "largest" : "smallest", range(*search.extreme));
+  std::string over;
+  for (const model::ScalarRange& one : search.over) over += (over.empty() ? "" : ", ") + range(one);
+  if (!over.empty()) parts += (parts.empty() ? "over: {" : ", over: {") + over + "}";
+  std::erase_if(problem.settings, [](const auto& one) { return one.name == model::kSearch; });
+  problem.settings.push_back({model::kSearch, "{" + parts + "}"});
 }
 
 void find_error(const model::Instance& instance, model::Gains& gains) {

@@ -8,6 +8,7 @@
 #include "base/nearest.h"
 #include "expr/parser.h"
 #include "io/keys.h"
+#include "io/search_yaml.h"
 #include "io/synthesis_yaml.h"
 #include "io/yaml.h"
 #include "model/names.h"
@@ -61,6 +62,9 @@ class Setter {
       };
       if (has(problem_.let, is_value) || (in_method && has(method.let, is_value))) refuse_index();
       define(problem_.let);
+    } else if (name_ == model::kSearch) {
+      const YamlFile file(setting_.value, option_, &sources_);
+      problem_.search = search_from(file, {name_, {}, {option_, 1, 1}, file.root()}, method);
     } else if (const auto choice = choices().find(name_); choice != choices().end()) {
       refuse_index();
       choose(choice->second);

@@ -20,6 +20,9 @@ bool is_numbered(const std::string& name, const std::string& owner);
 /// the method, unless one has this name.
 inline constexpr const char* kGainBound = "gain_bound";
 
+/// The name of a setting that gives the ranges of a search: those of the command line.
+inline constexpr const char* kSearch = "search";
+
 /// InputError at `place` when `name` is none of the method's scalars and not kGainBound, with the
 /// nearest that is. `shapes`: of all data, as they are declared.
 void check_scalar_name(const std::string& method, const std::vector<std::string>& scalars,

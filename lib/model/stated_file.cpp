@@ -1,5 +1,7 @@
 #include "model/stated_file.h"
 
+#include "model/names.h"
+
 namespace gainsmith::model {
 
 std::string quoted(const std::string& word) {
@@ -15,7 +17,7 @@ std::string quoted(const std::string& word) {
 std::string problem_words(const std::string& file, const std::vector<Setting>& settings) {
   std::string text = quoted(file);
   for (const Setting& setting : settings)
-    text += " --set " + quoted(setting.name + "=" + setting.value);
+    if (setting.name != kSearch) text += " --set " + quoted(setting.name + "=" + setting.value);
   return text;
 }
 

@@ -190,7 +190,8 @@ class Statement:
         found = {name: p["search"] for name, p in
                  declarations(self.method, "parameters", "default").items() if "search" in p}
         for name in (*self.given, *self.settings): found.pop(name, None)
-        for value in section(self.problem, "search").values():
+        asked = yaml.load(self.settings.get("search", ""), Loader=TextLoader)
+        for value in section({"search": asked} if asked else self.problem, "search").values():
             if isinstance(value, dict): found.update(value)
         return found
     def check_searched(self):
@@ -200,7 +201,6 @@ class Statement:
             low, high = [middle(y) for y in flat(self.value(self.ranges[name]))]
             x, off = decimal(x), max(abs(low), abs(high)) / 10 ** 9
             expect(low - off <= x <= high + off, "a value in the range of " + name)
-    # Definitions and data.
     def later(self, name, compute): self.scope.names[name] = Later(compute)
     def declare(self, name, compute, declared):
         """The name gets its value now; if there is none, its use is refused."""
@@ -226,8 +226,8 @@ class Statement:
         if self.searched and name in self.searched: return str(self.searched[name])
         if name in self.settings:
             text = self.settings[name].strip()
-            is_list = text[:1] in "[{" and ";" not in text
-            return yaml.load(text, Loader=TextLoader) if is_list else text
+            if text[:1] not in "[{" or ";" in text: return text
+            return yaml.load(text, Loader=TextLoader)
         return self.given.get(name)
     def value(self, x, shape=(None, None), scope=None):
         """The matrix that a YAML value is: a text, a flat list, a list of rows, a file."""

@@ -160,6 +160,27 @@ method:
 data: {k: 0.9}
 )";
 
+/// Ranges of the command line are a part of the statement.
+TEST(BisectTest, WhatTheCommandLineSearchesIsCertified) {
+  const Folder folder;
+  const std::string problem = tests::problem("designs/static-output-feedback.yaml");
+  const std::string gains = folder.path("gains.json");
+  ASSERT_EQ(
+      gainsmith({"bisect", problem, "--largest", "alpha", "--in", "1.5", "2.5", "-o", gains}).exit,
+      0);
+  EXPECT_EQ(nlohmann::json::parse(text_of(gains))["statement"]["set"]["search"],
+            "{largest: {alpha: [1.5, 2.5]}}");
+  const Outcome certified = gainsmith({"certify", gains});
+  EXPECT_EQ(certified.exit, 0) << certified.out << certified.err;
+  EXPECT_NE(certified.out.find("no solution at alpha"), std::string::npos) << certified.out;
+  EXPECT_EQ(gainsmith({"verify", gains}).exit, 0);
+  ASSERT_EQ(gainsmith({"optimize", problem, "--over", "b=1:1000", "-o", gains}).exit, 0);
+  EXPECT_EQ(gainsmith({"certify", gains}).exit, 0);
+  const Outcome other = gainsmith({"synth", problem, "--set", "search={largest: {alfa: [1, 2]}}"});
+  EXPECT_EQ(other.exit, 2);
+  EXPECT_NE(other.err.find("--set search:1:12"), std::string::npos) << other.err;
+}
+
 TEST(BisectTest, NothingFeasibleAmongTheValuesTriedIsNoProof) {
   const Folder folder;
   const std::string file = folder.file("window.yaml", kWindow + "search: {largest: {k: [0, 1]}}\n");
