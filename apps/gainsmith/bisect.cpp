@@ -94,11 +94,11 @@ void add_range(const BisectOptions& options, model::Problem& problem) {
     if (setting.name == name)
       throw InputError({"--set " + name}, "a scalar that is bisected has no value of its own");
   problem.questions.ranges = {range_of(options, problem, name)};
-  model::Search stated;
+  if (!named) return;
+  model::Search stated = search.value_or(model::Search{});
   stated.extreme = problem.questions.ranges.front();
-  stated.largest = named ? options.smallest.empty() : search->largest;
-  if (search) stated.over = search->over;
-  if (named) state_search(stated, problem);
+  stated.largest = options.smallest.empty();
+  state_search(stated, problem);
 }
 
 /// What the command line asks for, or else the problem.

@@ -46,8 +46,13 @@ design::SearchRequest wanted_search(const model::Instance& instance) {
 }
 
 void state_search(const model::Search& search, model::Problem& problem) {
-  const auto range = [](const model::ScalarRange& one) {
-    return fmt::format("{}: [{}, {}]", one.name, one.low.text->str(), one.high.text->str());
+  const auto end = [](const expr::Expression& one) {
+    const std::string& text = one.text->str();
+    const bool is_plain = text.find_first_of(",[]{}#:'") == std::string::npos;
+    return is_plain ? text : '"' + text + '"';
+  };
+  const auto range = [&](const model::ScalarRange& one) {
+    return fmt::format("{}: [{}, {}]", one.name, end(one.low), end(one.high));
   };
   std::string parts;
   if (search.extreme)

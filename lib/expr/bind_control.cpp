@@ -98,12 +98,18 @@ Bound Binder::rank(const Expression& expression, const Node& node) {
   return {number(expression, node, std::to_string(known_rank(expression, node, at)))};
 }
 
+/// The argument C of a function of a plant: as many columns as A has rows.
+int Binder::output_matrix(const Expression& expression, const Node& argument, int a) {
+  const int c = sized(expression, argument, bind(expression, argument));
+  if (shape(c).cols != shape(a).rows)
+    materialise(expression, argument, {c}, {shape(c).rows, shape(a).rows});
+  return c;
+}
+
 Bound Binder::units(const Expression& expression, const Node& node) {
   const int a = square_argument(expression, node, node.text);
   const Node& outputs = *node.children[1];
-  const int c = sized(expression, outputs, bind(expression, outputs));
-  if (shape(c).cols != shape(a).rows)
-    materialise(expression, outputs, {c}, {shape(c).rows, shape(a).rows});
+  const int c = output_matrix(expression, outputs, a);
   const std::string why = "the arguments of " + node.text;
   const Program A = known_program(expression, *node.children[0], a, why);
   const Program C = known_program(expression, outputs, c, why);
@@ -252,9 +258,7 @@ Bound Binder::output_gain(const Expression& expression, const Node& node, bool d
   const int a = square_argument(expression, node, node.text);
   const int b = input_matrix(expression, node, a);
   const Node& outputs = *node.children[2];
-  const int c = sized(expression, outputs, bind(expression, outputs));
-  if (shape(c).cols != shape(a).rows)
-    materialise(expression, outputs, {c}, {shape(c).rows, shape(a).rows});
+  const int c = output_matrix(expression, outputs, a);
   const std::string why = "the arguments of " + node.text;
   const Program A = known_program(expression, *node.children[0], a, why);
   const Program B = known_program(expression, *node.children[1], b, why);

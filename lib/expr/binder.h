@@ -195,6 +195,7 @@ class Binder {
   Bound extreme_eigenvalue(const Expression& expression, const Node& node, bool largest);
   Bound observability(const Expression& expression, const Node& node);
   Bound controllability(const Expression& expression, const Node& node);
+  int output_matrix(const Expression& expression, const Node& argument, int a);
   int input_matrix(const Expression& expression, const Node& node, int a);
   Bound sampled(const Expression& expression, const Node& node);
   Bound lyapunov(const Expression& expression, const Node& node, bool discrete);

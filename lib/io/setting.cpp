@@ -63,6 +63,8 @@ class Setter {
       if (has(problem_.let, is_value) || (in_method && has(method.let, is_value))) refuse_index();
       define(problem_.let);
     } else if (name_ == model::kSearch) {
+      refuse_index();
+      refuse_empty();
       const YamlFile file(setting_.value, option_, &sources_);
       problem_.search = search_from(file, {name_, {}, {option_, 1, 1}, file.root()}, method);
     } else if (const auto choice = choices().find(name_); choice != choices().end()) {
@@ -126,6 +128,7 @@ class Setter {
     if (is_in_problem(method))
       for (const model::Let& let : method.let) known.push_back(let.signature.name);
     for (const auto& [choice, set] : choices()) known.push_back(choice);
+    known.emplace_back(model::kSearch);
     throw InputError({option_}, "the problem has no datum, parameter or definition '" + name_ +
                                     "'" + suggestion(name_, known));
   }
@@ -172,9 +175,9 @@ void set_values(const std::vector<model::Setting>& settings, Sources& sources,
       if (known.name == setting.name)
         throw InputError({sources.shown_option("--set " + setting.name)}, "this is given twice");
     Setter(setting, sources, problem).run();
-    leave_out_of_search(setting.name, problem);
     problem.settings.push_back(setting);
   }
+  for (const model::Setting& setting : settings) leave_out_of_search(setting.name, problem);
 }
 
 }  // namespace gainsmith::io

@@ -174,6 +174,12 @@ TEST(BisectTest, WhatTheCommandLineSearchesIsCertified) {
   EXPECT_EQ(certified.exit, 0) << certified.out << certified.err;
   EXPECT_NE(certified.out.find("no solution at alpha"), std::string::npos) << certified.out;
   EXPECT_EQ(gainsmith({"verify", gains}).exit, 0);
+  ASSERT_EQ(gainsmith({"bisect", problem, "--largest", "alpha", "--in", "max(1, 1.5)", "2.5", "-o",
+                       gains})
+                .exit,
+            0);
+  EXPECT_EQ(gainsmith({"check", gains}).exit, 0);
+  EXPECT_EQ(gainsmith({"certify", gains}).exit, 0);
   ASSERT_EQ(gainsmith({"optimize", problem, "--over", "b=1:1000", "-o", gains}).exit, 0);
   EXPECT_EQ(gainsmith({"certify", gains}).exit, 0);
   const Outcome other = gainsmith({"synth", problem, "--set", "search={largest: {alfa: [1, 2]}}"});
