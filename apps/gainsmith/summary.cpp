@@ -122,8 +122,6 @@ std::string certificate_text(const model::Gains& gains) {
   if (c.algebraic)
     return fmt::format("certificate {}, exact in fractions of {}:\n            {}\n",
                        to_string(*c.algebraic), of, model::shown_by(c));
-  if (c.exact && c.multipliers.empty())
-    return fmt::format("certificate exact steps on {}, as above: {}\n", of, model::shown_by(c));
   if (c.exact)
     return fmt::format(
         "certificate multipliers Y > 0, checked in {} digits on {}: an exact certificate lies "

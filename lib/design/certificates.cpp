@@ -56,7 +56,7 @@ class Certificates {
 
   /// One program in double, of the unchanged inequalities.
   verdict::Refutation by_violation(const Solve& solve) const {
-    if (!in_double() || !formulation_.homogenised || !posed_.lmi.represents_points()) return {};
+    if (!in_double() || !formulation_.homogenised) return {};
     const lmi::Formulation violation = lmi::formulate_violation(posed_.lmi);
     const sdp::Solution solution = solve(violation.problem, {"double", 1e-10});
     if (solution.x.empty() || !(lmi::interior_margin(solution) < 0)) return {};
@@ -65,7 +65,7 @@ class Certificates {
 
   /// The same of homogeneous inequalities, one unknown of which is a scale.
   verdict::Refutation by_violation_in_scale(const Solve& solve) const {
-    if (!in_double() || formulation_.homogenised || !posed_.lmi.represents_points()) return {};
+    if (!in_double() || formulation_.homogenised) return {};
     const auto scale = lmi::find_scale(posed_.lmi, posed_.inequalities.unknowns);
     if (!scale) return {};
     const lmi::Formulation violation = lmi::formulate_violation(lmi::scaled(posed_.lmi, *scale));
@@ -90,6 +90,7 @@ class Certificates {
 verdict::Refutation find_certificate(const Posed& posed, const Effort& effort,
                                      const lmi::Formulation& formulation,
                                      const sdp::Solution& solution, const Solve& solve) {
+  if (!posed.lmi.represents_points()) return {};
   // With more of a margin than this no certificate is near.
   constexpr double kNear = 1e-6;
   const Certificates certificates(posed, effort, formulation);

@@ -308,9 +308,9 @@ model::AlgebraicRecord record_of(const verdict::AlgebraicCertificate& certificat
                                 {},
                                 {}};
   for (const Rational& c : certificate.p) record.polynomial.push_back(c.str());
-  for (const auto& [block, Z, W] : certificate.multipliers) {
+  for (const auto& [block, Z, W, step] : certificate.multipliers) {
     model::AlgebraicRecord::Term term{
-        name_of(lmi.blocks[block]), {}, {W(0, 0).str(), W(0, 1).str(), W(1, 1).str()}};
+        name_of(lmi.blocks[block]), {}, {W(0, 0).str(), W(0, 1).str(), W(1, 1).str()}, step};
     for (const auto& row : Z.rowwise()) {
       auto& texts = term.vector.emplace_back();
       for (const Rational& x : row) texts.push_back(x.str());
@@ -350,6 +350,23 @@ void accept_refutation(const Climb& climb, const Attempt& refuted, model::Gains&
   } else if (refuted.chain.empty()) {
     gains.certificate->multipliers = named_multipliers(climb, refuted);
   }
+}
+
+/// What shows that the last program has no solution. It is exact of the coefficients in double where
+/// these are of corners that no value of the variables reaches.
+model::CertificateRecord relaxed_certificate(const Climb& climb) {
+  const lmi::Lmi& lmi = climb.posed().lmi;
+  const Attempt& last = climb.last();
+  model::CertificateRecord record{false, last.relaxed_backward_error, kDoubleDigits,
+                                  named_multipliers(climb, last), ""};
+  if (lmi.represents_points()) return record;
+  const auto found = verdict::refute<Decimal100>(
+      climb.posed().inequalities, lmi, last.formulation,
+      verdict::multipliers_of(last.formulation, lmi.blocks.size(), last.solution));
+  if (!found.exact) return record;
+  record.exact = true;
+  record.digits = found.digits;
+  return record;
 }
 
 /// What is known where neither a point nor a certificate decides.
@@ -394,9 +411,7 @@ void conclude(const Climb& climb, const ExcludesObjective& excludes, model::Gain
     if (const Attempt* faces = climb.find(kind)) return gains.solver.add_message(faces->left_open);
   if (climb.last().relaxation_refuted()) {
     // What it is about is said by the plan (synthesize.cpp).
-    gains.certificate =
-        model::CertificateRecord{false, climb.last().relaxed_backward_error, kDoubleDigits,
-                                 named_multipliers(climb, climb.last()), ""};
+    gains.certificate = relaxed_certificate(climb);
     return;
   }
   note_undecided(climb, gains);

@@ -181,8 +181,8 @@ class FacialReduction {
   }
 
   void try_only_point() {
-    if (!verdict::satisfies(faces_.blocks(), {}))
-      return faces_.exclude("what is left has no unknowns and does not hold");
+    faces_.exclude_numbers();
+    if (faces_.excluded()) return;
     try_point({});
     settle_constant();
   }
@@ -438,10 +438,11 @@ class FacialReduction {
     for (const double relative : {1e-10, 1e-7, 1e-4}) {
       const auto face = verdict::fractions_near(faces_, kernels(left), relative);
       if (!face) continue;
-      const bool shown = verdict::are_exact_on(faces_, *face, multipliers(left));
+      const verdict::FaceMultipliers by = verdict::exact_on(faces_, *face, multipliers(left));
+      const bool shown = !by.S.empty();
       Faces whole = faces_;
       faces_.note("kernels near the largest margin leave equality on their range");
-      faces_.restrict_to(*face);
+      faces_.restrict_to(by);
       if (!faces_.excluded()) {
         guessed_ |= !shown;
         return;
@@ -461,20 +462,22 @@ class FacialReduction {
       return finish();
     }
     faces_.note("exact multipliers of " + on + " leave equality on their range");
-    faces_.restrict_to(exact.faces);
+    faces_.restrict_to(exact);
   }
 
-  /// Of one step that excludes the blocks themselves.
+  /// Of all steps.
   std::shared_ptr<const verdict::AlgebraicCertificate> multipliers_of_blocks() const {
-    const auto& [faces, S] = faces_.excluding();
-    if (faces.empty()) return nullptr;
     auto found = std::make_shared<verdict::AlgebraicCertificate>();
     found->p = {0, 1};
     found->root = verdict::roots(found->p).front();
-    for (std::size_t k = 0; k < faces.size(); ++k)
-      for (auto& [weight, column] : numbers::rational_squares(S[k]))
-        found->multipliers.push_back(
-            {faces[k].block, faces[k].V.lazyProduct(column), verdict::weight(weight)});
+    int step = 0;
+    for (const auto& [faces, S] : faces_.chain()) {
+      ++step;
+      for (std::size_t k = 0; k < faces.size(); ++k)
+        for (auto& [weight, column] : numbers::rational_squares(S[k]))
+          found->multipliers.push_back(
+              {faces[k].block, faces[k].V.lazyProduct(column), verdict::weight(weight), step});
+    }
     return found;
   }
 

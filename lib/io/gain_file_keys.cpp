@@ -73,7 +73,8 @@ constexpr std::array kKeysOfAlgebraic = {
 constexpr std::array kKeysOfTerm = {
     Key{"block", "text", "inequality and point", kRequired},
     Key{"vector", "[[text]]", "Z, z = Z (1, l, ...)'", kRequired},
-    Key{"weight", "[text]", "of 1, l + m and l m in c, m the conjugate of l", kRequired}};
+    Key{"weight", "[text]", "of 1, l + m and l m in c, m the conjugate of l", kRequired},
+    Key{"step", "whole", "of a chain of rational multipliers; 1 when absent"}};
 
 constexpr std::array kKeysOfRefinement = {
     Key{"before", "number", "", kRequired}, Key{"after", "number | nothing", "", kRequired},

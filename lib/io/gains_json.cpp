@@ -90,8 +90,10 @@ Json gain_function_json(const model::Gains& gains, const model::GainFunction& ga
 
 Json algebraic_json(const model::AlgebraicRecord& algebraic) {
   Json terms = Json::array();
-  for (const auto& [block, vector, weight] : algebraic.terms)
+  for (const auto& [block, vector, weight, step] : algebraic.terms) {
     terms.push_back({{"block", block}, {"vector", vector}, {"weight", weight}});
+    if (step > 1) terms.back()["step"] = step;
+  }
   Json result = {{"near", {algebraic.re, algebraic.im}},
                  {"polynomial", algebraic.polynomial},
                  {"terms", std::move(terms)}};
@@ -243,8 +245,8 @@ model::AlgebraicRecord algebraic_of(const JsonReader& reader) {
   for (const JsonReader& term : reader.at("terms").items()) {
     std::vector<model::AlgebraicRecord::Fractions> rows;
     for (const JsonReader& row : term.at("vector").items()) rows.push_back(fractions(row));
-    result.terms.push_back(
-        {term.at("block").text(), std::move(rows), fractions(term.at("weight"))});
+    result.terms.push_back({term.at("block").text(), std::move(rows), fractions(term.at("weight")),
+                            term.has("step") ? term.at("step").whole() : 1});
   }
   return result;
 }

@@ -32,12 +32,25 @@ std::string to_string(GainFunction::Kind kind) {
 }
 
 std::string shown_by(const CertificateRecord& certificate) {
-  if (certificate.exact) return "no solution exists";
+  if (certificate.exact)
+    return "no solution" +
+           std::string(certificate.is_about_problem() ? ""
+                       : certificate.about == "hull"  ? " of the hull"
+                                                      : " of the vertex test") +
+           " exists";
   return "no solution survives a relative change of " + brief(certificate.backward_error, 2) +
          " of the coefficients";
 }
 
+int AlgebraicRecord::steps() const {
+  int last = 1;
+  for (const Term& term : terms) last = std::max(last, term.step);
+  return last;
+}
+
 std::string to_string(const AlgebraicRecord& algebraic) {
+  if (const int steps = algebraic.steps(); steps > 1)
+    return "rational multipliers in " + std::to_string(steps) + " steps";
   if (algebraic.of.empty()) return "rational multipliers";
   std::string text = "multipliers at the eigenvalue " + brief(algebraic.re);
   if (algebraic.im != 0) text += " + " + brief(std::abs(algebraic.im)) + "i";
@@ -116,10 +129,11 @@ std::string results_hash(const Gains& gains) {
       for (const std::string& fraction : fractions) (text += '\0') += fraction;
     };
     add_fractions(certificate.algebraic->polynomial);
-    for (const auto& [block, rows, weight] : certificate.algebraic->terms) {
+    for (const auto& [block, rows, weight, step] : certificate.algebraic->terms) {
       (text += '\0') += block;
       for (const AlgebraicRecord::Fractions& row : rows) add_fractions(row);
       add_fractions(weight);
+      if (step > 1) add_fractions({std::to_string(step)});
     }
   };
   if (gains.certificate) add_certificate(*gains.certificate, "certificate");

@@ -53,11 +53,15 @@ struct AlgebraicRecord {
     std::string block;              ///< inequality and point
     std::vector<Fractions> vector;  ///< the rows of Z
     Fractions weight;               ///< of 1, l + m and l m
+    int step = 1;                   ///< of a chain of rational ones
   };
   std::string of;  ///< the matrix whose eigenvalue the root is, "A"; empty: all is rational
   double re = 0, im = 0;
   Fractions polynomial;
   std::vector<Term> terms;
+
+  /// Of the chain; 1 for a certificate without one.
+  int steps() const;
 };
 
 /// The certificate of a no, as it was checked on the decimals of the file (verdict/refutation.h),

@@ -158,38 +158,42 @@ std::optional<RationalMatrix> rational_inverse(const RationalMatrix& M) {
   return rational_solution(M, RationalMatrix::Identity(M.rows(), M.rows()));
 }
 
-bool is_rational_definite(RationalMatrix M) {
+std::optional<RationalMatrix> rational_witness(RationalMatrix M, bool definite) {
   const Eigen::Index n = M.rows();
+  RationalMatrix v = RationalMatrix::Constant(n, 1, Rational(0));
+  // What is left of M is eliminated by rows 0 to k - 1: v there follows from the rest.
+  const auto completed = [&](Eigen::Index k) {
+    for (Eigen::Index i = k - 1; i >= 0; --i) {
+      if (M(i, i) == 0) continue;
+      Rational sum = 0;
+      for (Eigen::Index j = i + 1; j < n; ++j)
+        if (v(j) != 0) sum += M(i, j) * v(j);
+      v(i) = -sum / M(i, i);
+    }
+    return v;
+  };
   for (Eigen::Index k = 0; k < n; ++k) {
-    if (!(M(k, k) > 0)) return false;
+    if (M(k, k) < 0 || (M(k, k) == 0 && definite)) {
+      v(k) = 1;
+      return completed(k);
+    }
     for (Eigen::Index i = k + 1; i < n; ++i) {
       if (M(i, k) == 0) continue;
       check_stop();
+      if (M(k, k) == 0) {  // (t, 1) [0, m; m, d] (t, 1)' = 2 t m + d = -1
+        v(i) = 1;
+        v(k) = -(M(i, i) + 1) / (2 * M(i, k));
+        return completed(k);
+      }
       const Rational factor = M(i, k) / M(k, k);
       for (Eigen::Index j = k + 1; j < n; ++j) M(i, j) -= factor * M(k, j);
     }
   }
-  return true;
+  return std::nullopt;
 }
 
-bool is_rational_semidefinite(RationalMatrix M) {
-  const Eigen::Index n = M.rows();
-  for (Eigen::Index k = 0; k < n; ++k) {
-    if (M(k, k) < 0) return false;
-    if (M(k, k) == 0) {
-      // A row whose diagonal element is 0 has to be 0; it changes nothing of the others.
-      for (Eigen::Index j = k + 1; j < n; ++j)
-        if (M(k, j) != 0) return false;
-      continue;
-    }
-    for (Eigen::Index i = k + 1; i < n; ++i) {
-      if (M(i, k) == 0) continue;
-      check_stop();
-      const Rational factor = M(i, k) / M(k, k);
-      for (Eigen::Index j = k + 1; j < n; ++j) M(i, j) -= factor * M(k, j);
-    }
-  }
-  return true;
-}
+bool is_rational_definite(const RationalMatrix& M) { return !rational_witness(M, true); }
+
+bool is_rational_semidefinite(const RationalMatrix& M) { return !rational_witness(M, false); }
 
 }  // namespace gainsmith::numbers

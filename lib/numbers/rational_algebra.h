@@ -38,8 +38,12 @@ std::optional<RationalMatrix> rational_inverse(const RationalMatrix& M);
 /// M = sum of d v v' with d > 0, for M > 0; empty for other symmetric matrices.
 std::vector<std::pair<Rational, RationalMatrix>> rational_squares(RationalMatrix M);
 
-/// Of a symmetric matrix, by elimination: v'Mv > 0 (>= 0) for all v != 0. Empty matrices are both.
-bool is_rational_definite(RationalMatrix M);
-bool is_rational_semidefinite(RationalMatrix M);
+/// Of a symmetric matrix, n x n, by elimination: a vector v != 0, n x 1, with v'Mv < 0, or <= 0 when
+/// it must be definite; none when it is as it must be.
+std::optional<RationalMatrix> rational_witness(RationalMatrix M, bool definite);
+
+/// Whether v'Mv > 0 (>= 0) for all v != 0. Empty matrices are both.
+bool is_rational_definite(const RationalMatrix& M);
+bool is_rational_semidefinite(const RationalMatrix& M);
 
 }  // namespace gainsmith::numbers

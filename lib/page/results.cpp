@@ -49,10 +49,9 @@ std::string proof_of_no(const model::Gains& gains) {
     text = "This no is about a condition that is only sufficient for the inequalities, the " +
            std::string(certificate.about == "hull" ? "hull" : "test at the vertices") +
            ": the inequalities themselves may have a solution. ";
-  text += certificate.algebraic ? "It rests on " + to_string(*certificate.algebraic) +
-                                      ", checked in fractions on the decimals of the problem file."
-          : certificate.multipliers.empty()
-              ? "It is a chain of exact steps on the decimals of the problem file."
+  text += certificate.algebraic
+              ? "It rests on " + to_string(*certificate.algebraic) +
+                    ", checked in fractions on the decimals of the problem file."
               : "It rests on multipliers for the inequalities below. They were checked in " +
                     std::to_string(certificate.digits) +
                     " digits on the decimals of the problem file, without the solver.";

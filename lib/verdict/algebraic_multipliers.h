@@ -25,6 +25,7 @@ struct AlgebraicMultiplier {
   std::size_t block = 0;
   numerics::RationalMatrix Z;  ///< n_k x d
   numerics::RationalMatrix W;  ///< 2 x 2: of 1, l + m and l m
+  int step = 1;                ///< of a chain of rational ones (faces.h)
 };
 
 /// W of the weight c alone.

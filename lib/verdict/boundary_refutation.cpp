@@ -64,7 +64,6 @@ BoundaryPair violated_pair_of(const lmi::Lmi& lmi, const lmi::Formulation& formu
 
 Refutation refute_on_boundary(const lmi::Inequalities& of, const lmi::Lmi& lmi,
                               const lmi::Formulation& formulation, const sdp::Solution& solution) {
-  if (!lmi.represents_points()) return {};
   const auto blocks = exact_blocks<Decimal100>(of, lmi, formulation);
   const ExactBlock<Decimal100> constant = block_of_constant();
   std::vector<const ExactBlock<Decimal100>*> all;
@@ -117,7 +116,6 @@ bool close(const std::vector<ExactBlock<Decimal100>>& blocks, const lmi::Scale& 
 
 Refutation refute_by_violation(const lmi::Inequalities& of, const lmi::Lmi& lmi,
                                const lmi::Formulation& formulation, const sdp::Solution& solution) {
-  if (!lmi.represents_points()) return {};
   const auto blocks = exact_blocks<Decimal100>(of, lmi, formulation);
   auto Y = violation_of(blocks, lmi.unknowns, violated_pair_of(lmi, formulation, solution));
   return Y ? refute<Decimal100>(lmi, blocks, std::move(*Y), Exactness::in_double) : Refutation{};
@@ -126,7 +124,6 @@ Refutation refute_by_violation(const lmi::Inequalities& of, const lmi::Lmi& lmi,
 Refutation refute_by_violation(const lmi::Inequalities& of, const lmi::Lmi& lmi,
                                const lmi::Scale& scale, const lmi::Formulation& formulation,
                                const sdp::Solution& solution) {
-  if (!lmi.represents_points()) return {};
   lmi::Formulation stated;
   stated.balance = formulation.balance;
   stated.balance.unknowns.insert(stated.balance.unknowns.begin() + scale.unknown - 1, 0);

@@ -113,6 +113,14 @@ bool ExactBlocks<S>::vanishes(const lmi::Block& block, const std::vector<int>& k
     return ExactForm<S>{unknown.shape, false, {}, std::move(terms)};
   };
   const auto is_kept = [&](int row) { return std::ranges::find(kept, row) != kept.end(); };
+  if (!block.where) {
+    numbers::MatrixOf<S> sum = numbers::MatrixOf<S>::Zero(block.size, block.size);
+    for (const auto& [i, matrix] : block.terms)
+      for (int c = 0; i > 0 && c < matrix.outerSize(); ++c)
+        for (lmi::Sparse::InnerIterator it(matrix, c); it; ++it)
+          sum(it.row(), c) += S(it.value()) * S(d[static_cast<std::size_t>(i) - 1]);
+    return sum(kept, kept).isZero(S(0));
+  }
   for (const auto& [i, elements] : terms(
            of_.statements[block.inequality].differences[block.comparison], values_at(block), form))
     for (const ExactElement<S>& e : elements)
@@ -132,8 +140,23 @@ std::vector<numbers::Ball<S>> ExactBlocks<S>::objective() const {
 }
 
 template <class S>
+ExactBlock<S> ExactBlocks<S>::as_solved(const lmi::Block& block, std::size_t at,
+                                        const std::vector<int>& kept) const {
+  ExactBlock<S> result{static_cast<int>(kept.size()), {}};
+  lmi::for_each_balanced(block, balance_, at, kept, [&](int i, int row, int column, double value) {
+    if (result.terms.empty() || result.terms.back().first != i)
+      result.terms.emplace_back(i, ExactElements<S>());
+    ExactElements<S>& elements = result.terms.back().second;
+    elements.push_back({row, column, S(value), 0});
+    if (row != column) elements.push_back({column, row, S(value), 0});
+  });
+  return result;
+}
+
+template <class S>
 ExactBlock<S> ExactBlocks<S>::block(const lmi::Block& block, std::size_t at,
                                     const std::vector<int>& kept) const {
+  if (!block.where) return as_solved(block, at, kept);
   const lmi::Statement& statement = of_.statements[block.inequality];
   std::vector<int> place(static_cast<std::size_t>(block.size), -1);
   for (std::size_t k = 0; k < kept.size(); ++k)

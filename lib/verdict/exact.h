@@ -29,7 +29,8 @@ template <class S>
 numbers::Enclosed<S> dense(const ExactElements<S>& elements, int size);
 
 /// Evaluates the inequality of a block with `where` as an exact affine form. EvaluationError when
-/// an operation has no result there.
+/// an operation has no result there. A block without `where`, which is no point of the domain, has
+/// the coefficients that it has in double.
 template <class S>
 class ExactBlocks {
  public:
@@ -44,6 +45,8 @@ class ExactBlocks {
   std::vector<numbers::Ball<S>> objective() const;
 
  private:
+  ExactBlock<S> as_solved(const lmi::Block& block, std::size_t at,
+                          const std::vector<int>& kept) const;
   using Form = std::function<ExactForm<S>(const lmi::Unknown&)>;
   std::vector<std::pair<int, ExactElements<S>>> terms(const expr::Program& program,
                                                       const numbers::EnclosedValues<S>& values,

@@ -260,13 +260,14 @@ std::optional<std::vector<FaceOfBlock>> fractions_near(const Faces& faces,
   return result;
 }
 
-bool are_exact_on(const Faces& faces, const std::vector<FaceOfBlock>& on,
-                  const FoundMultipliers& found) {
+FaceMultipliers exact_on(const Faces& faces, std::vector<FaceOfBlock> on,
+                         const FoundMultipliers& found) {
   std::vector<RationalMatrix> start;
   for (const FaceOfBlock& face : on)
     start.push_back(start_of(found.Y[face.block], found.rows[face.block], face.pivots));
-  return Correction(faces, on, std::move(start), Rational(0)).run() ==
-         ExactMultipliers::Say::restricts;
+  Correction correction(faces, on, std::move(start), Rational(0));
+  const bool shown = correction.run() == ExactMultipliers::Say::restricts;
+  return {std::move(on), shown ? correction.take() : std::vector<RationalMatrix>()};
 }
 
 }  // namespace gainsmith::verdict

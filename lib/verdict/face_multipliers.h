@@ -41,9 +41,9 @@ std::optional<std::vector<FaceOfBlock>> fractions_near(const Faces& faces,
                                                        const FoundMultipliers& projectors,
                                                        double relative);
 
-/// Whether exact multipliers near those that were found have these ranges: every solution is on
-/// the face then.
-bool are_exact_on(const Faces& faces, const std::vector<FaceOfBlock>& on,
-                  const FoundMultipliers& found);
+/// Exact multipliers near those that were found that have these ranges: every solution is on the
+/// face. Without S where there are none.
+FaceMultipliers exact_on(const Faces& faces, std::vector<FaceOfBlock> on,
+                         const FoundMultipliers& found);
 
 }  // namespace gainsmith::verdict

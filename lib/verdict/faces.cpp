@@ -67,6 +67,7 @@ Faces::Faces(std::vector<RationalBlock> blocks, std::vector<std::string> names, 
   for (const RationalBlock& block : blocks_) {
     kept_.emplace_back(static_cast<std::size_t>(block.size));
     std::iota(kept_.back().begin(), kept_.back().end(), 0);
+    sizes_.push_back(block.size);
   }
 }
 
@@ -77,10 +78,29 @@ std::string Faces::why() const {
   return text;
 }
 
-void Faces::exclude(const std::string& why, FaceMultipliers by) {
-  if (steps_.empty()) excluding_ = std::move(by);
+void Faces::exclude(const std::string& why, const FaceMultipliers& by) {
+  record(by);
   excluded_ = true;
   steps_.push_back(why);
+}
+
+void Faces::exclude_numbers() {
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    const RationalBlock& block = blocks_[k];
+    if (!block.exact) continue;
+    if (const auto v = numbers::rational_witness(block.value({}), block.strict))
+      return exclude("what is left has no unknowns and does not hold",
+                     {{{k, {}, *v}}, {RationalMatrix::Identity(1, 1)}});
+  }
+}
+
+void Faces::record(FaceMultipliers by) {
+  for (FaceOfBlock& face : by.faces) {
+    RationalMatrix whole = RationalMatrix::Constant(sizes_[face.block], face.V.cols(), Rational(0));
+    whole(kept_[face.block], Eigen::all) = face.V;
+    face.V = std::move(whole);
+  }
+  chain_.push_back(std::move(by));
 }
 
 void Faces::find_plain() {
@@ -109,7 +129,8 @@ bool Faces::find_zero() {
         (rows.size() == 1
              ? ": element " + places + " is 0 for all unknowns, so its row must be 0"
              : ": elements " + places + " are 0 for all unknowns, so their rows must be 0"));
-    restrict_to({{k, rows, std::move(V)}});
+    const RationalMatrix I = RationalMatrix::Identity(V.cols(), V.cols());
+    restrict_to({{{k, rows, std::move(V)}}, {I}});
     return true;
   }
   return false;
@@ -170,11 +191,13 @@ bool Faces::pairs(std::size_t k, std::size_t l) {
     return true;
   }
   steps_.push_back(both + " are opposite and leave equality only");
-  restrict_to(faces);
+  restrict_to(sum);
   return true;
 }
 
-void Faces::restrict_to(const std::vector<FaceOfBlock>& faces) {
+void Faces::restrict_to(const FaceMultipliers& by) {
+  const std::vector<FaceOfBlock>& faces = by.faces;
+  record(by);
   std::vector<std::vector<Rational>> equations;
   const std::vector<Rational> none(static_cast<std::size_t>(unknowns()) + 1, Rational(0));
   for (const FaceOfBlock& face : faces) {
@@ -198,7 +221,9 @@ void Faces::restrict_to(const std::vector<FaceOfBlock>& faces) {
     for (Eigen::Index c = 0; c < whole.cols(); ++c)
       whole(r, c) = equations[static_cast<std::size_t>(r)][static_cast<std::size_t>(c)];
   keep(whole);
-  if (!impose(whole)) exclude("the equations that this leaves have no solution");
+  if (impose(whole)) return;
+  excluded_ = true;
+  steps_.emplace_back("the equations that this leaves have no solution");
 }
 
 void Faces::keep(const RationalMatrix& equations) {

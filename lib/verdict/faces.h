@@ -51,18 +51,22 @@ class Faces {
 
   /// What the next step is, for why().
   void note(std::string step) { steps_.push_back(std::move(step)); }
-  /// The step of exact multipliers with v = 0, none of a strict block.
-  void restrict_to(const std::vector<FaceOfBlock>& faces);
+  /// The step of exact multipliers with v = 0, none of a strict block. Without S it is only guessed.
+  void restrict_to(const FaceMultipliers& by);
 
   /// Sets those y to 0 on which, with the others, no block depends: solutions stay solutions.
   void drop_dependent();
 
-  /// No x satisfies the blocks: by these exact multipliers, or as the caller has shown.
-  void exclude(const std::string& why, FaceMultipliers by = {});
+  /// No x satisfies the blocks: by these exact multipliers.
+  void exclude(const std::string& why, const FaceMultipliers& by);
+  /// Nothing is left to choose, and a block is not as it must be.
+  void exclude_numbers();
 
   bool excluded() const { return excluded_; }
-  /// What excludes the blocks as they were given: empty after more than one step.
-  const FaceMultipliers& excluding() const { return excluding_; }
+  /// The multipliers of all steps, the columns of V in all rows of the blocks as they were given. The
+  /// sums of a step are 0 modulo the equations B_k(x) V = 0 of the steps before. The last step has
+  /// v > 0 or a strict block, or leaves equations without a solution.
+  const std::vector<FaceMultipliers>& chain() const { return chain_; }
   /// "corner: element (2, 2) is 0 for all unknowns"; the steps so far, the last one first.
   std::string why() const;
   /// How many steps were made.
@@ -98,6 +102,7 @@ class Faces {
   /// equations . (1, y) = 0; false when no y satisfies them.
   bool impose(const numbers::RationalMatrix& equations);
   void drop_rows(std::size_t block, const std::vector<int>& rows);
+  void record(FaceMultipliers by);
 
   std::vector<RationalBlock> blocks_;
   std::vector<std::vector<int>> kept_;  ///< the rows of each block that stay, from 0
@@ -107,7 +112,8 @@ class Faces {
   std::vector<Rational> origin_;
   numbers::RationalMatrix directions_;
   std::vector<std::string> steps_;
-  FaceMultipliers excluding_;
+  std::vector<FaceMultipliers> chain_;
+  std::vector<int> sizes_;  ///< of the blocks as they were given
   bool excluded_ = false;
 };
 

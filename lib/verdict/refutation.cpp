@@ -293,7 +293,6 @@ Refutation refute(const lmi::Lmi& lmi, const std::vector<ExactBlock<S>>& blocks,
 template <class S>
 Refutation refute(const lmi::Inequalities& of, const lmi::Lmi& lmi,
                   const lmi::Formulation& formulation, const Multipliers& Y, Exactness exactness) {
-  if (!lmi.represents_points()) return {};
   auto blocks = exact_blocks<S>(of, lmi, formulation);
   drop_implied(of, lmi, formulation, blocks);
   return refute<S>(lmi, blocks, converted<S>(Y), exactness);

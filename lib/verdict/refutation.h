@@ -37,9 +37,9 @@ struct Refutation {
 enum class Exactness { in_double, in_wide };
 
 /// What Y says over S, or those of its Y_k that are not small: those of blocks that a certificate
-/// does not need are only nearly 0, and any Y >= 0 may be tried. Nothing (an error of 1) when a
-/// block represents no point of its domain, when the Y_k are not positive semidefinite, or when
-/// only blocks with >= have multipliers and v is 0.
+/// does not need are only nearly 0, and any Y >= 0 may be tried. Nothing (an error of 1) when the
+/// Y_k are not positive semidefinite, or when only blocks with >= have multipliers and v is 0. It is
+/// about the inequalities where every block represents a point of its domain.
 template <class S>
 Refutation refute(const lmi::Inequalities& of, const lmi::Lmi& lmi,
                   const lmi::Formulation& formulation, const Multipliers& Y,

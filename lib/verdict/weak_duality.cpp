@@ -102,21 +102,7 @@ BlockList blocks_of(const lmi::Inequalities& of, const lmi::Lmi& lmi, const lmi:
   const ExactBlocks<DoubleDouble> exact(of, formulation.balance);
   BlockList blocks;
   const auto add = [&](const lmi::Block& block, const std::vector<int>& kept) {
-    if (block.where) {
-      blocks.push_back(exact.block(block, blocks.size(), kept));
-      return;
-    }
-    ExactBlock<DoubleDouble> as_solved{static_cast<int>(kept.size()), {}};
-    lmi::for_each_balanced(block, formulation.balance, blocks.size(), kept,
-                           [&](int i, int row, int column, double value) {
-                             if (as_solved.terms.empty() || as_solved.terms.back().first != i)
-                               as_solved.terms.emplace_back(i, ExactElements<DoubleDouble>());
-                             auto& elements = as_solved.terms.back().second;
-                             elements.push_back({row, column, DoubleDouble(value), 0});
-                             if (row != column)
-                               elements.push_back({column, row, DoubleDouble(value), 0});
-                           });
-    blocks.push_back(std::move(as_solved));
+    blocks.push_back(exact.block(block, blocks.size(), kept));
   };
   for (std::size_t k = 0; k < lmi.blocks.size(); ++k)
     add(lmi.blocks[k], formulation.free_variables.kept[k]);

@@ -5,8 +5,7 @@ open, or it was interrupted. 2: a file is not a gain file, or printing failed. 7
 """
 import argparse, json, math, os, signal, sys, time, traceback
 from collections import Counter
-try:
-    import yaml                 # what the other files need and Python does not bring along
+try: import yaml                 # what the other files need and Python does not bring along
 except ImportError:
     print("certify: PyYAML is not installed (package python3-yaml in Debian)", file=sys.stderr)
     sys.exit(2)
@@ -22,10 +21,8 @@ def within(seconds, work):
     """work(), or OutOfTime after so many seconds of the processor."""
     signal.signal(signal.SIGPROF, out_of_time)
     signal.setitimer(signal.ITIMER_PROF, max(seconds, 0.001))
-    try:
-        return work()
-    finally:
-        signal.setitimer(signal.ITIMER_PROF, 0)
+    try: return work()
+    finally: signal.setitimer(signal.ITIMER_PROF, 0)
 def check(path, seconds):
     """What is found about one file, as a dictionary."""
     began = time.process_time()
@@ -75,10 +72,8 @@ def check_beside(gain, found, seconds):
     name = figure.split()[-1]
     beyond = dict(gain, searched={**gain["searched"], name: search["beyond"]})
     label = "no solution at %s = %s" % (name, search["beyond"])
-    try:
-        claim = within(min(SECONDS_BESIDE, seconds), lambda: prove_no(beyond, certificate, label))
-    except OutOfTime:
-        claim = Claim(label, "open", "not decided in %d s" % SECONDS_BESIDE)
+    try: claim = within(min(SECONDS_BESIDE, seconds), lambda: prove_no(beyond, certificate, label))
+    except OutOfTime: claim = Claim(label, "open", "not decided in %d s" % SECONDS_BESIDE)
     found["beside"].append(claim)
 # Reports.
 def summary(found):
@@ -144,10 +139,8 @@ def main():
     return next((code for code in (1, 2, 3) if code in {EXIT[v] for v in counts}), 0)
 def exit_code():
     """That of main(). Python's own code of an exception, 1, would say that a file is refuted."""
-    try:
-        return main()
-    except KeyboardInterrupt:
-        return 3
+    try: return main()
+    except KeyboardInterrupt: return 3
     except OSError as error:
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)    # nothing is printed at the exit either
         print("certify: cannot print: %s" % error.strerror, file=sys.stderr)

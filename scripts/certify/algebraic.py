@@ -13,19 +13,20 @@ Whose eigenvalue l is does not matter; rational multipliers have p = l. So z*B z
 the ring Q[l, m]/(p(l), p(m)) a matrix X stands for e*X e, and for 0 if X = 0. With the companion
 matrix C, l e = C e: times l is X C, and times m is C'X. All equations are checked in this ring, so
 with fractions only. What remains are signs at the root, which is isolated by a disk.
+
+Rational multipliers may have several steps (facial reduction). If the sum of all c z'B z is 0 at
+each solution, then all B z = 0, since B >= 0. Later sums are taken modulo these equations.
 """
 from fractions import Fraction
 from arithmetic import Ball, Undecided, ball, is_exact, sign
-from matrices import Matrix, filled, zeros
+from matrices import Matrix, filled, flat, number, zeros
 from statement import expect, listed
 STRICT = ("<", ">")
 def fractions(texts, what):
     """A list of fractions of a list of texts such as "-1/3"."""
     expect(isinstance(texts, list) and all(isinstance(x, str) for x in texts), what + ": texts")
-    try:
-        return [Fraction(x) for x in texts]
-    except (ValueError, ZeroDivisionError):
-        expect(False, what + ": fractions")
+    try: return [Fraction(x) for x in texts]
+    except (ValueError, ZeroDivisionError): expect(False, what + ": fractions")
 def companion(p):
     """C with l e = C e for e = (1, l, ..., l^(n-1))'."""
     n = len(p) - 1
@@ -81,27 +82,54 @@ def prove_algebraic(given, block_of):
     expect(isinstance(near, list) and len(near) == 2, "near: two numbers")
     expect(isinstance(terms, list) and all(isinstance(t, dict) for t in terms), "terms: objects")
     re, im, square = root_near(p, *map(Fraction, near))
-    c, sums, strict = companion(p), {}, False
-    for term in terms:
-        label, rows = term.get("block"), term.get("vector")
-        expect(isinstance(label, str) and isinstance(rows, list), "terms: a block, a vector")
-        z = Matrix([fractions(row, label) for row in rows])
-        weight, block = fractions(term.get("weight"), label), block_of(label)
-        expect(z.shape() == (block.shape[0], len(p) - 1) and len(weight) == 3, label + ": its size")
-        size = block.sign != "==" and sign(weight[0] + weight[1] * (2 * re) + weight[2] * square)
-        if size < 0: return "a multiplier that is negative"
-        if size > 0 and block.sign in STRICT:
-            strict = strict or sign(value_at(z.transposed() * z, re, im)) > 0
-        for i, entries in block.terms.items():
-            if not all(map(is_exact, entries.values())): return "coefficients that are no fractions"
-            b = filled(z.rows, z.rows, lambda x, y: entries.get((x, y), Fraction(0)))
-            x = z.transposed() * b * z
-            x = x.map(lambda y: weight[0] * y) + (x * c + c.transposed() * x).map(
-                lambda y: weight[1] * y) + (c.transposed() * x * c).map(lambda y: weight[2] * y)
-            sums[i] = sums.get(i, zeros(*x.shape())) + x
-    constant = sums.pop(0, zeros(1, 1))
-    if any(x != 0 for total in sums.values() for row in total.elements for x in row):
-        return "an equation of the multipliers does not hold"
-    if any(x != 0 for row in constant.elements for x in row):
-        return None if sign(value_at(constant, re, im)) < 0 else "the constant part is not negative"
-    return None if strict else "no strict inequality has a multiplier"
+    c, known = companion(p), []
+    for step in sorted({int(str(term.get("step", 1))) for term in terms}):
+        sums, strict, used = {}, False, []
+        for term in (t for t in terms if int(str(t.get("step", 1))) == step):
+            label, rows = term.get("block"), term.get("vector")
+            expect(isinstance(label, str) and isinstance(rows, list), "terms: a block, a vector")
+            z = Matrix([fractions(row, label) for row in rows])
+            block, weight = block_of(label), fractions(term.get("weight"), label)
+            size, entries = semidefinite(block)
+            expect(z.shape() == (size, len(p) - 1) and len(weight) == 3, label + ": its size")
+            side = sign(weight[0] + weight[1] * (2 * re) + weight[2] * square)
+            weight = [number(x) for x in weight]
+            if side < 0: return "a multiplier that is negative"
+            if side > 0 and block.sign in STRICT:
+                strict = strict or sign(value_at(z.transposed() * z, re, im)) > 0
+            used.append({})
+            for i, found in entries.items():
+                if not all(map(is_exact, found.values())): return "no fractions as coefficients"
+                image = filled(size, size, lambda a, b: found.get((a, b), Fraction(0))) * z
+                x = z.transposed() * image
+                x = weight[0] * x + weight[1] * (x * c + c.transposed() * x) + \
+                    weight[2] * (c.transposed() * x * c)
+                sums[i] = sums[i] + x if i in sums else x
+                if side > 0: used[-1][i] = image
+        if len(p) == 2:
+            rest = reduced({i: x[0, 0] for i, x in sums.items()}, known)
+            sums = {i: Matrix([[x]]) for i, x in rest.items()}
+        constant = sums.pop(0, zeros(1, 1))
+        if any(x != 0 for total in sums.values() for x in flat(total)):
+            return "an equation of the multipliers does not hold"
+        if any(x != 0 for x in flat(constant)):
+            return None if sign(value_at(constant, re, im)) < 0 else "a constant part above 0"
+        if strict: return None
+        for images in used if len(p) == 2 else ():
+            for equation in zip(*[[(i, x) for x in flat(image)] for i, image in images.items()]):
+                found = reduced(dict(equation), known)
+                if set(found) == {0}: return None
+                if found: known.append((max(found), found))
+    return "no strict inequality has a multiplier"
+def semidefinite(block):
+    """(n, coefficients) of B(x) >= 0; of an equation E(x) = 0 those of [0, E; E', 0] >= 0."""
+    (height, width), terms = block.shape, block.terms
+    return (height, terms) if block.sign != "==" else (height + width, {
+        i: {key: x for (a, b), x in found.items() for key in ((a, height + b), (height + b, a))}
+        for i, found in terms.items()})
+def reduced(form, known):
+    """A sum of a_i x_i without the last x_i of each sum that is known to be 0."""
+    for pivot, zero in known:
+        factor = form.get(pivot, 0) / zero[pivot]
+        form = {i: form.get(i, 0) - factor * zero.get(i, 0) for i in {*form, *zero}}
+    return {i: a for i, a in form.items() if a != 0}

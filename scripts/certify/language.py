@@ -314,7 +314,6 @@ def checked_rank(a, tolerance=number(Fraction(1, 10 ** 12))):
     if 0 in pivots or sum(p > 0 for p in pivots) != rank:
         raise Undecided("a rank that depends on the tolerance")
     return rank
-def range_of(a): return a.part(range(a.rows), reduced(a, a.cols)[0])
 def floor(x):
     if not is_exact(x): raise Undecided("floor of a number that is not rational")
     return Fraction(x.numerator // x.denominator)
@@ -357,9 +356,6 @@ def extreme(name):
     """The largest or smallest, element by element, or of the elements of one argument."""
     best = elementwise(lambda x, y: x if RELATIONS[name](sign(x - y), 0) else y)
     return lambda *a: reduce(best, a if len(a) > 1 else [number(x) for x in flat(a[0])])
-def pseudo_inverse(a):
-    t = a.transposed()
-    return invert(t * a) * t if a.rows >= a.cols else t * invert(a * t)
 def kronecker(a, b):
     return Matrix([[x * y for x in row for y in other] for row in a.elements
                    for other in b.elements], a.rows * b.rows, a.cols * b.cols)
@@ -377,13 +373,16 @@ def block_diagonal(items):
 LISTS = {"sum": lambda items: reduce(operator.add, items or [number(Fraction(0))]),
          "vertcat": stacked, "horzcat": beside, "blkdiag": block_diagonal}
 BUILTINS = {
-    "inv": invert, "pinv": pseudo_inverse, "expm": matrix_exponential, "floor": each(floor),
+    "inv": invert, "expm": matrix_exponential, "floor": each(floor),
     **{name: each(lambda x, name=name: function(name, x))
        for name in ("exp", "sin", "cos", "sqrt", "log")},
     "min": extreme("<="), "max": extreme(">="), "diag": diagonal_or_its_matrix,
     "det": lambda a: number(determinant(a)), "norm": lambda a: number(spectral_norm(a)),
     "eye": lambda n: identity(n.whole()), "zeros": shaped(Fraction(0)), "ones": shaped(Fraction(1)),
-    "kron": kronecker, "orth": partial(orthonormal, range_of),
+    "pinv": lambda a: (invert(squared(a)) * a.transposed() if a.rows >= a.cols else
+                       a.transposed() * invert(squared(a.transposed()))),
+    "kron": kronecker, 
+    "orth": partial(orthonormal, lambda a: a.part(range(a.rows), reduced(a, a.cols)[0])),
     "null": partial(orthonormal, null_space), "units": units,
     "rank": lambda *arguments: number(Fraction(checked_rank(*arguments))),
     "obsv": observability, "c2d": discretized, "gramian": gramian, "chebyshev": chebyshev,
@@ -429,8 +428,7 @@ def at_duals(apply, value):
     try:
         return apply(filled(*value.shape(), lambda i, j: Dual({
             0: value[i, j], 1 + i + j * value.rows: Fraction(1)})))
-    finally:
-        OPEN_JACOBIANS.pop()
+    finally: OPEN_JACOBIANS.pop()
 def slope(x, k): return x.terms.get(k, Fraction(0)) if isinstance(x, Dual) else Fraction(0)
 def jacobian(expression, variable, scope):
     """The derivatives of the expression by an argument or a variable of forall. Definitions without

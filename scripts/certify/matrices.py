@@ -200,10 +200,8 @@ def witness(a, strict):
         if k is None: continue
         v = flat(null_space(shifted.part(range(k), range(k + 1))).map(rounded))
         v += [Fraction(0)] * (a.rows - k - 1)
-        try:
-            s = sign(form(v, a, v))
-        except Undecided:
-            continue
+        try: s = sign(form(v, a, v))
+        except Undecided: continue
         if s < 0: return v
         if s == 0 and strict: found = v
     return found

@@ -43,14 +43,11 @@ def prove_no(gain, certificate, name="no solution"):
         if moved := equal_effects(blocks):
             blocks = blocks_of(Statement(gain, Symbols(moved)), certificate["multipliers"])
         for tiny, small in CHOICES:
-            try:
-                why = prove_inside(blocks, Fraction(tiny), Fraction(small))
-            except Undecided as error:
-                why = str(error)
+            try: why = prove_inside(blocks, Fraction(tiny), Fraction(small))
+            except Undecided as error: why = str(error)
             if why is None: return Claim(name, "proved", "multipliers near those of the file")
         return Claim(name, "open", why)
-    except NOT_EVALUATED as error:
-        return Claim(name, "open", reason(error))
+    except NOT_EVALUATED as error: return Claim(name, "open", reason(error))
 def prove_inside(blocks, tiny, small):
     """None if multipliers with c = 0 and v > 0 (or v = 0, strictly) are shown to exist, else why
     not. The constant parts are the coefficients of x_0 = 1 > 0, with v as its multiplier: another
@@ -85,8 +82,7 @@ def prove_optimum(gain):
         shown = ten_digits(low, "ROUND_FLOOR")
         if low < stated - abs(stated) / NEAR: return Claim(name, "open", "shown: >= " + shown)
         return Claim("objective >= " + shown, "proved", "multipliers near those of the file")
-    except NOT_EVALUATED as error:
-        return Claim(name, "open", reason(error))
+    except NOT_EVALUATED as error: return Claim(name, "open", reason(error))
 def blocks_of(statement, multipliers):
     """The inequalities that have multipliers. A label is such as `flow at i = 1, tau = 0.7`."""
     expect(isinstance(multipliers, dict), "multipliers: an object")

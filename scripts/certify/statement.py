@@ -88,7 +88,7 @@ def check_results(gain):
         parts.extend(map(str, algebraic.get("polynomial", [])))
         for term in algebraic.get("terms", []):
             add("", {term.get("block"): term.get("vector", [])})
-            parts.extend(map(str, term.get("weight", [])))
+            parts.extend(map(str, [*term.get("weight", []), *listed(term.get("step", []))]))
     for name, text in gain["functions"].items(): parts += [name, str(text)]
     for name, entry in gain["gain_functions"].items(): parts += [name, entry.get("formula", "")]
     expect(isinstance(gain["proof"], dict), "proof: an object")
@@ -97,18 +97,15 @@ def matrix_of_json(value, where):
     """The matrix of a number, a list of numbers (a column) or a list of rows."""
     rows = [listed(row) for row in listed(value)]
     expect(all(isinstance(x, Numeral) for row in rows for x in row), where + ": numbers")
-    try:
-        return Matrix([[decimal(x) for x in row] for row in rows])
-    except Unsupported as error:
-        raise Damaged("%s: %s" % (where, error))
+    try: return Matrix([[decimal(x) for x in row] for row in rows])
+    except Unsupported as error: raise Damaged("%s: %s" % (where, error))
 class TextLoader(yaml.BaseLoader):
     """YAML with all scalars as texts (0.1 is a decimal, not a double), without repeated keys."""
     def construct_mapping(self, node, deep=False):
         unique_keys([(str(key.value), None) for key, _ in node.value])
         return super().construct_mapping(node, deep)
 def read_yaml(text):
-    try:
-        result = yaml.load(text, Loader=TextLoader)
+    try: result = yaml.load(text, Loader=TextLoader)
     except (yaml.YAMLError, RecursionError, ValueError) as error:
         raise Damaged("a YAML text was expected: %s" % " ".join(str(error).split()))
     expect(isinstance(result, dict), "a YAML mapping")
@@ -204,8 +201,7 @@ class Statement:
     def later(self, name, compute): self.scope.names[name] = Later(compute)
     def declare(self, name, compute, declared):
         """The name gets its value now; if there is none, its use is refused."""
-        try:
-            self.scope.names[name] = compute(name, declared)
+        try: self.scope.names[name] = compute(name, declared)
         except NOT_EVALUATED as error:
             text = "%s of the datum %s" % (error, name)
             self.later(name, lambda: refuse(text))
@@ -268,8 +264,7 @@ class Statement:
         try:
             shapes = [self.shape(s) for s in declared["of"].values()]
             self.unify(declared["shape"], result.apply(*[zeros(*s) for s in shapes[:len(names)]]))
-        except NOT_EVALUATED:
-            pass
+        except NOT_EVALUATED: pass
         return result
     def basis(self, name, x, shape):
         """The basis of the file, if it is the one of the text up to rounding; of gains any."""
@@ -302,10 +297,8 @@ class Statement:
         return [parse(rows), parse(rows if kind else cols or "1")]
     def size(self, tree):
         """The whole number that a text is, or None."""
-        try:
-            return matrix(tree, self.scope).whole()
-        except Unsupported:
-            return None
+        try: return matrix(tree, self.scope).whole()
+        except Unsupported: return None
     def shape(self, shape): return tuple(self.size(p) for p in self.parts(shape))
     def unify(self, shape, value):
         for tree, size in zip(self.parts(shape), value.shape()): self.unify_size(tree, size)

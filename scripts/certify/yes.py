@@ -50,8 +50,7 @@ def prove(name, comparison, domain, near, only_ordinary=False):
         if comparison.sign == "==": return prove_equation(name, comparison, domain, near)
         if domain.intervals: return prove_for_all(name, comparison, domain, only_ordinary)
         return judge(name, comparison, inequality(comparison, domain.scope))
-    except NOT_EVALUATED as error:
-        return Claim(name, "open", reason(error))
+    except NOT_EVALUATED as error: return Claim(name, "open", reason(error))
 def judge(name, comparison, a, point={}):
     """One symmetric matrix: a > 0 or a >= 0."""
     strict, found = comparison.sign in ("<", ">"), classify(a)
@@ -124,8 +123,7 @@ def prove_for_all(name, comparison, domain, only_ordinary):
                 continue
             if is_positive_on_box(a): continue
             suspicious = not is_positive(a.map(lambda x: x.constant()))
-        except Undecided as error:
-            suspicious, why = True, str(error)
+        except Undecided as error: suspicious, why = True, str(error)
         if a and suspicious and only_ordinary: return Claim(name, "open", why)
         if (suspicious or pieces == 1) and not only_ordinary:
             found = refutation(name, comparison, domain, piece, pieces == 1)
@@ -160,8 +158,7 @@ def refutation(name, comparison, domain, piece, corners):
             at = {i.title: x for i, x in zip(domain.intervals, point)}
             found = judge(name, comparison, inequality(comparison, scope_at(domain, point)), at)
             if found.result == "refuted": return found
-        except Undecided:
-            pass
+        except Undecided: pass
     return None
 # Gains.
 def gains_of(statement):
@@ -191,8 +188,7 @@ def compare_gains(statement):
                 worst = max(worst, distance(value, decimals))
                 if not argument: statement.scope.names.setdefault(name, value)
             if parts or not same: yield Gain(name, worst, "")
-        except NOT_EVALUATED as error:
-            yield Gain(name, None, reason(error))
+        except NOT_EVALUATED as error: yield Gain(name, None, reason(error))
 def distance(value, decimals):
     """The largest difference of two matrices in units of the last place of the second."""
     if value.flexible: raise Unsupported("a gain without a size")
@@ -212,8 +208,7 @@ def replaced_unknowns(statement):
                 if a[:2] == ("call", ("name", "inv")):
                     p, y = member(a[2][0], scope), member(b, scope)
                     if p in known and y in known and p != y: found.setdefault(y, (p, name, left))
-        except NOT_EVALUATED:
-            pass
+        except NOT_EVALUATED: pass
     return found
 def member(tree, scope):
     """The name in the file of an unknown, or of a member P(i) of a family."""
@@ -245,16 +240,13 @@ def prove_objective(gain):
         text = statement.method.get("minimize") or refuse("the objective of another problem")
         found = Comparison(parse(text), "<=", ("number", limit), [])
         return judge(name, found, inequality(found, statement.scope))
-    except NOT_EVALUATED as error:
-        return Claim(name, "open", reason(error))
+    except NOT_EVALUATED as error: return Claim(name, "open", reason(error))
 def prove_yes(gain, claims=None):
     """(claims, gains, the gains at whose printed values all claims are proved again). The claims
     are appended to the given list, which so holds what was found when the time ran out."""
     statement, claims = Statement(gain, values_of_file(gain)), [] if claims is None else claims
-    try:
-        gains, found = list(compare_gains(statement)), replaced_unknowns(statement)
-    except NOT_EVALUATED as error:
-        gains, found = [Gain("all gains", None, reason(error))], {}
+    try: gains, found = list(compare_gains(statement)), replaced_unknowns(statement)
+    except NOT_EVALUATED as error: gains, found = [Gain("all gains", None, reason(error))], {}
     at_both, at_gains = set(), []
     hull = Statement(gain, values_with_gains(gain, found, True)) if found else None
     claims.extend(prove_requirements(statement, hull, at_both))

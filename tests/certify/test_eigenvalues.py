@@ -111,7 +111,10 @@ class Eigenvalues(unittest.TestCase):
     def test_equations_take_multipliers_of_any_sign(self):
         text = LYAPUNOV % (">", CONTINUOUS % "==", self.A)
         for p, e, expected in ((1, -1, "proved"), (1, 1, "open"), (-1, 1, "open"), (0, 0, "open")):
-            given = self.given(2, {"positive": [0, p, 0], "decrease": [e, 0, 0]})
+            # Of [0, E; E', 0] >= 0 the vector (e z/2, z) takes e z*E z.
+            z = [[Fraction(e * x, 2) for x in row] for row in self.Z] + self.Z
+            given = self.given(2, {"positive": [0, p, 0], "decrease": [1, 0, 0]},
+                               vectors={"positive": self.Z, "decrease": z})
             self.assertEqual(answer(text, given), expected, (p, e))
 
     def test_damage(self):
@@ -141,8 +144,33 @@ class Eigenvalues(unittest.TestCase):
         for most, expected in (("1", "proved"), ("1.999", "proved"), ("2", "open"), ("3", "open")):
             self.assertEqual(answer(text % most, given), expected, most)
 
+    def test_steps(self):
+        # Row 1 of P must be 0, so row 1 of Q, so P(2, 2) + Q(1, 1) = 0, which is to be at least 1.
+        text = ("problem: p\nmethod:\n  unknowns: {P: symmetric 2, Q: symmetric 2}\n  require:\n"
+                "    first: P(1, 1) %s\n    second: \"P %s 0\"\n    third: Q >= 0\n"
+                "    fourth: Q(1, 1) == P(1, 2)\n    fifth: \"Q(1, 2) %s 1\"\n")
+        def given(last):
+            def term(block, vector, step):
+                return {"block": block, "vector": [[x] for x in vector.split()],
+                        "weight": ["1", "0", "0"], "step": helper.Numeral(step)}
+            found = certificate([0, 1], (0, 0), {}, {})
+            found["algebraic"]["terms"] = [
+                term("first", "1", 1), term("second", "1 0", 1), term("fourth", "1 0", 2),
+                term("fourth", "0 1", 2), term("third", "1 0", last), term("fifth", "1", 4)]
+            return found
+        for first, second, fifth, last, expected in (
+                ("<= 0", ">=", ">=", 3, "proved"), ("<= 0", ">=", ">", 3, "proved"),
+                ("<= 0", ">", ">=", 3, "proved"), ("<= -1", ">=", "<=", 3, "proved"),
+                ("<= 0", ">=", "<=", 3, "open"), ("<= 1e-90", ">=", ">=", 3, "open"),
+                ("<= 0", ">=", ">=", 4, "open"), ("<= 0", ">=", ">=", 1, "open")):
+            self.assertEqual(answer(text % (first, second, fifth), given(last)), expected,
+                             (first, second, fifth, last))
+        weightless = given(3)
+        for term in weightless["algebraic"]["terms"][:2]: term["weight"] = ["0", "0", "0"]
+        self.assertEqual(answer(text % ("<= 0", ">=", ">="), weightless), "open")
+
     def test_files(self):
-        for name in ("lyapunov-no", "undetectable", "uncontrollable"):
+        for name in ("lyapunov-no", "undetectable", "uncontrollable", "two-steps"):
             found = gain(name)
             self.assertIn("algebraic", found["certificate"])
             self.assertEqual(prove_no(found, found["certificate"]).result, "proved", name)

@@ -18,7 +18,7 @@ from yes import prove_objective, prove_yes
 
 YES = ["lyapunov", "observer", "sampled", "equations", "modes", "polytope", "clock", "box",
        "bounds", "edge"]
-NO = ["lyapunov-no", "undetectable", "uncontrollable", "sampled-no", "disk-no"]
+NO = ["lyapunov-no", "undetectable", "uncontrollable", "sampled-no", "disk-no", "two-steps"]
 
 def results(found):
     claims, gains, at_gains = prove_yes(found)

@@ -118,5 +118,18 @@ TEST(FacialReduction, AnObjectiveOfAnEquationAndAFaceIsFound) {
                  -2, "face");
 }
 
+/// Each step is in the gain file, so that it can be checked.
+TEST(FacialReduction, AChainOfStepsIsACertificateInFractions) {
+  const model::Gains gains = solve(
+      "  unknowns: {P: symmetric 2}\n"
+      "  require: {size: trace(P) <= 0, positive: P >= 0, off: \"P(1, 2) == 1\"}\n");
+  ASSERT_EQ(gains.verdict, model::Verdict::no);
+  const model::AlgebraicRecord& record = gains.certificate.value().algebraic.value();
+  EXPECT_EQ(record.steps(), 2);
+  for (const auto& term : record.terms)
+    EXPECT_EQ(term.step == 1, term.block == "off") << term.block;
+  EXPECT_FALSE(gains.certificate->multipliers.empty());
+}
+
 }  // namespace
 }  // namespace gainsmith::design

@@ -128,6 +128,7 @@ TEST(ForallTest, ContractionFactorsOfConstantGains) {
   EXPECT_EQ(box.verdict, model::Verdict::undecided);
   EXPECT_NE(box.solver.message.find("hull"), std::string::npos);
   EXPECT_EQ(box.certificate.value().about, "hull");
+  EXPECT_TRUE(box.certificate.value().exact);  // of the corners as they are in double
 }
 
 TEST(ForallTest, SlicesTightenTheHull) {

@@ -110,9 +110,19 @@ TEST(RationalAlgebraTest, TellsSemidefiniteFromIndefiniteWithoutATolerance) {
         v(echelon.pivots[static_cast<std::size_t>(r)]) = -echelon.rows(r, free);
       M -= (v * v.transpose()) * power_of_ten(-60);
       EXPECT_FALSE(is_rational_semidefinite(M));
+      for (const bool definite : {false, true}) {
+        const RationalMatrix w = rational_witness(M, definite).value();
+        EXPECT_FALSE(is_rational_zero(w));
+        const Rational value = (w.transpose() * M * w)(0, 0);
+        EXPECT_TRUE(definite ? value <= 0 : value < 0) << value;
+      }
     }
   }
   EXPECT_TRUE(is_rational_definite(RationalMatrix(0, 0)));
+  RationalMatrix zero_corner(2, 2);
+  zero_corner << 0, 3, 3, 5;
+  const RationalMatrix w = rational_witness(zero_corner, false).value();
+  EXPECT_LT((w.transpose() * zero_corner * w)(0, 0), 0);
 }
 
 }  // namespace

@@ -64,9 +64,39 @@ TEST(FacesTest, WhatExcludesTheBlocksAtOnceHasMultipliers) {
                          1);
   faces.find_plain();
   ASSERT_TRUE(faces.excluded());
-  ASSERT_EQ(faces.excluding().S.size(), 2U);
-  EXPECT_EQ(faces.excluding().S[0](0, 0), 1);
-  EXPECT_EQ(faces.excluding().S[1](0, 0), Rational(2) / 3);
+  ASSERT_EQ(faces.chain().back().S.size(), 2U);
+  EXPECT_EQ(faces.chain().back().S[0](0, 0), 1);
+  EXPECT_EQ(faces.chain().back().S[1](0, 0), Rational(2) / 3);
+}
+
+/// P(1, 1) = 0 and P >= 0 leave P(1, 2) = 0, and [0, P(1, 2) - 1; *, 0] >= 0 leaves 1.
+TEST(FacesTest, AChainHasTheMultipliersOfEachStepInAllRows) {
+  Faces faces =
+      faces_of({block(false, {{2, matrix(2, {0, 1, 1, 0})}, {3, matrix(2, {0, 0, 0, 1})}}),
+                block(false, {{0, matrix(2, {0, -1, -1, 0})}, {2, matrix(2, {0, 1, 1, 0})}})},
+               3);
+  faces.find_plain();
+  ASSERT_TRUE(faces.excluded());
+  ASSERT_EQ(faces.chain().size(), 2U);
+  const FaceOfBlock& first = faces.chain().front().faces.front();
+  EXPECT_EQ(first.block, 0U);
+  EXPECT_EQ(first.V, matrix(2, {1, 0, 0, 0}).leftCols(1));
+  // What the first step leaves of the other block has the rows that it had.
+  EXPECT_EQ(faces.chain().back().faces.front().block, 1U);
+  EXPECT_EQ(faces.chain().back().faces.front().V.rows(), 2);
+}
+
+/// What is left has no unknowns: [1, 2; 2, 3] is not positive.
+TEST(FacesTest, NumbersAreExcludedByAVector) {
+  Faces faces = faces_of({block(true, {{0, matrix(2, {1, 2, 2, 3})}})}, 0);
+  faces.exclude_numbers();
+  ASSERT_TRUE(faces.excluded());
+  const RationalMatrix& v = faces.chain().back().faces.front().V;
+  EXPECT_LE((v.transpose() * matrix(2, {1, 2, 2, 3}) * v)(0, 0), 0);
+
+  Faces holding = faces_of({block(true, {{0, matrix(2, {2, 1, 1, 2})}})}, 0);
+  holding.exclude_numbers();
+  EXPECT_FALSE(holding.excluded());
 }
 
 TEST(FacesTest, OppositeMatricesLeaveTheirElements) {
@@ -194,7 +224,7 @@ TEST_P(PlantedFace, IsFoundThroughTheRounding) {
   Faces faces = faces_of({block(false, terms_)}, 1);
   const ExactMultipliers exact = exact_multipliers(faces, found_);
   ASSERT_EQ(exact.say, ExactMultipliers::Say::restricts);
-  faces.restrict_to(exact.faces);
+  faces.restrict_to(exact);
   ASSERT_FALSE(faces.excluded());
   EXPECT_EQ(faces.unknowns(), 1);
   // Not less than the face; where a part of the multiplier is small, a face of it that is larger.
