@@ -28,6 +28,8 @@ using Level = ode::ExponentialTable::Level;
 constexpr int exact_degree = 12;
 /// Of s_0: more leave nothing of a step.
 constexpr int most_doublings = 60;
+/// Of the imaginary part of an eigenvalue.
+constexpr double kDamped = 0.125;
 /// Of the sizes that are added up at a point: what the last terms of a series may amount to.
 constexpr double series_rounding = 4 * hybrid::kTermRounding;
 
@@ -137,8 +139,11 @@ class ExactFlow : public Flow {
       const auto scale = [](double x, int exponent) { return std::ldexp(x, exponent); };
       const Matrix balanced = numerics::in_units(M, numerics::balance(M.cwiseAbs()), scale);
       norm = balanced.cwiseAbs().colwise().sum().maxCoeff();
-      for (const auto& lambda : numbers::eigenvalues(M))
-        rate = std::max({rate, std::abs(lambda.imag()), lambda.real()});
+      // What oscillates and dies down in a few turns ends by itself before steps are that long.
+      for (const auto& lambda : numbers::eigenvalues(M)) {
+        const bool dies = -lambda.real() > kDamped * std::abs(lambda.imag());
+        rate = std::max({rate, dies ? 0 : std::abs(lambda.imag()), lambda.real()});
+      }
     }
     const double top = rate > 0 ? std::min(longest_, 1 / rate) : longest_;
     table.shortest = norm > 0 ? std::min(top, 0.5 / norm) : top;
