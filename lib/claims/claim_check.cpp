@@ -128,6 +128,15 @@ std::vector<Bounded> ClaimCheck::values(const Track& track) const {
   return values;
 }
 
+/// Whether the value is one that the dynamics have chosen, as the end of a clip: it has the same
+/// bits whatever the errors, and nothing of it is computed.
+bool ClaimCheck::is_chosen(const Track& track, std::size_t sample, const Bounded& value) const {
+  const auto at = sample * static_cast<std::size_t>(track.size);
+  return !track.is_fixed.empty() &&
+         track.is_fixed[at + static_cast<std::size_t>(claim_->value)] != 0 &&
+         value.bound <= 8 * kUnitRoundoff * std::abs(value.value);
+}
+
 /// Whether the value at a sample may differ from that at one before, the last that counts.
 bool ClaimCheck::may_change(const Track& track, std::size_t before, std::size_t sample,
                             const std::vector<Bounded>& v) const {
@@ -239,7 +248,8 @@ Finding ClaimCheck::bounded(const Track& track, bool holds) const {
     Bounded value = v[k];
     // A start that is the bound, bit by bit, counts as equal; another one may be that of a text,
     // rounded.
-    const bool is_bound = k == 0 && value.bound == 0 && value.value == b.value;
+    const bool is_exact = k == 0 ? value.bound == 0 : is_chosen(track, k, value);
+    const bool is_bound = is_exact && value.value == b.value;
     if (k == 0 && value.bound == 0 && !is_bound)
       value.bound = 8 * kUnitRoundoff * std::abs(value.value);
     const bool zero = b.value == 0;

@@ -23,7 +23,8 @@
 //   held        value + its bound <= what it must not exceed - its bound, at every sample
 //   undecided   neither
 //
-// A start that is the bound, bit by bit, counts as equal to it. So do the first points after it that
+// A start that is the bound, bit by bit, counts as equal to it, and so does a value that the dynamics
+// have chosen and not computed, as the end of a clip. So do the first points after it that
 // are there for the sake of the value alone, unless it seems to have grown by kGrown of its error.
 //
 // A claim with a tolerance d forgives excess as well, by d times the size of what must not be
@@ -124,6 +125,7 @@ class ClaimCheck {
   std::vector<double> term_sizes(const Track& track, const std::vector<Bounded>& v) const;
   bool counts(const Track& track, std::size_t sample) const;
   bool is_crowded(const Track& track, std::size_t sample) const;
+  bool is_chosen(const Track& track, std::size_t sample, const Bounded& value) const;
   bool is_of_another(const Track& track, std::size_t sample) const;
   bool may_change(const Track& track, std::size_t before, std::size_t sample,
                   const std::vector<Bounded>& v) const;

@@ -27,7 +27,7 @@ struct RunCost {
 class RunCosts {
  public:
   RunCosts(const std::vector<RunCost>& costs, const hybrid::StateLayout& layout,
-                const numbers::Values& constants);
+           const numbers::Values& constants);
 
   /// Writes c to its element, in all flows and jumps of a run. Where q or g has no value c is not a
   /// number from there on. `moved`: c is moved by what the quadrature may be off, so that the

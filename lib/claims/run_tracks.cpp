@@ -45,7 +45,10 @@ RunTracks::RunTracks(const RunSetup& setup)
     const hybrid::Slot& slot = setup.system.layout.slots[k];
     const auto first = rounds_.begin() + slot.offset;
     std::fill(first, first + slot.shape.size(), !is_whole(variables[k].kind));
+    if (setup.system.moves[k] == hybrid::Moves::rests)
+      for (Index e = slot.offset; e < slot.offset + slot.shape.size(); ++e) resting_.push_back(e);
   }
+  chosen_.resize(rounds_.size(), 0);
   functions_.reserve(setup.functions.size());  // the balls point into it
   for (const expr::Program& function : setup.functions) {
     functions_.emplace_back(function, setup.layout, setup.system.constants);
@@ -117,6 +120,8 @@ VectorXd RunTracks::errors(const VectorXd& fine, const VectorXd& around) const {
 void RunTracks::append(const SamplePoint& point, std::int64_t j, const VectorXd& coarse,
                        const VectorXd& fine, const VectorXd& around, int pattern, int stride,
                        bool within_instant) {
+  parting_->see(point.t, fine, coarse);
+  for (const Index e : resting_) chosen_[static_cast<std::size_t>(e)] = coarse(e) == fine(e);
   find_fresh(point, coarse, fine, around);
   VectorXd value = values(fine);
   VectorXd rounded = VectorXd::Zero(value.size());
@@ -149,7 +154,11 @@ void RunTracks::append(const SamplePoint& point, std::int64_t j, const VectorXd&
     if (!is_open) {
       rounding_.push_back(balls_[k].rounding(fine));
       const double size = std::fmax(rounded(row), rounding_.back() / kUnitRoundoff);
-      if (parts(k, value(row), difference(row), size)) difference(row) = kUnknown;
+      if (differs(k, value(row), difference(row), size)) {
+        difference(row) = std::fmax(difference(row), difference_between(k, coarse, fine));
+        part(k);
+      }
+      if (has_parted(k)) difference(row) = kUnknown;
       last.is_known = true;
       last.value = value(row);
       last.difference = difference(row);
@@ -165,7 +174,8 @@ void RunTracks::append(const SamplePoint& point, std::int64_t j, const VectorXd&
       bound += std::abs(hull.value - value(row));
     else if (!std::isnan(hull.value))
       value(row) = hull.value;
-    difference(row) = parts(k, value(row), 0, 0) ? kUnknown : 0;
+    (void)differs(k, value(row), 0, 0);
+    difference(row) = has_parted(k) ? kUnknown : 0;
     rounding_.push_back(bound);
   }
   track_.t.push_back(point.t);
@@ -177,7 +187,20 @@ void RunTracks::append(const SamplePoint& point, std::int64_t j, const VectorXd&
                        difference.data() + difference.size());
 }
 
-bool RunTracks::parts(std::size_t function, double value, double difference, double size) {
+/// What the value is off by between the two runs at most, where they differ by little of its
+/// variables but by much of its range: it need not lie between its values at both.
+double RunTracks::difference_between(std::size_t function, const VectorXd& coarse,
+                                     const VectorXd& fine) {
+  double most = 0;
+  const double value = functions_[function].number(fine);
+  for (const double share : {0.25, 0.5, 0.75}) {
+    const double between = functions_[function].number(fine + share * (coarse - fine));
+    most = std::fmax(most, std::abs(between - value));
+  }
+  return most;
+}
+
+bool RunTracks::differs(std::size_t function, double value, double difference, double size) {
   const auto claim = static_cast<std::size_t>(setup_->first_of_claim[function]);
   Range& range = ranges_[function];
   range.low = range.seen ? std::fmin(range.low, value) : value;
@@ -185,10 +208,14 @@ bool RunTracks::parts(std::size_t function, double value, double difference, dou
   range.seen = true;
   sizes_[claim] = std::fmax(sizes_[claim], std::fmax(std::abs(value), size));
   // A value that is nothing but errors of its terms goes on to be known to them.
-  if (difference > kParted * (range.high - range.low) &&
-      difference > kPartedAccuracy * track_.accuracy * sizes_[claim])
-    parted_[claim] = 1;
-  return parted_[claim] != 0;
+  return difference > kParted * (range.high - range.low) &&
+         difference > kPartedAccuracy * track_.accuracy * sizes_[claim];
+}
+
+void RunTracks::part(std::size_t function) {
+  if (std::ranges::any_of(functions_[function].used(),
+                          [&](Index variable) { return parting_->has_parted(variable); }))
+    parted_[static_cast<std::size_t>(setup_->first_of_claim[function])] = 1;
 }
 
 void RunTracks::add_flow(const TwinFlow& flow, const hybrid::Trajectory& run, double certain) {
@@ -341,6 +368,7 @@ const Track& RunTracks::run(std::uint64_t seed, std::uint64_t run, double factor
   hybrid::Trajectory fine = simulator_.run(seed, run, accuracy.times(kSharper), {}, twin);
   costs_.add_to(coarse, true);
   costs_.add_to(fine, false);
+  parting_.emplace(fine.start, accuracy.relative, 0);
   rises_ = limits_of_rises(fine.start, accuracy.relative);
   amid_ = false;
   ranges_.assign(functions_.size(), {});

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "base/whole_number.h"
 #include "claims/event_doubts.h"
+#include "claims/parting.h"
 #include "claims/run_setup.h"
 #include "claims/text_ball.h"
 #include "claims/track.h"
@@ -28,9 +30,11 @@ namespace gainsmith::claims {
 ///             Where such an error of the variables makes a branch uncertain, all values that are
 ///             possible
 ///
-/// Once the two runs differ by more than a thousandth of the range of a value so far, they are two
-/// runs that have nothing to do with each other: from there on bounds of the claim are infinite. So
-/// they are from where its text branches more often than can be searched.
+/// Once the two runs differ by more than a thousandth of the range of a value so far, and of that of
+/// one of its variables, they are two runs that have nothing to do with each other: from there on
+/// bounds of the claim are infinite. Two signals that are equal differ by nothing but rounding, which is
+/// as large as their difference and says nothing of that kind. Bounds are infinite, too, from where a
+/// text branches more often than can be searched.
 ///
 /// Where it is not certain which events happen, because the two runs take others or because they
 /// lie within their errors (event_doubts.h), the run is lost: the samples end there. Events at one
@@ -56,8 +60,15 @@ class RunTracks {
   void add_jump(const TwinParts& twins, std::size_t at);
   /// The part of both runs that is certain; whether that is all.
   bool add_parts(const hybrid::Trajectory& coarse, const hybrid::Trajectory& fine);
-  /// Whether the two runs have parted in a value; `size`: of the terms that it is the sum of.
-  bool parts(std::size_t function, double value, double difference, double size);
+  /// Whether a value differs by a part of its range so far; `size`: of the terms that it is the sum of.
+  bool differs(std::size_t function, double value, double difference, double size);
+  double difference_between(std::size_t function, const Eigen::VectorXd& coarse,
+                            const Eigen::VectorXd& fine);
+  /// It differs: the two runs have parted in it if they have in one of its variables.
+  void part(std::size_t function);
+  bool has_parted(std::size_t function) const {
+    return parted_[static_cast<std::size_t>(setup_->first_of_claim[function])] != 0;
+  }
   RiseLimits limits_of_rises(const Eigen::VectorXd& start, double accuracy);
   void end(const hybrid::Trajectory& coarse, const hybrid::Trajectory& fine, bool certain);
   void widen(std::size_t first);
@@ -68,7 +79,8 @@ class RunTracks {
   Eigen::VectorXd values(const Eigen::VectorXd& x);
   /// Whether rounding reaches an element (simulate/last_places.h).
   bool rounds(Eigen::Index element, double value) const {
-    return rounds_[static_cast<std::size_t>(element)] && !is_exact_whole(value);
+    const auto e = static_cast<std::size_t>(element);
+    return rounds_[e] && chosen_[e] == 0 && !is_exact_whole(value);
   }
   Eigen::VectorXd with_rounding(const Eigen::VectorXd& x, int bit) const;
   Eigen::VectorXd errors(const Eigen::VectorXd& fine, const Eigen::VectorXd& around) const;
@@ -76,12 +88,17 @@ class RunTracks {
   const RunSetup* setup_;
   simulate::Simulator simulator_;
   RunCosts costs_;
+  std::optional<Parting> parting_;  ///< of the variables of this run
   std::vector<RunValue> functions_;
   std::vector<TextBall> balls_;  ///< of the functions
   EventDoubts doubts_;
   std::vector<char> rests_;   ///< by function: of a claim over another event than the last
   bool amid_ = false;         ///< what comes is neither the start nor the last flow of a run
   std::vector<bool> rounds_;  ///< by element: whether it is no whole number, which is exact
+  std::vector<Eigen::Index> resting_;  ///< elements that no flow changes
+  /// By element: whether it rests and has the same bits in both runs. A value that is computed is
+  /// moved in one of them; this one has been chosen, as the end of a clip.
+  std::vector<char> chosen_;
   Track track_;
   std::vector<double> rounding_;  ///< of the evaluation, as the bounds of the track
   RiseLimits rises_;

@@ -6,6 +6,7 @@
 
 #include "base/number.h"
 #include "base/stop.h"
+#include "claims/parting.h"
 #include "claims/sample_points.h"
 #include "claims/tolerances.h"
 #include "ode/tolerances.h"
@@ -76,23 +77,11 @@ TwinRun TwinRuns::operator()(std::uint64_t seed, std::uint64_t run, double usual
 /// At the ends of all steps, and before and after jumps.
 void TwinRuns::compare(const TwinParts& twins, const simulate::Accuracy& accuracy,
                        TwinRun& result) const {
-  VectorXd low = result.run.start, high = low;
-  result.parted = VectorXd::Constant(low.size(), std::numeric_limits<double>::infinity());
-  const auto see = [&](double t, const VectorXd& own, const VectorXd& other) {
-    low = low.cwiseMin(own);
-    high = high.cwiseMax(own);
-    for (Index e = 0; e < low.size(); ++e) {
-      const double difference = std::abs(own(e) - other(e));
-      const double size = std::fmax(std::abs(low(e)), std::abs(high(e)));
-      if (difference > kParted * (high(e) - low(e)) &&
-          difference > kPartedAccuracy * (accuracy.relative * size + accuracy.absolute))
-        result.parted(e) = std::fmin(result.parted(e), t);
-    }
-  };
+  Parting parting(result.run.start, accuracy.relative, accuracy.absolute);
   for (const auto& part : twins.parts) {
     if (const auto* jump = std::get_if<TwinJump>(&part)) {
-      see(jump->jump->t, jump->jump->before, jump->twin_before);
-      see(jump->jump->t, jump->jump->after, jump->twin_after);
+      parting.see(jump->jump->t, jump->jump->before, jump->twin_before);
+      parting.see(jump->jump->t, jump->jump->after, jump->twin_after);
       continue;
     }
     const auto& flow = std::get<TwinFlow>(part);
@@ -102,10 +91,11 @@ void TwinRuns::compare(const TwinParts& twins, const simulate::Accuracy& accurac
       // One of two flows that lead to other events is longer.
       if (flow.twin != nullptr && step.to - from > (1 + kInstantOfRun) * length) break;
       const bool last = step.to == flow.flow->to();
-      see(step.to, last ? flow.flow->end : step(step.to),
-          flow.twin_at(length > 0 ? std::min((step.to - from) / length, 1.0) : 1));
+      parting.see(step.to, last ? flow.flow->end : step(step.to),
+                  flow.twin_at(length > 0 ? std::min((step.to - from) / length, 1.0) : 1));
     }
   }
+  result.parted = parting.since();
 }
 
 }  // namespace gainsmith::claims

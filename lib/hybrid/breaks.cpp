@@ -28,7 +28,7 @@ namespace {
 /// such vectors. A form of a sum, (x - z)'*P*(x - z), is a term: its rounding is small where it is.
 class TermSizes {
  public:
-  /// `of_sign`: of what is compared with 0, where the rounding inside of a size counts.
+  /// `of_sign`: of what is compared with 0, where the rounding inside of a function counts.
   explicit TermSizes(Program& program, bool of_sign = false)
       : program_(program), of_sign_(of_sign) {}
 
@@ -56,8 +56,18 @@ class TermSizes {
         if (has_sum(at)) return rearranged(here);
         break;
       case Op::abs:
+      case Op::sin:
+      case Op::tanh:  // they round as their arguments do
         if (of_sign_) return of(operands[0]);
         break;
+      case Op::atan2:  // by (|dy| + |dx|)/(|y| + |x|), but for a factor
+        if (!of_sign_ || !here.shape.is_scalar()) break;
+        return made(
+            Op::divide,
+            {made(Op::add, {of(operands[0]), of(operands[1])}, here),
+             made(Op::add, {made(Op::abs, {operands[0]}, here), made(Op::abs, {operands[1]}, here)},
+                  here)},
+            here);
       default:
         break;
     }
@@ -172,6 +182,12 @@ bool add_roots(const ode::RootFunction& g, bool jumps, double from, double to,
   return true;
 }
 
+/// Whether g is nothing but rounding all along, so that its sign says nothing.
+bool is_noise(const std::function<double(double)>& g, double noise, double from, double to) {
+  return std::ranges::all_of(ode::first_points(from, to),
+                             [&](double t) { return std::abs(g(t)) <= noise; });
+}
+
 /// Adds the place where |g| is least on a step, if it is small there and not at an end.
 void add_near(const std::function<double(double)>& g, double from, double to,
               std::vector<double>& near) {
@@ -243,11 +259,7 @@ Program terms_of_sign(Program program) {
 Breaks::Breaks(const Program& program, const StateLayout& layout, const numbers::Values& constants,
                const std::function<bool(const std::string&)>& moves) {
   for (expr::Branch& text : expr::branches_of(program, moves)) {
-    Program terms_of = text.difference;
-    // A sine rounds as its argument does.
-    if (text.waves)
-      terms_of.result = terms_of.code[static_cast<std::size_t>(terms_of.result)].operands[0];
-    auto terms = std::make_unique<const Program>(absolute_terms(std::move(terms_of)));
+    auto terms = std::make_unique<const Program>(terms_of_sign(text.difference));
     auto own = std::make_unique<const Program>(std::move(text.difference));
     PointFunction value(*own, layout, constants);
     PointFunction sizes(*terms, layout, constants);
@@ -324,6 +336,7 @@ std::optional<std::vector<ode::Break>> Breaks::on(const std::function<const Vect
         return value->second.size() > 0 ? value->second(e)
                                         : std::numeric_limits<double>::quiet_NaN();
       };
+      if (is_noise(difference, kAddedUp * terms, from, to)) continue;
       if (!add_roots({difference, false, kAddedUp * terms}, text.jumps, from, to, breaks))
         return std::nullopt;
       if (near != nullptr) add_near(difference, from, to, *near);

@@ -55,7 +55,46 @@ class Terms {
     return known_[k];
   }
 
+  /// Those of what is computed: 0 where the result is a value as it is, as that of clip(u, -m, m)
+  /// at its ends.
+  int computed(int at) {
+    const Instruction here = program_.code[static_cast<std::size_t>(at)];
+    const std::vector<int>& operands = here.operands;
+    if (only_arranges(program_, at)) return made(Op::zeros, {}, here);
+    switch (here.op) {
+      case Op::minimum:
+        return chosen(at, computed(operands[1]), computed(operands[0]));
+      case Op::maximum:
+        return chosen(at, computed(operands[0]), computed(operands[1]));
+      case Op::where:
+        return made(Op::where, {operands[0], computed(operands[1]), computed(operands[2])}, here);
+      case Op::negate:
+      case Op::abs:
+        return computed(operands[0]);
+      case Op::transpose:
+      case Op::blocks:
+      case Op::index:
+      case Op::fill:
+      case Op::diagonal_matrix:
+      case Op::diagonal_of: {
+        std::vector<int> parts;
+        for (const int one : operands) parts.push_back(computed(one));
+        return made(here.op, std::move(parts), here);
+      }
+      default:
+        return of(at);
+    }
+  }
+
  private:
+  /// `larger` where the first operand of a minimum or maximum is the larger one.
+  int chosen(int at, int larger, int smaller) {
+    Instruction here = program_.code[static_cast<std::size_t>(at)];
+    const int difference = made(Op::subtract, {here.operands[0], here.operands[1]}, here);
+    here.attributes = {1};
+    return made(Op::where, {difference, larger, smaller}, here);
+  }
+
   int make(int at) {
     const Instruction here = program_.code[static_cast<std::size_t>(at)];
     const std::vector<int>& operands = here.operands;
@@ -115,7 +154,7 @@ class Terms {
 std::optional<Program> rounding_terms(const Program& program) {
   if (only_arranges(program, program.result)) return std::nullopt;
   Program result = program;
-  result.result = Terms(result).of(program.result);
+  result.result = Terms(result).computed(program.result);
   return result;
 }
 

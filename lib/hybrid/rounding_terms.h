@@ -8,8 +8,8 @@
 namespace gainsmith::hybrid {
 
 /// The sizes of the terms that a text is the sum of, element by element: sums, products and
-/// matrices of the absolute values of their parts. None where nothing is computed: of a text that
-/// only chooses and arranges values.
+/// matrices of the absolute values of their parts. 0 where nothing is computed, since a value is
+/// chosen or arranged; none where that is so of all.
 std::optional<expr::Program> rounding_terms(const expr::Program& program);
 
 /// absolute_terms (breaks.h) of a text whose sign matters: those of abs(u) are those of u.

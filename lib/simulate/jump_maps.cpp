@@ -112,18 +112,18 @@ void JumpMaps::apply(Map& map, VectorXd& own) {
 void JumpMaps::move(MapEntry& entry, const VectorXd& own, numbers::Matrix& value) const {
   const bool symmetric = is_symmetric_state(*system_, entry.variable);
   const Eigen::Index first = system_->layout.slots[entry.variable].offset;
+  numbers::Matrix sizes = value.cwiseAbs();  // where those of its terms have no value
   try {
-    const numbers::Matrix& sizes = (*entry.terms)(own);
-    for (Eigen::Index column = 0; column < value.cols(); ++column)
-      for (Eigen::Index row = symmetric ? column : 0; row < value.rows(); ++row) {
-        // What a branch leaves as it was has not been computed.
-        if (value(row, column) == own(first + column * value.rows() + row)) continue;
-        value(row, column) += moved_->of(value(row, column), sizes(row, column));
-        if (symmetric) value(column, row) = value(row, column);
-      }
+    sizes = (*entry.terms)(own);
   } catch (const expr::EvaluationError&) {
-    // Without sizes it is not moved.
   }
+  for (Eigen::Index column = 0; column < value.cols(); ++column)
+    for (Eigen::Index row = symmetric ? column : 0; row < value.rows(); ++row) {
+      // What a branch leaves as it was has not been computed.
+      if (value(row, column) == own(first + column * value.rows() + row)) continue;
+      value(row, column) += moved_->of(value(row, column), sizes(row, column));
+      if (symmetric) value(column, row) = value(row, column);
+    }
 }
 
 void JumpMaps::check(const MapEntry& entry, const VectorXd& own, numbers::Matrix& value) const {
