@@ -13,17 +13,19 @@ class Parting {
   /// integrated.
   Parting(const Eigen::VectorXd& start, double relative, double absolute);
 
+  /// The first variables have been computed from terms of these sizes; those of size 0 have not.
+  void compute(const Eigen::VectorXd& terms);
   /// The values of both at a time, in order of time.
   void see(double t, const Eigen::VectorXd& own, const Eigen::VectorXd& other);
 
   /// By variable, n x 1: from when on they differ by more than a thousandth of its range so far, and
-  /// by more than a thousand times the accuracy; infinite: never.
+  /// by more than a thousand times the accuracy of what it is computed from; infinite: never.
   const Eigen::VectorXd& since() const { return since_; }
   bool has_parted(Eigen::Index variable) const { return since_(variable) < kNever; }
 
  private:
   static constexpr double kNever = std::numeric_limits<double>::infinity();
-  Eigen::VectorXd low_, high_, since_;
+  Eigen::VectorXd low_, high_, since_, terms_;
   double relative_, absolute_;
 };
 

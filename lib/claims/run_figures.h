@@ -34,7 +34,8 @@ class FigureOf {
   double until() const { return until_; }
   /// The variables that its number is the value at, in the last run; empty: not at one moment.
   const Eigen::VectorXd& moment() const { return moment_; }
-  /// What it changes by where a value comes within its errors of the level below which it settles.
+  /// What the difference of two runs does not show of the last run: where a value comes within its
+  /// errors of the level below which it settles, and what series of exact flows leave of an integral.
   double own_error(const hybrid::Trajectory& run);
   std::optional<RunValue>& value() { return value_; }
   /// Of the last run; only of figures `nees` and `nis` they have a meaning.
@@ -61,6 +62,7 @@ class FigureOf {
   bool after_;
   std::optional<Eigen::Index> passes_;
   Squares squares_;
+  double size_ = 0;  ///< of an integral: that of the absolute values
   double until_ = 0;
   Eigen::VectorXd moment_;
 };

@@ -45,9 +45,9 @@ RunTracks::RunTracks(const RunSetup& setup)
     const hybrid::Slot& slot = setup.system.layout.slots[k];
     const auto first = rounds_.begin() + slot.offset;
     std::fill(first, first + slot.shape.size(), !is_whole(variables[k].kind));
-    if (setup.system.moves[k] == hybrid::Moves::rests)
-      for (Index e = slot.offset; e < slot.offset + slot.shape.size(); ++e) resting_.push_back(e);
   }
+  for (Index e = 0; e < setup.system.size; ++e)
+    if (setup.system.rests(e)) resting_.push_back(e);
   chosen_.resize(rounds_.size(), 0);
   functions_.reserve(setup.functions.size());  // the balls point into it
   for (const expr::Program& function : setup.functions) {
@@ -250,6 +250,7 @@ void RunTracks::add_jump(const TwinParts& twins, std::size_t at) {
   const auto& [jump, before, after, t] = std::get<TwinJump>(twins.parts[at]);
   rounded_ += 1;
   come_to(jump->event);
+  parting_->compute(jump->terms);
   track_.moves.push_back({true, jump->event});
   append({1, jump->t}, jump->j + 1, after, jump->after, (after - jump->after).cwiseAbs(), 0, 1);
 }

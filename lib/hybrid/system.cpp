@@ -272,6 +272,12 @@ void refuse_equations(const expr::Condition& condition, const System& system) {
 
 }  // namespace
 
+bool System::rests(Eigen::Index element) const {
+  const auto after = std::ranges::upper_bound(layout.slots, element, {}, &Slot::offset);
+  const auto slot = after - layout.slots.begin() - 1;
+  return moves[static_cast<std::size_t>(slot)] == Moves::rests;
+}
+
 bool System::is_moving(const std::string& name) const {
   const auto found = slot(name);
   return found && moves[*found] != Moves::rests;

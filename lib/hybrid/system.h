@@ -66,6 +66,8 @@ struct System {
   double longest_step() const { return pulses ? kLongestOfPulses : kLongestStep; }
   /// The slot of a name, or none.
   std::optional<std::size_t> slot(const std::string& name) const { return layout.slot(name); }
+  /// Whether no flow changes an element of the values.
+  bool rests(Eigen::Index element) const;
   /// Whether a name is that of what changes within a flow.
   bool is_moving(const std::string& name) const;
   /// Whether an event happens at given times, drawn or not.

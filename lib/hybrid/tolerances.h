@@ -19,6 +19,9 @@ constexpr double kLongestStep = 1.0 / 16;  ///< of the horizon
 constexpr double kLongestOfPulses = 1e-3;  ///< of the horizon
 ///< | the same, of all runs, where the flow has pulses
 ///< | Campaign.IntegratedFlowsAreNoCauseOfWrongVerdicts
+constexpr double kSeriesRounding = 4 * kTermRounding;  ///< of the sizes that are added up at a point
+///< | what the last terms of a series of an exact flow may amount to
+///< | EventFlow.WhatSwingsAndDiesDownAsksForNoMoreSteps
 constexpr double kAddedUp = 1e-12;  ///< relative
 ///< | rounding that has added up over a run: of a clock at the horizon, of data beside their range,
 ///< of the pieces of a step

@@ -81,6 +81,8 @@ struct JumpPoint {
   bool lost = false;       ///< the plant alone jumped
   Eigen::VectorXd before;  ///< what the maps saw: noise of the event is drawn anew already
   Eigen::VectorXd after;
+  /// Of a twin: by element, the size of the terms that the maps have computed it from; 0 of the others.
+  Eigen::VectorXd terms{};
 };
 
 struct Trajectory {

@@ -30,9 +30,6 @@ constexpr int exact_degree = 12;
 constexpr int most_doublings = 60;
 /// Of the imaginary part of an eigenvalue.
 constexpr double kDamped = 0.125;
-/// Of the sizes that are added up at a point: what the last terms of a series may amount to.
-constexpr double series_rounding = 4 * hybrid::kTermRounding;
-
 /// expm(length G) where length ||G|| <= 1/2 in balanced units; 24 terms leave less than 1e-31.
 WideMatrix short_step(const WideMatrix& G, long double length) {
   constexpr int terms = 24;
@@ -196,7 +193,7 @@ class ExactFlow : public Flow {
     // What has died down so far is followed no more: its squares are nothing.
     constexpr double kDead = 1e-150;
     const auto size = sizes.array() + kDead * peaks_.array();
-    agrees = (tail.array() <= series_rounding * size).all();
+    agrees = (tail.array() <= hybrid::kSeriesRounding * size).all();
     // Of flows that are polynomials of a low degree the other coefficients are rounding.
     Index last = exact_degree;
     while (last > 1 && (series.col(last).cwiseAbs().array() <= kUnitRoundoff * sizes.array()).all())

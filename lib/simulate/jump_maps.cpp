@@ -49,6 +49,7 @@ JumpMaps::JumpMaps(const hybrid::System& system) : system_(&system) {
 VectorXd JumpMaps::operator()(std::size_t event, bool lost, const VectorXd& before,
                               const LastPlaces* moved) {
   moved_ = moved;
+  if (moved_ != nullptr) terms_ = VectorXd::Zero(system_->size);
   VectorXd after = before;
   std::int64_t passes = 0;
   const auto& reactions = system_->dynamics.reactions;
@@ -109,7 +110,7 @@ void JumpMaps::apply(Map& map, VectorXd& own) {
   }
 }
 
-void JumpMaps::move(MapEntry& entry, const VectorXd& own, numbers::Matrix& value) const {
+void JumpMaps::move(MapEntry& entry, const VectorXd& own, numbers::Matrix& value) {
   const bool symmetric = is_symmetric_state(*system_, entry.variable);
   const Eigen::Index first = system_->layout.slots[entry.variable].offset;
   numbers::Matrix sizes = value.cwiseAbs();  // where those of its terms have no value
@@ -117,6 +118,7 @@ void JumpMaps::move(MapEntry& entry, const VectorXd& own, numbers::Matrix& value
     sizes = (*entry.terms)(own);
   } catch (const expr::EvaluationError&) {
   }
+  terms_.segment(first, sizes.size()) = sizes.reshaped();
   for (Eigen::Index column = 0; column < value.cols(); ++column)
     for (Eigen::Index row = symmetric ? column : 0; row < value.rows(); ++row) {
       // What a branch leaves as it was has not been computed.

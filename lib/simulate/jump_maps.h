@@ -33,6 +33,9 @@ class JumpMaps {
   /// `moved`: by which results of arithmetic are moved, in a twin.
   Eigen::VectorXd operator()(std::size_t event, bool lost, const Eigen::VectorXd& before,
                              const LastPlaces* moved = nullptr);
+  /// Of the last jump of a twin, by element of the values: the size of the terms that it was computed
+  /// from; 0 where nothing was computed.
+  const Eigen::VectorXd& terms() const { return terms_; }
 
  private:
   struct MapEntry {
@@ -52,7 +55,7 @@ class JumpMaps {
   std::int64_t repeat(const model::Dynamics::Pass& pass, std::int64_t most, Map& map,
                       Eigen::VectorXd& own);
   void apply(Map& map, Eigen::VectorXd& own);
-  void move(MapEntry& entry, const Eigen::VectorXd& own, numbers::Matrix& value) const;
+  void move(MapEntry& entry, const Eigen::VectorXd& own, numbers::Matrix& value);
   void check(const MapEntry& entry, const Eigen::VectorXd& own, numbers::Matrix& value) const;
   void count(std::size_t event, std::int64_t passes, Eigen::VectorXd& after) const;
 
@@ -60,6 +63,7 @@ class JumpMaps {
   std::vector<Maps> maps_;                ///< by reaction
   std::vector<numbers::Matrix> results_;  ///< of one map
   const LastPlaces* moved_ = nullptr;
+  Eigen::VectorXd terms_;
 };
 
 }  // namespace gainsmith::simulate

@@ -147,7 +147,8 @@ class EventRun {
     field_.set_since(event, t_);
     field_.fill_clocks(t_, values_);
     due_.jumped(event, before, values_);
-    record_.add(hybrid::JumpPoint{t_, j_, event, lost, variables(before), variables(values_)});
+    record_.add(hybrid::JumpPoint{t_, j_, event, lost, variables(before), variables(values_),
+                                  moved_ ? maps_.terms() : VectorXd()});
     ++j_;
     require_range();
     if (++chain_ >= hybrid::kMost) end_chain(event);

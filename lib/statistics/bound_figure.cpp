@@ -61,6 +61,8 @@ BoundFigure::BoundFigure(const model::Figure& figure, const claims::RunSetup& se
   if (passes) elements_.push_back(*passes);
   if (!program_) return;
   claims::RunValue& reads = *number_->value();
+  rests_ = figure.kind != model::FigureKind::integral && figure.kind != model::FigureKind::rms &&
+           std::ranges::all_of(reads.used(), [&](Eigen::Index e) { return setup.system.rests(e); });
   elements_.insert(elements_.end(), reads.used().begin(), reads.used().end());
   ball_.emplace(*program_, reads, setup.layout, setup.constants);
 }
@@ -80,8 +82,10 @@ Estimate BoundFigure::of(const claims::TwinRun& runs) {
     const double own = number_->own_error(runs.run) + rounding(value, twin);
     result.error = own + claims::error_factor(setup_->system) * difference;
     if (result.error == 0 && (is_exact_whole(value) || std::isinf(value))) return result;
-    const double roundings = 8 + (difference == 0 ? 0 : runs.steps());
-    const double relative = roundings * kUnitRoundoff + (difference == 0 ? 0 : runs.accuracy);
+    // Of what moves both runs may be equal by chance.
+    const bool is_still = difference == 0 && rests_;
+    const double roundings = 8 + (is_still ? 0 : runs.steps());
+    const double relative = roundings * kUnitRoundoff + (is_still ? 0 : runs.accuracy);
     result.error += relative * std::abs(value);
     if (!result.known()) result.why = "it changes without bounds within the errors of the run";
   }

@@ -50,6 +50,7 @@ class BoundFigure {
   /// on that side.
   bool is_at_guard_ = false;
   bool is_whole_ = false;  ///< a number of events
+  bool rests_ = false;     ///< no flow changes it, and no sum over steps makes it
 };
 
 }  // namespace gainsmith::statistics

@@ -194,6 +194,67 @@ TEST(ClaimsAlongRuns, TwoRunsThatHavePartedSayNothingMore) {
   EXPECT_EQ(verdict("below: rate(x^2) + x^2, bound: 0", "40"), CampaignVerdict::held);
 }
 
+/// Two filters that are equal on a linear plant differ by rounding, which says nothing of chaos.
+TEST(ClaimsAlongRuns, EqualSignalsHaveNotParted) {
+  const std::string method = R"yaml(  events: {tick: {every: 0.1}}
+  plant:
+    state: {x: {shape: 2, start: "[2; 0]"}}
+    output: {y: {value: x(1), at: tick}}
+    flow: {x: "[x(2); -x(1) - 0.2*x(2)]"}
+  observers:
+    one:
+      state: {z: {shape: 2, start: "[1; 1]"}}
+      flow: {z: "[z(2); -z(1) - 0.2*z(2)]"}
+      at: {tick: {z: "z + [0.3; 0.1]*(y - z(1))"}}
+    other:
+      state: {z: {shape: 2, start: "[1; 1]"}}
+      flow: {z: "[z(2); -z(1) - 0.2*z(2)]"}
+      at: {tick: {z: "[0.7, 0; -0.1, 1]*z + [0.3; 0.1]*y"}}
+)yaml";
+  const Report report = report_of(instance_of(
+      method, "{c: {below: norm(one.z - other.z), bound: 1e-9}}", "{runs: 1, horizon: 20}"));
+  EXPECT_EQ(report.verdict, CampaignVerdict::held);
+}
+
+/// An angle between a state and its estimate, which is 0 but for rounding, is far from its branch.
+TEST(ClaimsAlongRuns, AWrappedAngleBesideZeroHasNoBranch) {
+  const std::string method = R"yaml(  events: {tick: {every: 0.2}}
+  plant: {state: {x: {shape: scalar, start: 2.8}}, output: {y: {value: x, at: tick}}, flow: {x: 0.5}}
+  observer:
+    state: {z: {shape: 2, start: "[2.8; 0.5]"}}
+    flow: {z: "[z(2); 0]"}
+    at: {tick: {z: "[z(1) + 0.5*(y - z(1)); z(2) + 0.3*(y - z(1))]"}}
+  signals: {e: "x - z(1)"}
+)yaml";
+  for (const char* value : {"abs(atan2(sin(e), cos(e)))", "atan2(sin(e), cos(e))",
+                            "max(abs(e), abs(2*e))", "abs(mod(e + pi, 2*pi) - pi)"}) {
+    const Report report =
+        report_of(instance_of(method, "{c: {below: \"" + std::string(value) + "\", bound: 0.4}}",
+                              "{runs: 1, horizon: 0.7}"));
+    EXPECT_EQ(report.verdict, CampaignVerdict::held) << value;
+  }
+}
+
+/// u is 0.2 at many ticks, as clip says; 3*u is computed, and rounding alone decides.
+TEST(ClaimsAlongRuns, AnInputAtItsLimitIsEqualToIt) {
+  const std::string method = R"yaml(  events: {tick: {every: 0.1, first: 0}}
+  plant: {state: {x: {shape: 2, start: 0}}, output: {y: x(1)}, flow: {x: "[x(2); -x(2) + observer.u]"}}
+  observer:
+    state: {z: {shape: scalar, start: 0}, u: {shape: scalar, start: 0}}
+    at: {tick: {let: {e: 1 - y}, u: "clip(2*e + z, -0.2, 0.2)", z: z + 0.1*e}}
+)yaml";
+  const auto verdict = [&](const char* claim) {
+    return report_of(
+               instance_of(method, "{c: {" + std::string(claim) + "}}", "{runs: 1, horizon: 40}"))
+        .verdict;
+  };
+  EXPECT_EQ(verdict("below: abs(u), bound: 0.2"), CampaignVerdict::held);
+  EXPECT_EQ(verdict("below: u, bound: 0.2"), CampaignVerdict::held);
+  EXPECT_EQ(verdict("above: u, bound: -0.2"), CampaignVerdict::held);
+  EXPECT_EQ(verdict("below: u, bound: 0.19999999"), CampaignVerdict::violated);
+  EXPECT_EQ(verdict("below: 3*u, bound: 0.6"), CampaignVerdict::undecided);
+}
+
 /// On the stable direction of a map: x(1) = 0.6^30 while rounding doubles at each tick. In the twin
 /// its largest terms nearly cancel. The bound is the true value and a thousandth of it.
 TEST(ClaimsAlongRuns, WhatRoundingMakesMayNearlyCancel) {

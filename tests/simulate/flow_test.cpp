@@ -64,6 +64,24 @@ TEST(EventFlow, StiffAndSwingingModesAreExactBetweenStepsToo) {
   EXPECT_LT(steps.size(), 500U);
 }
 
+/// The poles of a fast observer, -1e6 (1 +- i): once they have died down, steps are those of the rest.
+TEST(EventFlow, WhatSwingsAndDiesDownAsksForNoMoreSteps) {
+  EventProblem problem;
+  problem.state("x", {3, 1}, "[1; 0; 1]");
+  problem.flow("x", "[-1e6*x(1) + 1e6*x(2); -1e6*x(1) - 1e6*x(2); -x(3)]");
+  const hybrid::System system = problem.system();
+  VectorField field(system);
+  const auto flow = exact_flow(field, 5);
+  const auto steps = steps_of(system, field, *flow, 5);
+  const auto exact = [](double t) {
+    const double decay = std::exp(-1e6 * t);
+    return VectorXd(
+        Eigen::Vector3d(decay * std::cos(1e6 * t), -decay * std::sin(1e6 * t), std::exp(-t)));
+  };
+  EXPECT_LT(largest_error(system, steps, exact), 1e-12);
+  EXPECT_LT(steps.size(), 2000U);
+}
+
 /// What each of 20,000 equal steps loses of the time is not lost 20,000 times.
 TEST(EventFlow, AFastSwingKeepsItsPhase) {
   EventProblem problem;
