@@ -54,7 +54,7 @@ class Reference {
     }
   }
 
-  /// By claim: the value as PackVerdict::Claim has it.
+  /// By claim: the value as its finding has it.
   std::vector<D> run(std::uint64_t seed, std::uint64_t run) {
     const hybrid::System& system = *model_.sampled->dynamics;
     const hybrid::Scenario& scenario = *model_.scenario;
@@ -172,13 +172,13 @@ int compare(const std::string& file, std::uint64_t runs) {
       }
       const std::vector<D> truth = reference.run(1, run);
       for (std::size_t c = 0; c < truth.size(); ++c) {
-        const packs::PackVerdict::Claim& claim = pack.claims[c];
-        if (claim.violated && linear->model.claims[c].kind == model::ClaimKind::nonincreasing)
+        const claims::Finding& claim = pack.findings[c];
+        if (claim.violated() && linear->model.claims[c].kind == model::ClaimKind::nonincreasing)
           continue;
         const double error = std::abs(static_cast<double>(D(claim.value) - truth[c]));
         ++sum.values;
-        if (!(error <= claim.error)) ++sum.beyond;
-        if (claim.error > 0) sum.largest = std::max(sum.largest, error / claim.error);
+        if (!(error <= claim.rounding)) ++sum.beyond;
+        if (claim.rounding > 0) sum.largest = std::max(sum.largest, error / claim.rounding);
       }
     }
   });

@@ -134,12 +134,12 @@ class Comparison {
                             happened[e] != 0 ? "is missed" : "is made up"));
     for (std::size_t c = 0; c < single.claims.size(); ++c) {
       const claims::Finding& finding = single.claims[c].finding;
-      const packs::PackVerdict::Claim& claim = pack.claims[c];
+      const claims::Finding& claim = pack.findings[c];
       const std::string name = kernel + ": " + single.claims[c].name;
       if (finding.undecided()) continue;
-      if (claim.violated != finding.violated() || claim.sampled != finding.sampled)
+      if (claim.violated() != finding.violated() || claim.sampled != finding.sampled)
         differs(run, fmt::format("{}: {} with the score {}, singly {} with {}", name,
-                                 claim.violated ? "violated" : "held", claim.score,
+                                 claim.violated() ? "violated" : "held", claim.score,
                                  claims::to_string(finding.judgement), finding.score));
       else if (finding.sampled && !open && !is_near(claim.score, finding.score, near(c, finding)))
         differs(run, fmt::format("{}: the score {}, singly {}", name, claim.score, finding.score));

@@ -113,10 +113,15 @@ design::BisectChoices choices_of(const BisectOptions& options, const model::Inst
   return choices;
 }
 
+/// What is infeasible for a hull only is undecided.
+std::string answer_of(const search::Sample& sample, const design::BisectResult& result) {
+  return result.limits.contains(sample.value) ? "undecided" : word_of(sample.answer);
+}
+
 io::Json json_of(const design::BisectResult& result, const design::BisectChoices& choices) {
   io::Json samples = io::Json::array();
   for (const search::Sample& sample : result.found.samples)
-    samples.push_back({{"value", sample.value}, {"answer", word_of(sample.answer)}});
+    samples.push_back({{"value", sample.value}, {"answer", answer_of(sample, result)}});
   return {{"scalar", choices.scalar.name},
           {"goal", choices.largest ? "largest" : "smallest"},
           {"tolerance", choices.tolerance.width},
@@ -127,8 +132,11 @@ io::Json json_of(const design::BisectResult& result, const design::BisectChoices
 
 std::string table(const design::BisectResult& result, const std::string& name) {
   std::string text = fmt::format("{:<20}{}\n", name, "feasible");
-  for (const search::Sample& sample : result.found.samples)
-    text += fmt::format("{:<20}{}\n", brief(sample.value, 12), word_of(sample.answer));
+  for (const search::Sample& sample : result.found.samples) {
+    const auto limits = result.limits.find(sample.value);
+    text += fmt::format("{:<20}{}{}\n", brief(sample.value, 12), answer_of(sample, result),
+                        limits == result.limits.end() ? "" : ", infeasible" + limits->second);
+  }
   return text;
 }
 

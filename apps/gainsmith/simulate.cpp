@@ -59,9 +59,9 @@ std::string step_error(const std::string& text) {
 }
 
 /// `early`: the run ends before its horizon for a reason that decides nothing.
-std::string claims_text(const std::vector<verify::ReplayedClaim>& claims, bool early) {
+std::string claims_text(const std::vector<claims::NamedFinding>& claims, bool early) {
   std::string text;
-  for (const verify::ReplayedClaim& claim : claims) {
+  for (const claims::NamedFinding& claim : claims) {
     const claims::Finding& finding = claim.finding;
     if (finding.ended) {
       text += fmt::format("  {:<12} {}: the run {}\n", claim.name, to_string(finding.judgement),

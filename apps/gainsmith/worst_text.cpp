@@ -34,7 +34,7 @@ std::string claim_word(const verify::WorstReport& report, const claims::Finding&
 }
 
 std::string claim_text(const verify::WorstReport& report, std::size_t number, std::size_t width) {
-  const verify::WorstReport::Claim& claim = report.claims[number];
+  const claims::NamedFinding& claim = report.claims[number];
   const claims::Finding& finding = claim.finding;
   std::string text = fmt::format("  {:<{}} {:<17} {:<13}  ", claim.name, width,
                                  kind_text(claim.kind), claim_word(report, finding));
@@ -85,7 +85,7 @@ std::string worst_summary(const verify::WorstReport& report, const model::Design
 io::Json worst_json(const verify::WorstReport& report, const model::Design& design) {
   io::Json claims = io::Json::array();
   for (std::size_t c = 0; c < report.claims.size(); ++c) {
-    const verify::WorstReport::Claim& claim = report.claims[c];
+    const claims::NamedFinding& claim = report.claims[c];
     const claims::Finding& finding = claim.finding;
     claims.push_back({{"name", claim.name},
                       {"claim", kind_text(claim.kind)},

@@ -23,8 +23,8 @@
 //   held        value + its bound <= what it must not exceed - its bound, at every sample
 //   undecided   neither
 //
-// A start that is the bound, bit by bit, counts as equal to it, and so does a value that the dynamics
-// have chosen and not computed, as the end of a clip. So do the first points after it that
+// A start that is the bound, bit by bit, counts as equal to it, and so does a constant that a
+// jump has taken as it is, as the end of a clip. So do the first points after it that
 // are there for the sake of the value alone, unless it seems to have grown by kGrown of its error.
 //
 // A claim with a tolerance d forgives excess as well, by d times the size of what must not be
@@ -85,6 +85,13 @@ struct Finding {
   bool violated() const { return judgement == Judgement::violated; }
   bool undecided() const { return judgement == Judgement::undecided; }
   bool operator==(const Finding&) const = default;
+};
+
+/// With the claim that it is of.
+struct NamedFinding {
+  std::string name;
+  model::ClaimKind kind = model::ClaimKind::nonincreasing;
+  Finding finding;
 };
 
 /// A claim over the values of a track, by their numbers.

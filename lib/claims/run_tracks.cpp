@@ -121,7 +121,6 @@ void RunTracks::append(const SamplePoint& point, std::int64_t j, const VectorXd&
                        const VectorXd& fine, const VectorXd& around, int pattern, int stride,
                        bool within_instant) {
   parting_->see(point.t, fine, coarse);
-  for (const Index e : resting_) chosen_[static_cast<std::size_t>(e)] = coarse(e) == fine(e);
   find_fresh(point, coarse, fine, around);
   VectorXd value = values(fine);
   VectorXd rounded = VectorXd::Zero(value.size());
@@ -129,7 +128,10 @@ void RunTracks::append(const SamplePoint& point, std::int64_t j, const VectorXd&
     rounded = rounded.cwiseMax((values(with_rounding(fine, bit)) - value).cwiseAbs());
   VectorXd difference = (values(coarse) - value).cwiseAbs().cwiseMax(rounded);
   rounded /= (4 + rounded_) * kUnitRoundoff;
-  const VectorXd error = errors(fine, around);
+  VectorXd error = errors(fine, around);
+  // What has parted may be anywhere in its range: a branch that both runs take says nothing.
+  for (Index e = 0; e < error.size(); ++e)
+    if (parting_->has_parted(e)) error(e) = std::fmax(error(e), parting_->range(e));
   constexpr double kUnknown = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < functions_.size(); ++k) {
     const auto row = static_cast<Index>(k);
@@ -174,7 +176,6 @@ void RunTracks::append(const SamplePoint& point, std::int64_t j, const VectorXd&
       bound += std::abs(hull.value - value(row));
     else if (!std::isnan(hull.value))
       value(row) = hull.value;
-    (void)differs(k, value(row), 0, 0);
     difference(row) = has_parted(k) ? kUnknown : 0;
     rounding_.push_back(bound);
   }
@@ -251,6 +252,15 @@ void RunTracks::add_jump(const TwinParts& twins, std::size_t at) {
   rounded_ += 1;
   come_to(jump->event);
   parting_->compute(jump->terms);
+  // What is computed anew rounds again, also where it has the same bits.
+  for (std::size_t k = 0; k < functions_.size(); ++k)
+    if (std::ranges::any_of(functions_[k].used(),
+                            [&](Index e) { return e < jump->terms.size() && jump->terms(e) > 0; }))
+      sampled_[k].is_known = false;
+  for (const Index e : resting_)
+    if (const double terms = jump->terms(e); terms != 0)
+      chosen_[static_cast<std::size_t>(e)] =
+          terms == hybrid::kConstantTerms && after(e) == jump->after(e) ? 1 : 0;
   track_.moves.push_back({true, jump->event});
   append({1, jump->t}, jump->j + 1, after, jump->after, (after - jump->after).cwiseAbs(), 0, 1);
 }
@@ -370,6 +380,9 @@ const Track& RunTracks::run(std::uint64_t seed, std::uint64_t run, double factor
   costs_.add_to(coarse, true);
   costs_.add_to(fine, false);
   parting_.emplace(fine.start, accuracy.relative, 0);
+  for (const auto& [of, from] : setup_->scenario.differences)
+    parting_->relate(setup_->system.layout.slots[of], setup_->system.layout.slots[from]);
+  chosen_.assign(rounds_.size(), 0);
   rises_ = limits_of_rises(fine.start, accuracy.relative);
   amid_ = false;
   ranges_.assign(functions_.size(), {});

@@ -64,7 +64,7 @@ class RunTracks {
   bool differs(std::size_t function, double value, double difference, double size);
   double difference_between(std::size_t function, const Eigen::VectorXd& coarse,
                             const Eigen::VectorXd& fine);
-  /// It differs: the two runs have parted in it if they have in one of its variables.
+  /// The two runs have parted in it if they have in one of its variables.
   void part(std::size_t function);
   bool has_parted(std::size_t function) const {
     return parted_[static_cast<std::size_t>(setup_->first_of_claim[function])] != 0;
@@ -96,8 +96,7 @@ class RunTracks {
   bool amid_ = false;         ///< what comes is neither the start nor the last flow of a run
   std::vector<bool> rounds_;  ///< by element: whether it is no whole number, which is exact
   std::vector<Eigen::Index> resting_;  ///< elements that no flow changes
-  /// By element: whether it rests and has the same bits in both runs. A value that is computed is
-  /// moved in one of them; this one has been chosen, as the end of a clip.
+  /// By element: whether a jump has made it a constant of the text, as the end of a clip is.
   std::vector<char> chosen_;
   Track track_;
   std::vector<double> rounding_;  ///< of the evaluation, as the bounds of the track

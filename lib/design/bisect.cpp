@@ -75,14 +75,6 @@ std::vector<std::string> set_names(const BisectChoices& choices, const model::Ov
   return names;
 }
 
-/// What the weakest of the certificates is limited to.
-std::string weakest_limits(const std::map<double, model::Gains>& tried) {
-  for (const auto& [value, gains] : tried)
-    if (gains.certificate && !gains.certificate->is_about_problem())
-      return model::limits_of(*gains.certificate);
-  return "";
-}
-
 std::string hidden_mode_note(const model::Instance& instance) {
   const std::string hidden = hidden_mode_text(instance);
   return hidden.empty() ? "" : "; " + hidden;
@@ -140,12 +132,16 @@ BisectResult bisect(const model::Instance& own, const model::Overrides& fixed,
   const Concluding concluding;
   if (tried.empty() && refusal) throw InputError(*refusal);
   if (tried.empty()) return result;
+  for (const auto& [value, gains] : tried)
+    if (gains.certificate && !gains.certificate->is_about_problem())
+      result.limits.emplace(value, model::limits_of(*gains.certificate));
   const double easiest = choices.largest ? tried.begin()->first : tried.rbegin()->first;
   result.gains = tried.at(result.found.yes.value_or(easiest));
   result.gains.search = record_of(result.found, choices);
   if (!result.found.yes)
     set_undecided(result.gains,
-                  nothing_found(result.found, choices, weakest_limits(tried),
+                  nothing_found(result.found, choices,
+                                result.limits.empty() ? "" : result.limits.begin()->second,
                                 held_text(held_scalars(own, set_names(choices, fixed)))) +
                       hidden_mode_note(own));
   if (result.found.no) result.gains.search->certificate = tried.at(*result.found.no).certificate;

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
+#include <string>
 
 #include "design/search_request.h"
 #include "design/synthesize.h"
@@ -30,11 +32,13 @@ struct BisectResult {
   /// the end where it should have been easiest. Its `search` says how the bisection ended, with the
   /// checked certificate at the no end.
   model::Gains gains;
+  /// Values with a no that is about a condition which is only sufficient: " for the hull only".
+  std::map<double, std::string> limits;
 };
 
 /// Synthesizes at the values that search::bisect asks for, the problem's `own` among them, the
 /// scalars in `fixed` and the instance's overrides held. A value is yes when synthesize() says yes,
-/// no when a certificate was checked, refused when it does not fit the problem's assumptions.
+/// no when a certificate was checked (perhaps of a hull only), refused when it does not fit the problem's assumptions.
 /// With `also` a yes counts as what that answers. `gains.search` holds the bracket. InputError when
 /// every value tried is refused.
 BisectResult bisect(const model::Instance& own, const model::Overrides& fixed,

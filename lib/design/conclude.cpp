@@ -1,6 +1,9 @@
 // What the attempts of a synthesis mean together.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <string_view>
 
 #include "base/number.h"
@@ -108,8 +111,11 @@ model::NamedMatrices named_multipliers(const Climb& climb, const Attempt& attemp
   const lmi::GainBounds& bounds = attempt.question.bounds;
   const auto list = lmi::multipliers(lmi, bounds, attempt.formulation, attempt.solution);
   model::NamedMatrices result;
+  std::map<std::string, int> times;  // corners of neighbouring slices may be called alike
   for (std::size_t k = 0; k < list.size(); ++k) {
-    result.emplace_back(name_of(block_at(lmi, bounds, k)), list[k]);
+    const std::string name = name_of(block_at(lmi, bounds, k));
+    const int time = ++times[name];
+    result.emplace_back(time > 1 ? fmt::format("{} ({})", name, time) : name, list[k]);
   }
   return result;
 }
@@ -327,8 +333,9 @@ model::NamedMatrices rounded_multipliers(const verdict::AlgebraicCertificate& ce
   for (const verdict::AlgebraicMultiplier& multiplier : certificate.multipliers) {
     const std::string name = name_of(lmi.blocks[multiplier.block]);
     const numbers::Matrix Y = verdict::rounded(multiplier, certificate.root);
-    if (!result.empty() && result.back().first == name)
-      result.back().second += Y;
+    const auto known = std::ranges::find(result, name, [](const auto& one) { return one.first; });
+    if (known != result.end())
+      known->second += Y;
     else
       result.emplace_back(name, Y);
   }
@@ -412,6 +419,7 @@ void conclude(const Climb& climb, const ExcludesObjective& excludes, model::Gain
   if (climb.last().relaxation_refuted()) {
     // What it is about is said by the plan (synthesize.cpp).
     gains.certificate = relaxed_certificate(climb);
+    gains.solver.status = "undecided";
     return;
   }
   note_undecided(climb, gains);

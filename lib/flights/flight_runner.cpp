@@ -235,8 +235,7 @@ void FlightRunner::finish(std::size_t l) {
                   value(Flown::peak), value(Flown::first), value(Flown::first_error),
                   value(Flown::last), value(Flown::last_error), value(Flown::floor)});
     verdict.open = verdict.open || claim.open();
-    verdict.claims.push_back(
-        {claim.violated(), claim.sampled(), claim.score(), claim.floor(), 0, 0, 0});
+    verdict.findings.push_back(claim.finding());
   }
   for (std::size_t e = 0; e < pack_.events.size(); ++e)
     verdict.happened.push_back((happened_[l] >> e & 1U) != 0 ? 1 : 0);

@@ -74,6 +74,8 @@ struct FlowPiece {
   double to() const { return steps.back().to; }
 };
 
+constexpr double kConstantTerms = -1;
+
 struct JumpPoint {
   double t = 0;
   std::int64_t j = 0;      ///< the number of jumps before it
@@ -81,7 +83,8 @@ struct JumpPoint {
   bool lost = false;       ///< the plant alone jumped
   Eigen::VectorXd before;  ///< what the maps saw: noise of the event is drawn anew already
   Eigen::VectorXd after;
-  /// Of a twin: by element, the size of the terms that the maps have computed it from; 0 of the others.
+  /// Of a twin, by element: the size of the terms that a map has computed it from, next to nothing of
+  /// a copy; kConstantTerms: it is a constant of the text; 0: it is what it was.
   Eigen::VectorXd terms{};
 };
 

@@ -26,7 +26,8 @@ Carried carried_inputs(const LinearSystem& system, ErrorGraph& graph) {
   made.z = graph.inputs(system.rank);
   made.G = graph.inputs(system.rank * system.rank);
   made.b = graph.inputs(system.rank);
-  for (const CarriedClaim& claim : system.claims) made.claims.push_back(graph.inputs(claim.count));
+  for (const CarriedNumbers& claim : system.claims)
+    made.claims.push_back(graph.inputs(claim.count));
   return made;
 }
 
@@ -150,7 +151,7 @@ lanes::LaneCode first_code(const LinearSystem& system, const LengthTable& table)
   const ErrorGraph::Product z = graph.product(table, next, sigma, system.rank, xi);
   Carried carried{z.value, Nodes(system.rank * system.rank, graph.constant(0)), z.added, {}};
   const int most = graph.constant(1e300), least = graph.constant(-1e300), zero = graph.constant(0);
-  for (const CarriedClaim& claim : system.claims)
+  for (const CarriedNumbers& claim : system.claims)
     carried.claims.push_back(
         claim.count > kComparedNumbers    ? Nodes{most, most, least, least, zero, least}
         : claim.count == kComparedNumbers ? Nodes{most, most, least, least, zero}

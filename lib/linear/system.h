@@ -42,7 +42,7 @@ constexpr std::size_t kComparedNumbers = 5, kCostNumbers = 2;
 constexpr std::size_t kBlockError = 4, kWholeRise = 5;
 
 /// Of the numbers that a lane carries.
-struct CarriedClaim {
+struct CarriedNumbers {
   std::size_t first = 0;  ///< of its numbers
   std::size_t count = 0;
 };
@@ -51,7 +51,7 @@ struct LinearSystem {
   LinearModel model;
   std::size_t rank = 0;     ///< numbers z
   std::size_t carried = 0;  ///< numbers
-  std::vector<CarriedClaim> claims;
+  std::vector<CarriedNumbers> claims;
   std::int64_t flows_of_block = 1;  ///< fewer where |M| grows faster
 
   /// Inputs and results of the code. carried: as above. values: of each claim its value and error.

@@ -32,14 +32,12 @@ std::string to_string(GainFunction::Kind kind) {
 }
 
 std::string shown_by(const CertificateRecord& certificate) {
-  if (certificate.exact)
-    return "no solution" +
-           std::string(certificate.is_about_problem() ? ""
-                       : certificate.about == "hull"  ? " of the hull"
-                                                      : " of the vertex test") +
-           " exists";
-  return "no solution survives a relative change of " + brief(certificate.backward_error, 2) +
-         " of the coefficients";
+  const std::string of = certificate.is_about_problem() ? ""
+                         : certificate.about == "hull"  ? " of the hull"
+                                                        : " of the vertex test";
+  if (certificate.exact) return "no solution" + of + " exists";
+  return "no solution" + of + " survives a relative change of " +
+         brief(certificate.backward_error, 2) + " of the coefficients";
 }
 
 int AlgebraicRecord::steps() const {

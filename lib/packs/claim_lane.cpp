@@ -193,6 +193,16 @@ void ClaimLane::compare_within(const StepSamples& samples, const pieces::StepPol
   if (highest.most + error > most && !certain) open_ = true;
 }
 
+claims::Finding ClaimLane::finding() const {
+  claims::Finding finding;
+  finding.judgement = violated_ && !always_ ? claims::Judgement::violated : claims::Judgement::held;
+  finding.sampled = sampled_;
+  finding.score = score_;
+  finding.floor = floor_;
+  finding.tolerance = claim_->tolerance;
+  return finding;
+}
+
 void ClaimLane::finish(const Course& course) {
   sampled_ = course.sampled;
   violated_ = course.violated;

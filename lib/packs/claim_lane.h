@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 
+#include "claims/claim_check.h"
 #include "packs/pack_system.h"
 #include "packs/quintics.h"
 
@@ -52,10 +53,8 @@ class ClaimLane {
   double limit() const { return limit_; }
 
   bool open() const { return open_ && !always_; }
-  bool violated() const { return violated_ && !always_; }
-  bool sampled() const { return sampled_; }
-  double score() const { return score_; }
-  double floor() const { return floor_; }
+  /// Where it is not open.
+  claims::Finding finding() const;
 
  private:
   struct Known {

@@ -160,8 +160,7 @@ void LaneSet::finish(std::size_t l) {
     claim.finish();
     verdict.open = verdict.open || claim.open();
     if (claim.open()) verdict.why = Why::claim;
-    verdict.claims.push_back(
-        {claim.violated(), claim.sampled(), claim.score(), claim.floor(), 0, 0, 0});
+    verdict.findings.push_back(claim.finding());
   }
   verdict.happened = lane.happened;
   lanes_[l].reset();

@@ -285,16 +285,19 @@ class LinearLanes {
   double carried(std::size_t c, std::size_t number, std::size_t l) const {
     return last_.result(0, system_.claims[c].first + number)[l];
   }
+  static void decide(bool violated, claims::Finding& claim) {
+    claim.judgement = violated ? claims::Judgement::violated : claims::Judgement::held;
+  }
   /// Whether value <= bound; false: it is not certain.
-  static bool compare(const Known& value, const Known& bound, PackVerdict::Claim& claim) {
+  static bool compare(const Known& value, const Known& bound, claims::Finding& claim) {
     const double rounding = 8 * kUnitRoundoff * (std::abs(value.value) + std::abs(bound.value));
     const double error = (value.error + bound.error + rounding) * linear::kBoundSlack;
     const double excess = value.value - bound.value;
-    claim.violated = excess > error;
-    return claim.violated || excess <= -error;
+    decide(excess > error, claim);
+    return claim.violated() || excess <= -error;
   }
   /// Whether the verdict on a claim is certain, and how near the run comes to the bound is known.
-  bool judge(std::size_t c, std::size_t l, PackVerdict::Claim& claim) const {
+  bool judge(std::size_t c, std::size_t l, claims::Finding& claim) const {
     switch (system_.model.claims[c].kind) {
       case ClaimKind::nonincreasing:
         return judge_rise(c, l, claim);
@@ -304,9 +307,9 @@ class LinearLanes {
         return judge_shrinking(c, l, claim);
     }
   }
-  bool judge_rise(std::size_t c, std::size_t l, PackVerdict::Claim& claim) const;
-  bool judge_cost(std::size_t c, std::size_t l, PackVerdict::Claim& claim) const;
-  bool judge_shrinking(std::size_t c, std::size_t l, PackVerdict::Claim& claim) const;
+  bool judge_rise(std::size_t c, std::size_t l, claims::Finding& claim) const;
+  bool judge_cost(std::size_t c, std::size_t l, claims::Finding& claim) const;
+  bool judge_shrinking(std::size_t c, std::size_t l, claims::Finding& claim) const;
   PackVerdict verdict(std::size_t l) const;
 
   struct Costs {
@@ -328,23 +331,23 @@ class LinearLanes {
   std::vector<Costs> costs_;
 };
 
-bool LinearLanes::judge_rise(std::size_t c, std::size_t l, PackVerdict::Claim& claim) const {
+bool LinearLanes::judge_rise(std::size_t c, std::size_t l, claims::Finding& claim) const {
   const Known before = start(c, l), after = end(c, l);
   const bool compared = linear::is_compared(system_.model.claims[c]);
   const double open = compared ? carried(c, 2, l) : 0, rise = compared ? carried(c, 3, l) : 0;
   const double scale = std::abs(before.value);
-  claim.violated = rise > 0;
+  decide(rise > 0, claim);
   const bool tolerant = compared && system_.model.claims[c].tolerance > 0;
   const double whole = tolerant ? carried(c, linear::kWholeRise, l) : rise;
-  claim.score = (claim.violated ? unit_of(l) * whole : after.value - before.value) / scale;
+  claim.score = (claim.violated() ? unit_of(l) * whole : after.value - before.value) / scale;
   claim.bound = before.value;
-  claim.error = after.error;
-  claim.value = claim.violated ? before.value + claim.score * scale : after.value;
+  claim.rounding = after.error;
+  claim.value = claim.violated() ? before.value + claim.score * scale : after.value;
   const double error = (before.error + after.error) / scale;
-  return (claim.violated || open <= 0) && error <= kScore;
+  return (claim.violated() || open <= 0) && error <= kScore;
 }
 
-bool LinearLanes::judge_cost(std::size_t c, std::size_t l, PackVerdict::Claim& claim) const {
+bool LinearLanes::judge_cost(std::size_t c, std::size_t l, claims::Finding& claim) const {
   const Known bound = start(c, l);
   const double unit = unit_of(l);
   Known cost{costs_[c].sum[l] + unit * carried(c, 0, l),
@@ -354,12 +357,12 @@ bool LinearLanes::judge_cost(std::size_t c, std::size_t l, PackVerdict::Claim& c
   const double scale = std::abs(bound.value);
   claim.score = (cost.value - bound.value) / scale;
   claim.value = cost.value;
-  claim.error = cost.error;
+  claim.rounding = cost.error;
   claim.bound = bound.value;
   return compare(cost, bound, claim) && (cost.error + bound.error) / scale <= kScore;
 }
 
-bool LinearLanes::judge_shrinking(std::size_t c, std::size_t l, PackVerdict::Claim& claim) const {
+bool LinearLanes::judge_shrinking(std::size_t c, std::size_t l, claims::Finding& claim) const {
   const linear::LinearClaim& stated = system_.model.claims[c];
   const Known before = start(c, l), after = end(c, l);
   const double factor = stated.squared ? stated.factor * stated.factor : stated.factor;
@@ -377,7 +380,7 @@ bool LinearLanes::judge_shrinking(std::size_t c, std::size_t l, PackVerdict::Cla
   claim.bound = own(goal.value);
   const double error = part(after.value + after.error) - part(after.value - after.error) +
                        before.error / before.value;
-  claim.error = error * claim.bound;
+  claim.rounding = error * claim.bound;
   return compare(after, goal, claim) && error <= kScore * (1 + std::abs(claim.score));
 }
 
@@ -388,7 +391,8 @@ PackVerdict LinearLanes::verdict(std::size_t l) const {
   verdict.open = false;
   verdict.happened = {1};
   for (std::size_t c = 0; c < system_.claims.size(); ++c) {
-    PackVerdict::Claim& claim = verdict.claims.emplace_back();
+    claims::Finding& claim = verdict.findings.emplace_back();
+    claim.tolerance = system_.model.claims[c].tolerance;
     if (judge(c, l, claim)) continue;
     verdict.open = true;
     verdict.why = Why::claim;

@@ -27,7 +27,7 @@ std::string to_string(Why why) {
 }
 
 bool PackVerdict::violated() const {
-  return std::any_of(claims.begin(), claims.end(), [](const Claim& one) { return one.violated; });
+  return std::ranges::any_of(findings, &claims::Finding::violated);
 }
 
 PackRunner::PackRunner(const PackSystem& system) : lanes_(std::make_unique<LaneSet>(system)) {}

@@ -21,6 +21,7 @@
 #include <string>
 #include <vector>
 
+#include "claims/claim_check.h"
 #include "packs/pack_system.h"
 
 namespace gainsmith::packs {
@@ -39,17 +40,11 @@ constexpr std::size_t kWhys = 7;
 std::string to_string(Why why);
 
 struct PackVerdict {
-  struct Claim {
-    bool violated = false;
-    bool sampled = true;
-    double score = 0;  ///< claims::Finding::score
-    double floor = 0;
-    double value = 0, bound = 0;  ///< of it; of linear runs
-    double error = 0;             ///< of the value
-  };
   bool open = true;  ///< what follows says nothing but why
   Why why = Why::claim;
-  std::vector<Claim> claims;
+  /// Of the claims that are stated: judgement, score, floor and whether it is sampled; of linear runs
+  /// value, bound and rounding too.
+  std::vector<claims::Finding> findings;
   std::vector<char> happened;  ///< by event
 
   bool violated() const;

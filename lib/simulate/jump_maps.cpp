@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "base/number.h"
@@ -16,6 +17,20 @@ namespace {
 
 bool is_mode(const hybrid::System& system, std::size_t variable) {
   return system.dynamics.variables[variable].kind == model::Dynamics::VariableKind::mode;
+}
+
+/// The constants that a text may take as they are, and their opposites, in rising order.
+std::vector<double> constants_of(const expr::Program& program, const hybrid::System& system) {
+  std::vector<double> all;
+  for (const expr::Input& input : program.inputs)
+    if (const auto known = system.constants.find(input.name); known != system.constants.end())
+      all.insert(all.end(), known->second.reshaped().begin(), known->second.reshaped().end());
+  for (const expr::Instruction& one : program.code)
+    if (one.op == expr::Op::constant)
+      if (const auto value = parse_decimal(one.text)) all.push_back(*value);
+  for (std::size_t k = all.size(); k-- > 0;) all.push_back(-all[k]);
+  std::ranges::sort(all);
+  return all;
 }
 
 bool is_symmetric_state(const hybrid::System& system, std::size_t variable) {
@@ -34,7 +49,8 @@ JumpMaps::JumpMaps(const hybrid::System& system) : system_(&system) {
                                hybrid::SystemFunction(one.value.program, system),
                                one.place,
                                nullptr,
-                               {}});
+                               {},
+                               constants_of(one.value.program, system)});
         MapEntry& entry = map.entries.back();
         auto terms = hybrid::rounding_terms(one.value.program);
         if (!terms || is_mode(system, one.variable)) continue;
@@ -102,7 +118,7 @@ void JumpMaps::apply(Map& map, VectorXd& own) {
   for (std::size_t i = 0; i < map.entries.size(); ++i) {
     results_[i] = map.entries[i].value(own);
     check(map.entries[i], own, results_[i]);
-    if (moved_ != nullptr && map.entries[i].terms) move(map.entries[i], own, results_[i]);
+    if (moved_ != nullptr) move(map.entries[i], own, results_[i]);
   }
   for (std::size_t i = 0; i < map.entries.size(); ++i) {
     const hybrid::Slot& slot = system_->layout.slots[map.entries[i].variable];
@@ -113,18 +129,28 @@ void JumpMaps::apply(Map& map, VectorXd& own) {
 void JumpMaps::move(MapEntry& entry, const VectorXd& own, numbers::Matrix& value) {
   const bool symmetric = is_symmetric_state(*system_, entry.variable);
   const Eigen::Index first = system_->layout.slots[entry.variable].offset;
-  numbers::Matrix sizes = value.cwiseAbs();  // where those of its terms have no value
-  try {
-    sizes = (*entry.terms)(own);
-  } catch (const expr::EvaluationError&) {
+  numbers::Matrix sizes = numbers::Matrix::Zero(value.rows(), value.cols());
+  if (entry.terms) {
+    try {
+      sizes = (*entry.terms)(own);
+    } catch (const expr::EvaluationError&) {
+      sizes = value.cwiseAbs();  // those of its terms have no value
+    }
   }
-  terms_.segment(first, sizes.size()) = sizes.reshaped();
   for (Eigen::Index column = 0; column < value.cols(); ++column)
     for (Eigen::Index row = symmetric ? column : 0; row < value.rows(); ++row) {
+      const double before = own(first + column * value.rows() + row);
+      double& found = value(row, column);
+      double& terms = terms_(first + column * value.rows() + row);
+      terms = sizes(row, column);
+      if (terms == 0 && std::ranges::binary_search(entry.constants, found))
+        terms = hybrid::kConstantTerms;
+      else if (terms == 0 && found != before)
+        terms = std::numeric_limits<double>::denorm_min();
       // What a branch leaves as it was has not been computed.
-      if (value(row, column) == own(first + column * value.rows() + row)) continue;
-      value(row, column) += moved_->of(value(row, column), sizes(row, column));
-      if (symmetric) value(column, row) = value(row, column);
+      else if (found != before)
+        found += moved_->of(found, terms);
+      if (symmetric) value(column, row) = found;
     }
 }
 

@@ -33,8 +33,7 @@ class JumpMaps {
   /// `moved`: by which results of arithmetic are moved, in a twin.
   Eigen::VectorXd operator()(std::size_t event, bool lost, const Eigen::VectorXd& before,
                              const LastPlaces* moved = nullptr);
-  /// Of the last jump of a twin, by element of the values: the size of the terms that it was computed
-  /// from; 0 where nothing was computed.
+  /// Of the last jump of a twin, by element of the values: hybrid::JumpPoint::terms.
   const Eigen::VectorXd& terms() const { return terms_; }
 
  private:
@@ -43,7 +42,8 @@ class JumpMaps {
     hybrid::SystemFunction value;
     Place place;
     std::unique_ptr<const expr::Program> terms_program;
-    std::optional<hybrid::SystemFunction> terms;  ///< none: the value is exact
+    std::optional<hybrid::SystemFunction> terms;  ///< none: nothing is computed
+    std::vector<double> constants;                ///< of the text, and their opposites
   };
   struct Map {
     std::vector<MapEntry> entries;

@@ -18,23 +18,6 @@ std::unique_ptr<const linear::LinearSystem> make_linear_packs(const Setup& setup
   return model ? linear::make_linear_system(std::move(*model)) : nullptr;
 }
 
-std::vector<claims::Finding> findings_of(const packs::PackVerdict& pack,
-                                         const std::vector<claims::JudgedClaim>& claims) {
-  std::vector<claims::Finding> findings;
-  for (std::size_t c = 0; c < pack.claims.size(); ++c) {
-    const packs::PackVerdict::Claim& claim = pack.claims[c];
-    claims::Finding& finding = findings.emplace_back();
-    finding.judgement = claim.violated ? Judgement::violated : Judgement::held;
-    finding.score = claim.score;
-    finding.value = claim.value;
-    finding.bound = claim.bound;
-    finding.floor = claim.floor;
-    finding.sampled = claim.sampled;
-    finding.tolerance = claims[c].tolerance;
-  }
-  return findings;
-}
-
 void require_agreement(std::uint64_t run, Judgement packs, Judgement careful) {
   if (packs == careful || packs == Judgement::undecided || careful == Judgement::undecided) return;
   throw std::logic_error(
@@ -116,13 +99,12 @@ std::vector<bool> held(const std::vector<claims::Finding>& findings) {
 
 }  // namespace
 
-RunVerdict verdict_on_run(Judge& judge, const linear::LinearSystem* linear,
-                          const std::vector<claims::JudgedClaim>& claims, std::uint64_t seed,
+RunVerdict verdict_on_run(Judge& judge, const linear::LinearSystem* linear, std::uint64_t seed,
                           std::uint64_t run) {
   std::vector<bool> holds;
   if (linear != nullptr) {
     const packs::PackVerdict pack = packs::LinearRunner(*linear).run(seed, run, run + 1).front();
-    if (!pack.open) holds = held(findings_of(pack, claims));
+    if (!pack.open) holds = held(pack.findings);
   }
   return judge(seed, run, holds);
 }
@@ -134,7 +116,7 @@ CampaignVerdictOnRun PackJudge::operator()(std::uint64_t run) {
   RunVerdict verdict;
   verdict.judgement = pack.violated() ? Judgement::violated : Judgement::held;
   verdict.happened = pack.happened;
-  verdict.findings = findings_of(pack, setup_->judged().judged);
+  verdict.findings = pack.findings;
   if (!is_repeated(run)) return {std::move(verdict), false, {}};
   RunVerdict again = careful(seed_, run, linear_ ? held(verdict.findings) : std::vector<bool>());
   for (std::size_t c = 0; c < again.findings.size(); ++c)

@@ -37,10 +37,6 @@ struct Packs {
 /// None where the dynamics or a claim are of another kind. The setup must outlive it.
 std::unique_ptr<const linear::LinearSystem> make_linear_packs(const Setup& setup);
 
-/// Of a run that is not open; `claims` are those that are stated.
-std::vector<claims::Finding> findings_of(const packs::PackVerdict& pack,
-                                         const std::vector<claims::JudgedClaim>& claims);
-
 /// For so many runs; few of no linear dynamics are careful. The setup must outlive it.
 Packs make_packs(const Setup& setup, std::uint64_t runs);
 
@@ -74,9 +70,8 @@ class PackJudge {
 };
 
 /// The careful run alone, with what linear packs prove of its claims. `linear`: nullptr, or those of
-/// the setup of the judge, whose claims `claims` are.
-RunVerdict verdict_on_run(Judge& judge, const linear::LinearSystem* linear,
-                          const std::vector<claims::JudgedClaim>& claims, std::uint64_t seed,
+/// the setup of the judge.
+RunVerdict verdict_on_run(Judge& judge, const linear::LinearSystem* linear, std::uint64_t seed,
                           std::uint64_t run);
 
 /// std::logic_error where one says held and the other violated.

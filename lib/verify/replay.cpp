@@ -281,9 +281,9 @@ Replay replay_run(const Setup& setup, std::uint64_t seed, std::uint64_t run, dou
   if (std::any_of(findings.begin(), findings.end(),
                   [](const auto& one) { return one.undecided(); }))
     if (const auto linear = make_linear_packs(setup))
-      findings = verdict_on_run(judge, linear.get(), events.judged, seed, run).findings;
+      findings = verdict_on_run(judge, linear.get(), seed, run).findings;
   for (std::size_t k = 0; k < findings.size(); ++k)
-    result.claims.push_back({events.judged[k].name, findings[k]});
+    result.claims.push_back({events.judged[k].name, events.judged[k].kind, findings[k]});
   return result;
 }
 

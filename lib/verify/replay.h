@@ -12,12 +12,6 @@
 
 namespace gainsmith::verify {
 
-/// A claim in this run.
-struct ReplayedClaim {
-  std::string name;
-  claims::Finding finding;
-};
-
 /// Where a claim is made, and what its value must not exceed or fall below.
 struct ClaimScope {
   double after = 0;              ///< the time from which on
@@ -45,9 +39,9 @@ struct Replay {
   /// in either direction, whichever is less: a value that is not larger is made of rounding. 0 of
   /// variables. Empty unless it was asked for.
   numbers::Matrix rounding;
-  std::vector<std::string> events;    ///< of each row: the jump that it comes after, or empty
-  std::vector<ReplayedClaim> claims;  ///< exactly what the campaign found in this run
-  std::vector<judge::Fault> faults;   ///< that the judge of runs found
+  std::vector<std::string> events;  ///< of each row: the jump that it comes after, or empty
+  std::vector<claims::NamedFinding> claims;  ///< exactly what the campaign found in this run
+  std::vector<judge::Fault> faults;          ///< that the judge of runs found
 };
 
 /// A run of a campaign by itself, to kAccuracyOfOne (tolerances.h). After a stop (base/stop.h) as far

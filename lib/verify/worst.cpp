@@ -81,7 +81,7 @@ class Runs {
   Made make() {
     if (linear_) {
       const packs::PackVerdict verdict = linear_->run(seed_, number_, number_ + 1).front();
-      if (!verdict.open) return {findings_of(verdict, setup_->events->judged), false};
+      if (!verdict.open) return {verdict.findings, false};
     }
     const claims::Track& track = judge_.track(seed_, number_);
     check_stop();  // perhaps amid the run
@@ -310,8 +310,7 @@ class Search {
   }
 
   claims::Finding finding_of(std::size_t claim, Judge& judge) const {
-    return verdict_on_run(judge, linear_.get(), setup_->events->judged, options_.seed, claim)
-        .findings[claim];
+    return verdict_on_run(judge, linear_.get(), options_.seed, claim).findings[claim];
   }
 
   WorstOptions options_;

@@ -36,19 +36,14 @@ struct WorstOptions {
 };
 
 struct WorstReport {
-  /// A claim in the worst run that was found for it: run k of `given` for element k.
-  struct Claim {
-    std::string name;
-    model::ClaimKind kind = model::ClaimKind::nonincreasing;
-    claims::Finding finding;
-  };
-
   model::CampaignVerdict verdict = model::CampaignVerdict::undecided;
   std::uint64_t runs = 0;  ///< that were made
   std::uint64_t seed = 0;
   double horizon = 0;
-  bool interrupted = false;   ///< then the findings are those of one computation of each run
-  std::vector<Claim> claims;  ///< that are stated; none when no run was made
+  bool interrupted = false;  ///< then the findings are those of one computation of each run
+  /// Of the claims that are stated, each in the worst run that was found for it: run k of `given` for
+  /// element k; none when no run was made.
+  std::vector<claims::NamedFinding> claims;
   /// Claims that are not stated, with what has no value.
   std::vector<std::pair<std::string, std::vector<std::string>>> missing;
   std::vector<hybrid::GivenRun> given;

@@ -85,7 +85,7 @@ def summary(found):
     parts += ["%s: %s" % (c.name, c.how) for c in claims if c.result != "proved"][:1]
     worst = max((g for g in gains if g.ulps is not None), key=lambda g: g.ulps, default=None)
     if worst:
-        ulps = max(1, math.ceil(worst.ulps))
+        ulps = min(max(1, math.ceil(worst.ulps)), 10 ** 300)
         parts.append("%s within %s ulp" % ("gains" if ulps == 1 else "gains (%s)" % worst.name,
                                            ulps if ulps < 10 ** 6 else "%.1e" % ulps))
     for text, names in (("proved at the printed ", found["proved_at_printed_gains"]),

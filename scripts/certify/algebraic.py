@@ -17,16 +17,18 @@ with fractions only. What remains are signs at the root, which is isolated by a 
 Rational multipliers may have several steps (facial reduction). If the sum of all c z'B z is 0 at
 each solution, then all B z = 0, since B >= 0. Later sums are taken modulo these equations.
 """
+import re
 from fractions import Fraction
 from arithmetic import Ball, Undecided, ball, is_exact, sign
+from language import decimal
 from matrices import Matrix, filled, flat, number, zeros
 from statement import expect, listed
-STRICT = ("<", ">")
+STRICT, FRACTION = ("<", ">"), re.compile(r"-?[0-9]+(/0*[1-9][0-9]*)?", re.ASCII)
 def fractions(texts, what):
     """A list of fractions of a list of texts such as "-1/3"."""
-    expect(isinstance(texts, list) and all(isinstance(x, str) for x in texts), what + ": texts")
-    try: return [Fraction(x) for x in texts]
-    except (ValueError, ZeroDivisionError): expect(False, what + ": fractions")
+    expect(isinstance(texts, list) and all(isinstance(x, str) and FRACTION.fullmatch(x)
+                                           for x in texts), what + ": fractions")
+    return [Fraction(x) for x in texts]
 def companion(p):
     """C with l e = C e for e = (1, l, ..., l^(n-1))'."""
     n = len(p) - 1
@@ -81,7 +83,7 @@ def prove_algebraic(given, block_of):
     expect(len(p) > 1 and p[-1] == 1, "polynomial: 1 as the last coefficient")
     expect(isinstance(near, list) and len(near) == 2, "near: two numbers")
     expect(isinstance(terms, list) and all(isinstance(t, dict) for t in terms), "terms: objects")
-    re, im, square = root_near(p, *map(Fraction, near))
+    x, y, square = root_near(p, *(decimal(str(part)) for part in near))
     c, known = companion(p), []
     for step in sorted({int(str(term.get("step", 1))) for term in terms}):
         sums, strict, used = {}, False, []
@@ -92,19 +94,19 @@ def prove_algebraic(given, block_of):
             block, weight = block_of(label), fractions(term.get("weight"), label)
             size, entries = semidefinite(block)
             expect(z.shape() == (size, len(p) - 1) and len(weight) == 3, label + ": its size")
-            side = sign(weight[0] + weight[1] * (2 * re) + weight[2] * square)
-            weight = [number(x) for x in weight]
+            side = sign(weight[0] + weight[1] * (2 * x) + weight[2] * square)
+            weight = [number(w) for w in weight]
             if side < 0: return "a multiplier that is negative"
             if side > 0 and block.sign in STRICT:
-                strict = strict or sign(value_at(z.transposed() * z, re, im)) > 0
+                strict = strict or sign(value_at(z.transposed() * z, x, y)) > 0
             used.append({})
             for i, found in entries.items():
                 if not all(map(is_exact, found.values())): return "no fractions as coefficients"
                 image = filled(size, size, lambda a, b: found.get((a, b), Fraction(0))) * z
-                x = z.transposed() * image
-                x = weight[0] * x + weight[1] * (x * c + c.transposed() * x) + \
-                    weight[2] * (c.transposed() * x * c)
-                sums[i] = sums[i] + x if i in sums else x
+                form = z.transposed() * image
+                form = weight[0] * form + weight[1] * (form * c + c.transposed() * form) + \
+                    weight[2] * (c.transposed() * form * c)
+                sums[i] = sums[i] + form if i in sums else form
                 if side > 0: used[-1][i] = image
         if len(p) == 2:
             rest = reduced({i: x[0, 0] for i, x in sums.items()}, known)
@@ -113,7 +115,7 @@ def prove_algebraic(given, block_of):
         if any(x != 0 for total in sums.values() for x in flat(total)):
             return "an equation of the multipliers does not hold"
         if any(x != 0 for x in flat(constant)):
-            return None if sign(value_at(constant, re, im)) < 0 else "a constant part above 0"
+            return None if sign(value_at(constant, x, y)) < 0 else "a constant part above 0"
         if strict: return None
         for images in used if len(p) == 2 else ():
             for equation in zip(*[[(i, x) for x in flat(image)] for i, image in images.items()]):

@@ -255,6 +255,42 @@ TEST(ClaimsAlongRuns, AnInputAtItsLimitIsEqualToIt) {
   EXPECT_EQ(verdict("below: 3*u, bound: 0.6"), CampaignVerdict::undecided);
 }
 
+/// Of a branch that both runs take their difference says nothing, once they have parted.
+TEST(ClaimsAlongRuns, ABranchOnWhatHasPartedIsUnknown) {
+  const std::string method = R"yaml(  events: {tick: {every: 1}}
+  plant:
+    state: {a: {shape: scalar, start: 0.4}, b: {shape: scalar, start: 0.4}}
+    at: {tick: {a: 3.9*a*(1 - a), b: 3.9*b - 3.9*b^2}}
+)yaml";
+  const auto verdict = [&](const char* claim) {
+    return report_of(instance_of(method, "{c: {" + std::string(claim) + "}}",
+                                 "{runs: 1, horizon: 300.5}"))
+        .verdict;
+  };
+  EXPECT_EQ(verdict("below: sign(a - b), bound: 0.5"), CampaignVerdict::undecided);
+  EXPECT_EQ(verdict("below: \"sat(a - b, 0.2)\", bound: 0.1"), CampaignVerdict::undecided);
+  EXPECT_EQ(verdict("below: abs(a - b), bound: 1e-3"), CampaignVerdict::undecided);
+  EXPECT_EQ(verdict("below: \"where(j == 213, where(a > 0.5, 3, -1), -1)\", bound: 0"),
+            CampaignVerdict::undecided);
+}
+
+/// A filter whose arithmetic stands still before its limit has computed its value at each tick.
+TEST(ClaimsAlongRuns, WhatStandsStillHasBeenComputed) {
+  const auto verdict = [&](const char* start, const char* map, const char* claim) {
+    const std::string method = R"yaml(  events: {tick: {every: 1}}
+  plant: {state: {x: {shape: scalar, start: )yaml" +
+                               std::string(start) + "}}, at: {tick: {x: " + map + "}}}\n";
+    return report_of(instance_of(method, "{c: {" + std::string(claim) + "}}",
+                                 "{runs: 1, horizon: 2400.5}"))
+        .verdict;
+  };
+  EXPECT_EQ(verdict("0", "0.98*x + 0.4", "below: x, bound: 19.99999999999994, after: 2300"),
+            CampaignVerdict::undecided);
+  EXPECT_EQ(verdict("2.9999999999999", "x + 0.001*(3 - x)",
+                    "above: x, bound: 2.99999999999991, after: 2300"),
+            CampaignVerdict::undecided);
+}
+
 /// On the stable direction of a map: x(1) = 0.6^30 while rounding doubles at each tick. In the twin
 /// its largest terms nearly cancel. The bound is the true value and a thousandth of it.
 TEST(ClaimsAlongRuns, WhatRoundingMakesMayNearlyCancel) {

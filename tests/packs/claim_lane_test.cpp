@@ -45,13 +45,15 @@ const auto kCosine = [](double t) { return std::cos(t); };
 
 TEST(ClaimLane, ComparesWithABound) {
   // The largest value, 1, lies within a step.
-  EXPECT_FALSE(Follower(ClaimKind::below, 1.001).along(kSine, kCosine, 3, 0.3).violated());
+  EXPECT_FALSE(
+      Follower(ClaimKind::below, 1.001).along(kSine, kCosine, 3, 0.3).finding().violated());
   EXPECT_FALSE(Follower(ClaimKind::below, 1.001).along(kSine, kCosine, 3, 0.3).open());
-  EXPECT_TRUE(Follower(ClaimKind::below, 0.999).along(kSine, kCosine, 3, 0.3).violated());
+  EXPECT_TRUE(Follower(ClaimKind::below, 0.999).along(kSine, kCosine, 3, 0.3).finding().violated());
   EXPECT_TRUE(Follower(ClaimKind::below, 1 + 1e-9).along(kSine, kCosine, 3, 0.3).open());
-  EXPECT_NEAR(Follower(ClaimKind::below, 2).along(kSine, kCosine, 3, 0.3).score(), -0.5, 1e-4);
-  EXPECT_TRUE(Follower(ClaimKind::above, 0.2).along(kSine, kCosine, 3, 0.3).violated());
-  EXPECT_FALSE(Follower(ClaimKind::above, -0.1).along(kSine, kCosine, 3, 0.3).violated());
+  EXPECT_NEAR(Follower(ClaimKind::below, 2).along(kSine, kCosine, 3, 0.3).finding().score, -0.5,
+              1e-4);
+  EXPECT_TRUE(Follower(ClaimKind::above, 0.2).along(kSine, kCosine, 3, 0.3).finding().violated());
+  EXPECT_FALSE(Follower(ClaimKind::above, -0.1).along(kSine, kCosine, 3, 0.3).finding().violated());
 }
 
 /// x' = 1 on a step that ends at a wall at 1, and passes it by 1e-11: x is no more than 1.
@@ -64,7 +66,7 @@ TEST(ClaimLane, AStepThatPassesARootViolatesNothing) {
     const Reading end{x(1), x(1), 1, late};
     follower.lane.along(1, {1, {x(0), 1}, {x(0.5), 1}, {x(1), 1}},
                         polynomial_through(x, rate, 0, 1), end, false, false);
-    EXPECT_EQ(follower.lane.violated(), late == 0) << late;
+    EXPECT_EQ(follower.lane.finding().violated(), late == 0) << late;
     EXPECT_EQ(follower.lane.open(), late > 0) << late;
   }
 }
@@ -72,14 +74,15 @@ TEST(ClaimLane, AStepThatPassesARootViolatesNothing) {
 TEST(ClaimLane, AValueThatNeverRises) {
   Follower held(ClaimKind::nonincreasing, 0);
   EXPECT_FALSE(held.along(kDecay, kDecayRate, 5, 0.25).open());
-  EXPECT_FALSE(held.lane.violated());
-  EXPECT_NEAR(held.lane.score(), std::exp(-5) - 1, 1e-9);
-  EXPECT_TRUE(Follower(ClaimKind::nonincreasing, 0).along(kSine, kCosine, 1, 0.25).violated());
+  EXPECT_FALSE(held.lane.finding().violated());
+  EXPECT_NEAR(held.lane.finding().score, std::exp(-5) - 1, 1e-9);
+  EXPECT_TRUE(
+      Follower(ClaimKind::nonincreasing, 0).along(kSine, kCosine, 1, 0.25).finding().violated());
   // It turns within a step, and both ends are lower than the start.
   const auto turns = [](double t) { return -t + 0.9 * std::sin(1.5 * t); };
   const auto rate = [](double t) { return -1 + 1.35 * std::cos(1.5 * t); };
   const ClaimLane lane = Follower(ClaimKind::nonincreasing, 0).along(turns, rate, 5, 1);
-  EXPECT_TRUE(lane.violated() || lane.open());
+  EXPECT_TRUE(lane.finding().violated() || lane.open());
 }
 
 TEST(ClaimLane, AToleranceCountsBetweenPointsToo) {
@@ -91,15 +94,15 @@ TEST(ClaimLane, AToleranceCountsBetweenPointsToo) {
     return follower.along(wavers, rate, 7, 0.5);
   };
   EXPECT_FALSE(lane(1e-3).open());
-  EXPECT_FALSE(lane(1e-3).violated());
-  EXPECT_TRUE(lane(1e-4).violated());
+  EXPECT_FALSE(lane(1e-3).finding().violated());
+  EXPECT_TRUE(lane(1e-4).finding().violated());
   // The start is 1, the top of the first step lies within it.
   const auto bump = [](double t) { return 1 - 1e-4 * (t - 0.2) * (t - 0.2) * 25 + 1e-4; };
   const auto slope = [](double t) { return -5e-3 * (t - 0.2); };
   Follower follower(ClaimKind::nonincreasing, 0);
   follower.claim.tolerance = 0.9e-4;
   const ClaimLane found = follower.along(bump, slope, 0.5, 0.5);
-  EXPECT_TRUE(found.open() || found.violated());
+  EXPECT_TRUE(found.open() || found.finding().violated());
 }
 
 TEST(ClaimLane, AJumpThatChangesAValueByRoundingLeavesIt) {
@@ -113,12 +116,14 @@ TEST(ClaimLane, AJumpThatChangesAValueByRoundingLeavesIt) {
   };
   EXPECT_FALSE(after_jump(1 + 2e-16).open());
   EXPECT_TRUE(after_jump(1 + 1e-10).open());
-  EXPECT_TRUE(after_jump(1 + 1e-6).violated());
+  EXPECT_TRUE(after_jump(1 + 1e-6).finding().violated());
 }
 
 TEST(ClaimLane, AValueThatShrinks) {
-  EXPECT_FALSE(Follower(ClaimKind::shrinks, 0.01).along(kDecay, kDecayRate, 5, 0.25).violated());
-  EXPECT_TRUE(Follower(ClaimKind::shrinks, 0.001).along(kDecay, kDecayRate, 5, 0.25).violated());
+  EXPECT_FALSE(
+      Follower(ClaimKind::shrinks, 0.01).along(kDecay, kDecayRate, 5, 0.25).finding().violated());
+  EXPECT_TRUE(
+      Follower(ClaimKind::shrinks, 0.001).along(kDecay, kDecayRate, 5, 0.25).finding().violated());
   EXPECT_TRUE(Follower(ClaimKind::shrinks, std::exp(-5)).along(kDecay, kDecayRate, 5, 0.25).open());
 }
 
@@ -126,7 +131,7 @@ TEST(ClaimLane, ACostThatIsNeverPositiveCountsAsAWhole) {
   const auto falls = [](double t) { return std::exp(-t) - 1; };
   const ClaimLane lane = Follower(ClaimKind::cost, 2).along(falls, kDecayRate, 5, 0.25);
   EXPECT_FALSE(lane.open());
-  EXPECT_NEAR(lane.score(), (std::exp(-5) - 1 - 2) / 2, 1e-9);
+  EXPECT_NEAR(lane.finding().score, (std::exp(-5) - 1 - 2) / 2, 1e-9);
 }
 
 TEST(ClaimLane, RunsThatHavePartedSayNothing) {
@@ -139,7 +144,7 @@ TEST(ClaimLane, WhatDoesNotCountYetIsNotCompared) {
   Follower follower(ClaimKind::below, 0.5);
   follower.claim.after = 2.8;
   follower.lane.begin(follower.claim, follower.system, {1, 1}, 0.5);
-  EXPECT_FALSE(follower.along(kSine, kCosine, 3, 0.1).violated());
+  EXPECT_FALSE(follower.along(kSine, kCosine, 3, 0.1).finding().violated());
 }
 
 }  // namespace

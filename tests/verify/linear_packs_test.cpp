@@ -48,12 +48,12 @@ TEST_P(LinearPacks, AgreeWithCarefulRuns) {
     if (pack.open) continue;
     const RunVerdict careful = judge(7, run);
     EXPECT_EQ(pack.happened, careful.happened);
-    for (std::size_t c = 0; c < pack.claims.size(); ++c) {
+    for (std::size_t c = 0; c < pack.findings.size(); ++c) {
       const claims::Finding& finding = careful.findings[c];
-      ++(pack.claims[c].violated ? violated : held);
-      EXPECT_EQ(pack.claims[c].violated, finding.violated())
+      ++(pack.findings[c].violated() ? violated : held);
+      EXPECT_EQ(pack.findings[c].violated(), finding.violated())
           << "run " << run << ", claim " << c << ": " << finding.value << " and " << finding.bound;
-      EXPECT_NEAR(pack.claims[c].score, finding.score, 1e-6 * (1 + std::abs(finding.score)))
+      EXPECT_NEAR(pack.findings[c].score, finding.score, 1e-6 * (1 + std::abs(finding.score)))
           << "run " << run << ", claim " << c;
     }
   }
@@ -69,8 +69,8 @@ TEST_P(LinearPacks, AreTheSameInAnyOrder) {
   const std::vector<packs::PackVerdict> some = runner.run(3, 37, 115);
   for (std::size_t k = 0; k < some.size(); ++k) {
     EXPECT_EQ(some[k].open, all[37 + k].open);
-    for (std::size_t c = 0; c < some[k].claims.size(); ++c)
-      EXPECT_EQ(some[k].claims[c].score, all[37 + k].claims[c].score);
+    for (std::size_t c = 0; c < some[k].findings.size(); ++c)
+      EXPECT_EQ(some[k].findings[c].score, all[37 + k].findings[c].score);
   }
 }
 
@@ -311,10 +311,10 @@ TEST(LinearPacks, RunsWhoseDrawsAreGivenAreThoseOfTheCarefulRun) {
     const packs::PackVerdict alone = runner.run(1, run, run + 1).front();
     const RunVerdict careful = judge(1, run);
     ASSERT_FALSE(alone.open);
-    for (std::size_t c = 0; c < alone.claims.size(); ++c) {
-      EXPECT_EQ(alone.claims[c].score, together[run].claims[c].score);
-      EXPECT_NEAR(alone.claims[c].score, careful.findings[c].score, 1e-6);
-      EXPECT_EQ(alone.claims[c].violated, careful.findings[c].violated());
+    for (std::size_t c = 0; c < alone.findings.size(); ++c) {
+      EXPECT_EQ(alone.findings[c].score, together[run].findings[c].score);
+      EXPECT_NEAR(alone.findings[c].score, careful.findings[c].score, 1e-6);
+      EXPECT_EQ(alone.findings[c].violated(), careful.findings[c].violated());
     }
   }
 }

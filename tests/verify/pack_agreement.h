@@ -33,16 +33,16 @@ inline void expect_agreement(const Setup& setup, std::uint64_t seed,
     }
     const RunVerdict careful = judge(seed, run);
     EXPECT_EQ(pack.happened, careful.happened) << "run " << run;
-    for (std::size_t c = 0; c < pack.claims.size(); ++c) {
+    for (std::size_t c = 0; c < pack.findings.size(); ++c) {
       const claims::Finding& finding = careful.findings[c];
-      ++(pack.claims[c].violated ? violated : held);
-      EXPECT_EQ(pack.claims[c].sampled, finding.sampled);
+      ++(pack.findings[c].violated() ? violated : held);
+      EXPECT_EQ(pack.findings[c].sampled, finding.sampled);
       if (finding.undecided()) continue;
-      EXPECT_EQ(pack.claims[c].violated, finding.violated())
+      EXPECT_EQ(pack.findings[c].violated(), finding.violated())
           << "run " << run << ", claim " << c << ": " << finding.value << " and " << finding.bound
           << " at t = " << finding.t << ", j = " << finding.j;
       if (!finding.sampled || !std::isfinite(finding.score)) continue;
-      EXPECT_NEAR(pack.claims[c].score, finding.score, near(c) * (1 + std::abs(finding.score)))
+      EXPECT_NEAR(pack.findings[c].score, finding.score, near(c) * (1 + std::abs(finding.score)))
           << "run " << run << ", claim " << c;
     }
   }

@@ -44,9 +44,9 @@ TEST_P(PackRuns, AreTheSameInAnyOrder) {
   const std::vector<packs::PackVerdict> some = runner.run(3, 37, 45);
   for (std::size_t k = 0; k < some.size(); ++k) {
     EXPECT_EQ(some[k].open, all[37 + k].open);
-    ASSERT_EQ(some[k].claims.size(), all[37 + k].claims.size());
-    for (std::size_t c = 0; c < some[k].claims.size(); ++c)
-      EXPECT_EQ(some[k].claims[c].score, all[37 + k].claims[c].score);
+    ASSERT_EQ(some[k].findings.size(), all[37 + k].findings.size());
+    for (std::size_t c = 0; c < some[k].findings.size(); ++c)
+      EXPECT_EQ(some[k].findings[c].score, all[37 + k].findings[c].score);
   }
 }
 
@@ -137,7 +137,7 @@ campaign: {horizon: 2, runs: 24, initial: {x: {box: [[-0.2, 0.3], [0.5, 1.5]]}}}
       const RunVerdict single = judge(1, run);
       if (verdicts[run].open || single.findings[0].undecided()) continue;
       EXPECT_EQ(verdicts[run].happened, single.happened) << one.events << ", run " << run;
-      EXPECT_EQ(verdicts[run].claims[0].score, single.findings[0].score) << one.events;
+      EXPECT_EQ(verdicts[run].findings[0].score, single.findings[0].score) << one.events;
     }
   }
 }

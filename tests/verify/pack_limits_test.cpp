@@ -189,7 +189,8 @@ TEST_P(DelicateRuns, AreNotDecidedWrongly) {
     const RunVerdict careful = judge(86, run);
     EXPECT_EQ(verdicts[run].happened, careful.happened) << "run " << run;
     if (careful.findings[0].undecided()) continue;
-    EXPECT_EQ(verdicts[run].claims[0].violated, careful.findings[0].violated()) << "run " << run;
+    EXPECT_EQ(verdicts[run].findings[0].violated(), careful.findings[0].violated())
+        << "run " << run;
   }
 }
 
@@ -258,7 +259,7 @@ campaign: {runs: 120, horizon: 5, initial: {x: {box: [-1.5, 1.5]}}}
     const RunVerdict careful = judge(5, run);
     violated += careful.findings[0].violated() ? 1 : 0;
     for (std::size_t c = 0; c < 2 && !verdicts[run].open; ++c)
-      EXPECT_EQ(verdicts[run].claims[c].violated, careful.findings[c].violated()) << run;
+      EXPECT_EQ(verdicts[run].findings[c].violated(), careful.findings[c].violated()) << run;
   }
   EXPECT_GT(violated, 3U);
   EXPECT_LT(open, 60U);

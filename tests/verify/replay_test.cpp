@@ -119,8 +119,7 @@ TEST(Replay, KnowsWhatIsRounding) {
   TextProblem problem =
       sampled_data("1.1", column({3.68, -24.47}), column({0.104, -0.948}), scalar(-25.93));
   problem.horizon("200").runs(1).shrinks("small", "norm(e)", "0.9");
-  const Replay result =
-      table_of_run(*make_setup(problem.instance(), problem.gains), 1, 0, 0, true);
+  const Replay result = table_of_run(*make_setup(problem.instance(), problem.gains), 1, 0, 0, true);
   ASSERT_EQ(result.rounding.rows(), result.table.rows());
   ASSERT_EQ(result.rounding.cols(), result.table.cols());
   const std::vector<std::string> all = names(result);
