@@ -34,6 +34,7 @@ void ClaimLane::begin(const PackClaim& claim, const PackSystem& pack, const Pack
                       double limit, double terms) {
   *this = ClaimLane();
   claim_ = &claim;
+  tolerance_ = claim.tolerance;
   accuracy_ = accuracy.relative * pack.accuracy;
   noise_ = pack.accuracy;
   factor_ = pack.error_factor;
@@ -127,8 +128,8 @@ void ClaimLane::compare(Known value, double terms, bool same, bool crowded) {
   }
   if (same) return;
   if (claim_->kind == ClaimKind::nonincreasing) {
-    const double above_high = value.value - high_.value - claim_->tolerance * std::abs(high_.value);
-    const double above_low = value.value - low_.value - claim_->tolerance * std::abs(low_.value);
+    const double above_high = value.value - high_.value - tolerance_ * std::abs(high_.value);
+    const double above_low = value.value - low_.value - tolerance_ * std::abs(low_.value);
     const double size = std::abs(value.value) + value.error;
     const double scale = std::abs(first_.value);
     const bool violates = above_high > value.error + high_.error;
@@ -167,7 +168,7 @@ void ClaimLane::compare_within(const StepSamples& samples, const pieces::StepPol
   if (claim_->kind == ClaimKind::nonincreasing) {
     if (violated_) return;
     const double allowed = std::fmax(claims::kGrown * end.error, rounding(along.largest(), terms));
-    const double left = low_.value + claim_->tolerance * std::abs(low_.value) - samples.start.value;
+    const double left = low_.value + tolerance_ * std::abs(low_.value) - samples.start.value;
     // The rate is off by four times what the value is over a step.
     if (!breaks &&
         (along.falls(4 * along.error()) || (along.rise() <= allowed && along.error() <= allowed) ||
@@ -199,7 +200,7 @@ claims::Finding ClaimLane::finding() const {
   finding.sampled = sampled_;
   finding.score = score_;
   finding.floor = floor_;
-  finding.tolerance = claim_->tolerance;
+  finding.tolerance = tolerance_;
   return finding;
 }
 
@@ -232,7 +233,7 @@ void ClaimLane::finish() {
     return;
   }
   const double error = last_.error + std::abs(limit_) * first_.error;
-  const double excess = last_.value - goal - claim_->tolerance * std::abs(goal);
+  const double excess = last_.value - goal - tolerance_ * std::abs(goal);
   score_ = goal == 0 ? kNever : (last_.value - goal) / std::abs(goal);
   if (claim_->squared && goal > 0) score_ = std::sqrt(std::fmax(0, last_.value) / goal) - 1;
   if (excess > error) violated_ = true;

@@ -73,13 +73,14 @@ class ClaimLane {
   double scale() const { return limit_ == 0 ? 1 : std::abs(limit_); }
   double forgiven(double terms) const {
     const bool of_terms = limit_ == 0 && claim_->kind != model::ClaimKind::cost;
-    return claim_->tolerance * (of_terms ? terms : std::abs(limit_));
+    return tolerance_ * (of_terms ? terms : std::abs(limit_));
   }
 
   const PackClaim* claim_ = nullptr;
   double accuracy_ = 0, noise_ = 0;
   double factor_ = 0;  ///< PackSystem::error_factor
-  double sign_ = 1;    ///< -1: of `above`, which is `below` of what is negated
+  double tolerance_ = 0;
+  double sign_ = 1;  ///< -1: of `above`, which is `below` of what is negated
   double limit_ = 0;
   double limit_error_ = 0;
   std::array<double, 3> differences_{};

@@ -18,8 +18,9 @@ struct Follower {
   ClaimLane lane;
   double difference = 1e-9;
 
-  Follower(ClaimKind kind, double limit) {
+  Follower(ClaimKind kind, double limit, double tolerance = 0) {
     claim.kind = kind;
+    claim.tolerance = tolerance;
     system.accuracy = 1e-8;
     lane.begin(claim, system, {1, 1}, limit);
   }
@@ -89,9 +90,7 @@ TEST(ClaimLane, AToleranceCountsBetweenPointsToo) {
   const auto wavers = [](double t) { return 1 + 1e-4 * std::sin(t); };
   const auto rate = [](double t) { return 1e-4 * std::cos(t); };
   const auto lane = [&](double tolerance) {
-    Follower follower(ClaimKind::nonincreasing, 0);
-    follower.claim.tolerance = tolerance;
-    return follower.along(wavers, rate, 7, 0.5);
+    return Follower(ClaimKind::nonincreasing, 0, tolerance).along(wavers, rate, 7, 0.5);
   };
   EXPECT_FALSE(lane(1e-3).open());
   EXPECT_FALSE(lane(1e-3).finding().violated());
@@ -99,8 +98,7 @@ TEST(ClaimLane, AToleranceCountsBetweenPointsToo) {
   // The start is 1, the top of the first step lies within it.
   const auto bump = [](double t) { return 1 - 1e-4 * (t - 0.2) * (t - 0.2) * 25 + 1e-4; };
   const auto slope = [](double t) { return -5e-3 * (t - 0.2); };
-  Follower follower(ClaimKind::nonincreasing, 0);
-  follower.claim.tolerance = 0.9e-4;
+  Follower follower(ClaimKind::nonincreasing, 0, 0.9e-4);
   const ClaimLane found = follower.along(bump, slope, 0.5, 0.5);
   EXPECT_TRUE(found.open() || found.finding().violated());
 }
