@@ -128,8 +128,8 @@ std::vector<Bounded> ClaimCheck::values(const Track& track) const {
   return values;
 }
 
-/// Whether the value is one that the dynamics have chosen, as the end of a clip: it has the same
-/// bits whatever the errors, and nothing of it is computed.
+/// Whether the value is a constant that a jump has taken, as the end of a clip: it has the same bits
+/// whatever the errors, and nothing of it is computed.
 bool ClaimCheck::is_chosen(const Track& track, std::size_t sample, const Bounded& value) const {
   const auto at = sample * static_cast<std::size_t>(track.size);
   return !track.is_fixed.empty() &&

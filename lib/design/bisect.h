@@ -38,9 +38,9 @@ struct BisectResult {
 
 /// Synthesizes at the values that search::bisect asks for, the problem's `own` among them, the
 /// scalars in `fixed` and the instance's overrides held. A value is yes when synthesize() says yes,
-/// no when a certificate was checked (perhaps of a hull only), refused when it does not fit the problem's assumptions.
-/// With `also` a yes counts as what that answers. `gains.search` holds the bracket. InputError when
-/// every value tried is refused.
+/// no when a certificate was checked (perhaps of a hull only: `limits`), refused when it does not
+/// fit the problem's assumptions. With `also` a yes counts as what that answers. `gains.search`
+/// holds the bracket. InputError when every value tried is refused.
 BisectResult bisect(const model::Instance& own, const model::Overrides& fixed,
                     const BisectChoices& choices, const sdp::Options& solver);
 

@@ -12,7 +12,8 @@ namespace gainsmith::hybrid {
 /// chosen or arranged; none where that is so of all.
 std::optional<expr::Program> rounding_terms(const expr::Program& program);
 
-/// absolute_terms (breaks.h) of a text whose sign matters: those of abs(u) are those of u.
+/// absolute_terms (breaks.h) of a text whose sign matters: those of abs(u), sin(u), tanh(u) and, but
+/// for a factor, atan2(u, v) are those of their arguments.
 expr::Program terms_of_sign(expr::Program program);
 
 }  // namespace gainsmith::hybrid

@@ -74,6 +74,7 @@ struct FlowPiece {
   double to() const { return steps.back().to; }
 };
 
+/// JumpPoint::terms of a constant that a map has taken as it is.
 constexpr double kConstantTerms = -1;
 
 struct JumpPoint {

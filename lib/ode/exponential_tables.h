@@ -7,14 +7,16 @@
 #include <memory>
 #include <vector>
 
+#include "base/eigen_scalars.h"
+#include "base/scalars.h"
 #include "numbers/matrix.h"
 
 namespace gainsmith::ode {
 
 /// The maps of z' = G z over the parts of the steps of one generator.
 struct ExponentialTable {
-  // Squaring multiplies the rounding of a short step; the wider type pays for it.
-  using WideMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+  /// Squaring multiplies the rounding of a short step by |G| times the length, which no twin shows.
+  using WideMatrix = numbers::MatrixOf<DoubleDouble>;
 
   struct Level {
     double length = 0;
@@ -23,8 +25,9 @@ struct ExponentialTable {
   };
 
   numbers::Matrix generator;
-  double shortest = 0;  ///< the length of level 0
-  int top = 0;          ///< the highest level
+  std::vector<WideMatrix> terms;  ///< (G length)^k/k! of level 0
+  double shortest = 0;            ///< its length
+  int top = 0;                    ///< the highest level
   std::map<int, Level> levels;
 };
 

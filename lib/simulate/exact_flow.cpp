@@ -29,16 +29,21 @@ constexpr int exact_degree = 12;
 /// Of s_0: more leave nothing of a step.
 constexpr int most_doublings = 60;
 /// Of the imaginary part of an eigenvalue.
-constexpr double kDamped = 0.125;
-/// expm(length G) where length ||G|| <= 1/2 in balanced units; 24 terms leave less than 1e-31.
-WideMatrix short_step(const WideMatrix& G, long double length) {
-  constexpr int terms = 24;
-  WideMatrix term = WideMatrix::Identity(G.rows(), G.cols());
-  WideMatrix sum = term;
-  for (int k = 1; k <= terms; ++k) {
-    term = (term.lazyProduct(G) * (length / k)).eval();
-    sum += term;
-  }
+constexpr double kDamped = 0.01;
+/// The terms of expm(G length), |G length| <= 1/2 in balanced units: 24 leave less than 1e-31.
+std::vector<WideMatrix> terms_of(const Matrix& G, double length) {
+  constexpr int most = 24;
+  const WideMatrix X = G.cast<DoubleDouble>() * DoubleDouble(length);
+  std::vector<WideMatrix> terms = {WideMatrix::Identity(G.rows(), G.cols())};
+  for (int k = 1; k <= most; ++k)
+    terms.push_back(numbers::times<DoubleDouble>(terms.back(), X) / DoubleDouble(k));
+  return terms;
+}
+
+/// Their sum at a share of the length, at most 1.
+WideMatrix short_step(const std::vector<WideMatrix>& terms, const DoubleDouble& share) {
+  WideMatrix sum = terms.back();
+  for (std::size_t k = terms.size() - 1; k-- > 0;) sum = sum * share + terms[k];
   return sum;
 }
 
@@ -136,7 +141,7 @@ class ExactFlow : public Flow {
       const auto scale = [](double x, int exponent) { return std::ldexp(x, exponent); };
       const Matrix balanced = numerics::in_units(M, numerics::balance(M.cwiseAbs()), scale);
       norm = balanced.cwiseAbs().colwise().sum().maxCoeff();
-      // What oscillates and dies down in a few turns ends by itself before steps are that long.
+      // What oscillates and dies down ends by itself: until then no series of a long step agrees.
       for (const auto& lambda : numbers::eigenvalues(M)) {
         const bool dies = -lambda.real() > kDamped * std::abs(lambda.imag());
         rate = std::max({rate, dies ? 0 : std::abs(lambda.imag()), lambda.real()});
@@ -163,16 +168,18 @@ class ExactFlow : public Flow {
     const VectorXd& points = ode::chebyshev::points(exact_degree);
     Level level;
     level.length = std::ldexp(table_->shortest, number);
+    if (table_->terms.empty()) table_->terms = terms_of(table_->generator, table_->shortest);
     for (Index k = 0; k < points.size(); ++k) {
       if (half != nullptr) {
         const WideMatrix& map = half->wide[static_cast<std::size_t>(k)];
-        level.wide.push_back(map.lazyProduct(map));
+        level.wide.push_back(numbers::times<DoubleDouble>(map, map));
       } else {
-        const long double part = (1 + static_cast<long double>(points(k))) / 2;
+        const DoubleDouble share = (DoubleDouble(1) + DoubleDouble(points(k))) / DoubleDouble(2);
         level.wide.push_back(
-            short_step(table_->generator.cast<long double>(), part * level.length));
+            short_step(table_->terms, share * DoubleDouble(std::ldexp(1.0, number))));
       }
-      level.maps.push_back(level.wide.back().cast<double>());
+      level.maps.push_back(
+          level.wide.back().unaryExpr([](const DoubleDouble& x) { return as<double>(x); }));
     }
     return table_->levels.emplace(number, std::move(level)).first->second;
   }

@@ -4,7 +4,7 @@
 //                expm(s [M b; 0 0]). Steps have the lengths s_0 2^k, s_0 = 1/(2 ||M||) in units
 //                that balance M (numerics/balance.h): after a start they grow as long as the series
 //                of degree 12 agrees to rounding, up to 1/w with w the largest |Im| or Re of an
-//                eigenvalue, so that nothing is stepped over.
+//                eigenvalue, so that nothing is stepped over; without those that die down in a hundred turns.
 //   integrated   the steps of an integrator (ode/integrator.h), and their polynomials.
 #pragma once
 

@@ -82,6 +82,26 @@ TEST(EventFlow, WhatSwingsAndDiesDownAsksForNoMoreSteps) {
   EXPECT_LT(steps.size(), 2000U);
 }
 
+/// What the squaring of an exponential multiplies is as large as |A| times the length.
+TEST(EventFlow, AFastModeLeavesTheDigitsOfASlowOne) {
+  EventProblem problem;
+  problem.state("x", {4, 1}, "[1; 1; 0; 1]");
+  problem.flow("x",
+               "[-1e8*x(1) + 7e8*x(2); -7e8*x(1) - 1e8*x(2); -0.1*x(3) + 2*x(4); "
+               "-2*x(3) - 0.1*x(4)]");
+  const hybrid::System system = problem.system();
+  VectorField field(system);
+  const auto flow = exact_flow(field, 4);
+  double error = 0;
+  for (const hybrid::DenseStep& step : steps_of(system, field, *flow, 4)) {
+    const VectorXd x = part_of(system, step(step.to), "x");
+    const double decay = std::exp(-0.1 * step.to);
+    error = std::max(error, std::abs(x(2) - decay * std::sin(2 * step.to)));
+    error = std::max(error, std::abs(x(3) - decay * std::cos(2 * step.to)));
+  }
+  EXPECT_LT(error, 2e-13);
+}
+
 /// What each of 20,000 equal steps loses of the time is not lost 20,000 times.
 TEST(EventFlow, AFastSwingKeepsItsPhase) {
   EventProblem problem;
