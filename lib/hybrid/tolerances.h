@@ -19,8 +19,7 @@ constexpr double kLongestStep = 1.0 / 16;  ///< of the horizon
 constexpr double kLongestOfPulses = 1e-3;  ///< of the horizon
 ///< | the same, of all runs, where the flow has pulses
 ///< | Campaign.IntegratedFlowsAreNoCauseOfWrongVerdicts
-constexpr double kSeriesRounding =
-    4 * kTermRounding;  ///< of the sizes that are added up at a point
+constexpr double kSeriesRounding = 4 * kTermRounding;  ///< of the sizes added up at a point
 ///< | what the last terms of a series of an exact flow may amount to
 ///< | EventFlow.WhatSwingsAndDiesDownAsksForNoMoreSteps
 constexpr double kAddedUp = 1e-12;  ///< relative
