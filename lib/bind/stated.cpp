@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/eigen_scalars.h"
 #include "bind/binding.h"
+#include "bind/exact_values.h"
 #include "bind/gains.h"
 #include "expr/compile.h"
 #include "expr/parser.h"
@@ -185,7 +187,14 @@ model::Stated state(const model::Instance& instance, const model::Gains& gains) 
 }
 
 model::RunTexts run_texts(const model::Instance& instance, const model::Gains& gains) {
-  return model::run_texts(*instance.design, state(instance, gains));
+  model::RunTexts texts = model::run_texts(*instance.design, state(instance, gains));
+  texts.in_31_digits = [instance, gains](const numbers::Values& constants) {
+    numbers::ValuesOf<DoubleDouble> values;
+    for (const auto& [name, value] : exact_values(instance, constants, gains))
+      values[name] = value.unaryExpr([](const Decimal100& x) { return as<DoubleDouble>(x); });
+    return values;
+  };
+  return texts;
 }
 
 }  // namespace gainsmith::bind

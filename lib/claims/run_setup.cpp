@@ -80,6 +80,11 @@ std::unique_ptr<const RunSetup> make_run_setup(model::RunTexts texts,
                                                const std::vector<hybrid::GivenRun>* given) {
   auto setup = std::make_unique<RunSetup>();
   setup->system = hybrid::make_system(texts.dynamics, texts.stated.values);
+  if (texts.in_31_digits)
+    setup->system.in_31_digits = [in_31_digits = texts.in_31_digits,
+                                  &constants = setup->system.constants] {
+      return in_31_digits(constants);
+    };
   setup->layout = hybrid::layout_of(texts.dynamics);
   setup->scenario = hybrid::make_scenario(texts.campaign, setup->system);
   setup->scenario.differences = texts.differences;

@@ -34,6 +34,8 @@ struct RunSetup {
   std::vector<JudgedClaim> judged;            ///< the claims that are stated, in order
   SamplePoints sample_points;                 ///< that the claims ask for
 
+  /// Whether runs may be made in 31 digits (simulate/state_31.h).
+  bool has_31_digits() const { return simulate::State31::may_run(system, scenario); }
   /// To what a run is integrated: as the campaign asks, otherwise to `usual`; times a factor.
   simulate::Accuracy accuracy(double usual, double factor = 1) const;
 };

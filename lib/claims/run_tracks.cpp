@@ -103,7 +103,7 @@ VectorXd RunTracks::with_rounding(const VectorXd& x, int bit) const {
   for (Index e = 0; e < x.size(); ++e) {
     if (!rounds(e, x(e)) || track_.samples() == 0) continue;
     const bool up = ((e >> bit) & 1) == 0;
-    result(e) += (up ? 1 : -1) * (4 + rounded_) * kUnitRoundoff * std::abs(x(e));
+    result(e) += (up ? 1 : -1) * rounding_of(x(e));
   }
   return result;
 }
@@ -112,7 +112,7 @@ VectorXd RunTracks::with_rounding(const VectorXd& x, int bit) const {
 VectorXd RunTracks::errors(const VectorXd& fine, const VectorXd& around) const {
   VectorXd result = error_factor(setup_->system) * around;
   for (Index e = 0; e < fine.size(); ++e)
-    if (rounds(e, fine(e))) result(e) += (4 + rounded_) * kUnitRoundoff * std::abs(fine(e));
+    if (rounds(e, fine(e))) result(e) += rounding_of(fine(e));
   return result;
 }
 
@@ -121,6 +121,8 @@ void RunTracks::append(const SamplePoint& point, std::int64_t j, const VectorXd&
                        const VectorXd& fine, const VectorXd& around, int pattern, int stride,
                        bool within_instant) {
   parting_->see(point.t, fine, coarse);
+  if (in_31_digits_)
+    rounding_31_ = std::fmax(rounding_31_, k31Error * fine.lpNorm<Eigen::Infinity>());
   find_fresh(point, coarse, fine, around);
   VectorXd value = values(fine);
   VectorXd rounded = VectorXd::Zero(value.size());
@@ -221,7 +223,7 @@ void RunTracks::part(std::size_t function) {
 
 void RunTracks::add_flow(const TwinFlow& flow, const hybrid::Trajectory& run, double certain) {
   const hybrid::FlowPiece& fine = *flow.flow;
-  rounded_ += static_cast<double>(fine.steps.size());
+  if (!in_31_digits_) rounded_ += static_cast<double>(fine.steps.size());
   const std::vector<SamplePoint> points =
       points_along(fine, setup_->sample_points, functions_, rises_);
   std::vector<VectorXd> coarse_x;
@@ -249,7 +251,7 @@ void RunTracks::add_flow(const TwinFlow& flow, const hybrid::Trajectory& run, do
 
 void RunTracks::add_jump(const TwinParts& twins, std::size_t at) {
   const auto& [jump, before, after, t] = std::get<TwinJump>(twins.parts[at]);
-  rounded_ += 1;
+  if (!in_31_digits_) rounded_ += 1;
   come_to(jump->event);
   parting_->compute(jump->terms);
   // What is computed anew rounds again, also where it has the same bits.
@@ -361,22 +363,30 @@ void RunTracks::end(const hybrid::Trajectory& coarse, const hybrid::Trajectory& 
   }
 }
 
-bool RunTracks::can_decide_more(double factor) const {
-  return !setup_->system.affine && !ended_early_ &&
-         setup_->accuracy(kAccuracyOfMany, factor).relative > ode::kFinest &&
-         std::find(parted_.begin(), parted_.end(), 1) == parted_.end();
-}
-
 const Track& RunTracks::run(std::uint64_t seed, std::uint64_t run, double factor,
                             std::uint64_t twin) {
+  const simulate::Accuracy accuracy = setup_->accuracy(kAccuracyOfMany, factor);
+  return compare(seed, run, accuracy, accuracy.times(kSharper), twin);
+}
+
+const Track& RunTracks::run_in_31_digits(std::uint64_t seed, std::uint64_t run) {
+  // Below that accuracy values do not count, as in a run that is integrated to it.
+  simulate::Accuracy accuracy = setup_->accuracy(kAccuracyOfOne, kSharper);
+  accuracy.in_31_digits = true;
+  return compare(seed, run, accuracy, accuracy, 0);
+}
+
+const Track& RunTracks::compare(std::uint64_t seed, std::uint64_t run,
+                                const simulate::Accuracy& accuracy,
+                                const simulate::Accuracy& sharper, std::uint64_t twin) {
   track_.clear();
   track_.size = static_cast<Index>(functions_.size());
-  const simulate::Accuracy accuracy = setup_->accuracy(kAccuracyOfMany, factor);
   track_.accuracy = accuracy.relative;
-  rounded_ = 0;
+  in_31_digits_ = accuracy.in_31_digits;
+  rounded_ = rounding_31_ = 0;
   rounding_.clear();
   hybrid::Trajectory coarse = simulator_.run(seed, run, accuracy);
-  hybrid::Trajectory fine = simulator_.run(seed, run, accuracy.times(kSharper), {}, twin);
+  hybrid::Trajectory fine = simulator_.run(seed, run, sharper, {}, twin);
   costs_.add_to(coarse, true);
   costs_.add_to(fine, false);
   parting_.emplace(fine.start, accuracy.relative, 0);

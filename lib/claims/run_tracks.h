@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/unit_roundoff.h"
 #include "base/whole_number.h"
 #include "claims/event_doubts.h"
 #include "claims/parting.h"
@@ -47,11 +48,14 @@ class RunTracks {
   /// `factor`: of the accuracy of a campaign. `twin`: one of several twins, moved by other units.
   const Track& run(std::uint64_t seed, std::uint64_t run, double factor, std::uint64_t twin = 0);
 
-  /// Whether a smaller factor may decide what the last run left open: its two runs differ by errors
-  /// of integration, and have not parted. Two runs that end early alike do so at any accuracy.
-  bool can_decide_more(double factor) const;
+  /// The same, both runs in 31 digits: what differs by less than a double's rounding is the same.
+  const Track& run_in_31_digits(std::uint64_t seed, std::uint64_t run);
+  /// Whether that may decide what the last run left open.
+  bool can_decide_in_31_digits() const { return !ended_early_ && setup_->has_31_digits(); }
 
  private:
+  const Track& compare(std::uint64_t seed, std::uint64_t run, const simulate::Accuracy& accuracy,
+                       const simulate::Accuracy& sharper, std::uint64_t twin);
   void append(const SamplePoint& point, std::int64_t j, const Eigen::VectorXd& coarse,
               const Eigen::VectorXd& fine, const Eigen::VectorXd& around, int pattern, int stride,
               bool within_instant = false);
@@ -81,6 +85,9 @@ class RunTracks {
   bool rounds(Eigen::Index element, double value) const {
     const auto e = static_cast<std::size_t>(element);
     return rounds_[e] && chosen_[e] == 0 && !is_exact_whole(value);
+  }
+  double rounding_of(double value) const {
+    return (4 + rounded_) * kUnitRoundoff * std::abs(value) + rounding_31_;
   }
   Eigen::VectorXd with_rounding(const Eigen::VectorXd& x, int bit) const;
   Eigen::VectorXd errors(const Eigen::VectorXd& fine, const Eigen::VectorXd& around) const;
@@ -120,7 +127,9 @@ class RunTracks {
   std::vector<char> parted_;      ///< the same: whether the two runs have
   bool ended_early_ = false;      ///< the last run, both times alike, before its horizon
   std::string doubt_;             ///< why the run is lost
-  double rounded_ = 0;            ///< steps and jumps so far
+  bool in_31_digits_ = false;     ///< the last run
+  double rounding_31_ = 0;        ///< of the largest value so far, in 31 digits
+  double rounded_ = 0;            ///< steps and jumps so far that round to double
 };
 
 }  // namespace gainsmith::claims

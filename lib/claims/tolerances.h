@@ -64,6 +64,8 @@ constexpr double kParted = 1e-3;  ///< of the range of a value so far | two runs
 constexpr double kPartedAccuracy = 1e3;  ///< of the accuracy, of the terms of a value | two runs
         ///< have not parted whose difference is less |
         ///< ClaimsAlongRuns.TwoRunsThatHavePartedSayNothingMore
+constexpr double k31Error = 1e-28;  ///< of the largest value so far | what a run in 31 digits is off
+        ///< by at least, where its twin may agree with it by chance | Judge.ATieIsNotViolatedByChance
 // clang-format on
 
 }  // namespace gainsmith::claims

@@ -52,6 +52,17 @@ TwinRun TwinRuns::operator()(std::uint64_t seed, std::uint64_t run, double usual
   const simulate::Accuracy accuracy = setup_->accuracy(usual, factor * kSharper);
   simulate::Accuracy coarser = setup_->accuracy(usual, factor);
   coarser.longest = accuracy.longest / ode::kShorter;
+  return made(seed, run, accuracy, coarser);
+}
+
+TwinRun TwinRuns::in_31_digits(std::uint64_t seed, std::uint64_t run, double usual) {
+  simulate::Accuracy accuracy = setup_->accuracy(usual, kSharper);
+  accuracy.in_31_digits = true;
+  return made(seed, run, accuracy, accuracy);
+}
+
+TwinRun TwinRuns::made(std::uint64_t seed, std::uint64_t run, const simulate::Accuracy& accuracy,
+                       const simulate::Accuracy& coarser) {
   TwinRun result;
   if (!setup_->system.affine) result.accuracy = accuracy.relative;
   result.run = simulator_.run(seed, run, accuracy);

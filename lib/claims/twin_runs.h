@@ -41,8 +41,12 @@ class TwinRuns {
   /// The run to a hundredth of `usual`, the twin to it, unless the campaign asks for another
   /// accuracy; times a factor. A stop (base/stop.h) is thrown.
   TwinRun operator()(std::uint64_t seed, std::uint64_t run, double usual, double factor = 1);
+  /// The same, both in 31 digits: of setups whose runs may be made so.
+  TwinRun in_31_digits(std::uint64_t seed, std::uint64_t run, double usual);
 
  private:
+  TwinRun made(std::uint64_t seed, std::uint64_t run, const simulate::Accuracy& accuracy,
+               const simulate::Accuracy& coarser);
   void compare(const TwinParts& twins, const simulate::Accuracy& accuracy, TwinRun& result) const;
 
   const RunSetup* setup_;

@@ -14,11 +14,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/double_double.h"
 #include "hybrid/state_layout.h"
 #include "hybrid/switches.h"
 #include "hybrid/tolerances.h"
@@ -48,6 +50,8 @@ struct System {
 
   model::Dynamics dynamics;  ///< flows with fixed branches
   numbers::Values constants;
+  /// The constants in 31 digits, from the decimals of their texts; none: they are not known.
+  std::function<numbers::ValuesOf<DoubleDouble>()> in_31_digits;
   StateLayout layout;      ///< the variables, then the branches of the switches
   Eigen::Index size = 0;   ///< of the variables
   Eigen::Index whole = 0;  ///< of variables and branches

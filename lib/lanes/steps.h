@@ -10,7 +10,6 @@
 #include <cstdint>
 #include <string>
 
-#include "lanes/series_steps.h"
 
 namespace gainsmith::lanes {
 
@@ -79,10 +78,6 @@ struct Variant {
   Uniforms uniforms;
   Sines sines;
   Reached reached;
-  RunFlow flow;
-  RunStep follow;
-  SeriesValues series_values;
-  SeriesGrowth series_growth;
 };
 
 /// The best that this machine has, or that GAINSMITH_ISA names: v2, v3 or v4. InputError for

@@ -3,7 +3,6 @@
 #include <immintrin.h>
 
 #include "base/sine.h"
-#include "lanes/series_steps.h"
 #include "lanes/steps.h"
 
 namespace gainsmith::lanes {
@@ -416,13 +415,9 @@ const LaneStep* run(const LaneStep* step, const LaneStep* end, const double* con
   return step;
 }
 
-#include "lanes/series_rules.h"
-
 }  // namespace
 
 extern const Variant GAINSMITH_VARIANT;
-const Variant GAINSMITH_VARIANT{
-    GAINSMITH_VARIANT_NAME, run,          uniforms, sines, reached, run_flow, run_step,
-    series_values,          series_growth};
+const Variant GAINSMITH_VARIANT{GAINSMITH_VARIANT_NAME, run, uniforms, sines, reached};
 
 }  // namespace gainsmith::lanes

@@ -5,9 +5,11 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <utility>
 #include <vector>
 
+#include "base/double_double.h"
 #include "model/design.h"
 #include "model/dynamics.h"
 #include "model/stated.h"
@@ -22,6 +24,8 @@ struct RunTexts {
   std::vector<Design::Claim> claims;
   /// Variables b that hold a difference a - b, with a: they start as b, then b is taken from a.
   std::vector<std::pair<std::size_t, std::size_t>> differences{};
+  /// Some of `stated.values` in 31 digits, from the decimals of their texts; none: that is not known.
+  std::function<numbers::ValuesOf<DoubleDouble>(const numbers::Values&)> in_31_digits{};
 };
 
 /// InputError for a design without dynamics, and for a derivative that is not known.

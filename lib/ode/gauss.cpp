@@ -1,29 +1,20 @@
 #include "ode/gauss.h"
 
 #include <Eigen/LU>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <utility>
 
+#include "base/eigen_scalars.h"
+#include "ode/gauss_stages.h"
 #include "ode/tolerances.h"
 
 namespace gainsmith::ode {
 
 namespace {
 
-constexpr Eigen::Index stages = 4;
-
-/// P_0(z) ... P_4(z).
-std::array<double, 5> legendre(double z) {
-  std::array<double, 5> P{1, z, 0, 0, 0};
-  for (std::size_t k = 1; k < 4; ++k) {
-    const auto d = static_cast<double>(k);
-    P[k + 1] = ((2 * d + 1) * z * P[k] - d * P[k - 1]) / (d + 1);
-  }
-  return P;
-}
+constexpr int stages = 4;
 
 /// The largest change in units of the tolerance.
 double weighted(const numbers::Matrix& change, const Eigen::VectorXd& tolerance) {
@@ -34,24 +25,8 @@ double weighted(const numbers::Matrix& change, const Eigen::VectorXd& tolerance)
 }  // namespace
 
 GaussTableau gauss_tableau() {
-  GaussTableau tableau;
-  const double near = std::sqrt(3.0 / 7 - 2.0 / 7 * std::sqrt(1.2));
-  const double far = std::sqrt(3.0 / 7 + 2.0 / 7 * std::sqrt(1.2));
-  const Eigen::Vector4d z(-far, -near, near, far);
-  tableau.c = 0.5 * (1 + z.array());
-  const double light = (18 - std::sqrt(30.0)) / 72;
-  const double heavy = (18 + std::sqrt(30.0)) / 72;
-  tableau.b = Eigen::Vector4d(light, heavy, heavy, light);
-  // The Lagrange polynomials in those of Legendre, which are orthogonal on c too:
-  //   l_j = b_j sum_k (2k + 1) P_k(z_j) P_k,  integral of (2k + 1) P_k = (P_{k+1} - P_{k-1}) / 2
-  for (Eigen::Index i = 0; i < stages; ++i)
-    for (Eigen::Index j = 0; j < stages; ++j) {
-      const std::array<double, 5> to = legendre(z(i));
-      const std::array<double, 5> of = legendre(z(j));
-      double sum = tableau.c(i);
-      for (std::size_t k = 1; k < 4; ++k) sum += of[k] * (to[k + 1] - to[k - 1]) / 2;
-      tableau.A(i, j) = tableau.b(j) * sum;
-    }
+  const GaussStages<DoubleDouble> of(stages);
+  GaussTableau tableau{of.c.cast<double>(), of.b.cast<double>(), of.A.cast<double>(), {}};
   tableau.d = tableau.A.transpose().partialPivLu().solve(tableau.b);
   return tableau;
 }

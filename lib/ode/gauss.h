@@ -2,10 +2,9 @@
 //
 //   Z_i = h sum_j a_ij f(t + c_j h, x + Z_j),   x(t + h) = x + sum_i d_i Z_i
 //
-// c are the roots of the Legendre polynomial of degree 4 on [0, 1], b its weights, a_ij the
-// integral over [0, c_i] of the j-th Lagrange polynomial on c, d' = b' A^-1, so that a stiff f does
-// not multiply the errors of Z. A-stable and symmetric (Hairer & Wanner, "Solving ordinary
-// differential equations II", IV.5 and IV.8).
+// c, b and a_ij as in gauss_stages.h, d' = b' A^-1, so that a stiff f does not multiply the errors
+// of Z. A-stable and symmetric (Hairer & Wanner, "Solving ordinary differential equations II", IV.5
+// and IV.8).
 #pragma once
 
 #include <Eigen/Core>
@@ -23,7 +22,7 @@ struct GaussTableau {
   Eigen::Vector4d d;
 };
 
-/// In closed form, to rounding.
+/// To rounding.
 GaussTableau gauss_tableau();
 
 class GaussIntegrator {

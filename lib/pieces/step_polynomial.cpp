@@ -7,31 +7,12 @@ namespace gainsmith::pieces {
 
 namespace {
 
-constexpr std::size_t kMost = StepPolynomial::kMostTerms;
 using Coefficients = StepPolynomial::Coefficients;
 
 /// A search for a zero ends so near to it.
 constexpr double kZeroWithin = 2e-15;
 /// After a step of Newton's method that is such a part of the zero, the digits double.
 constexpr double kLastStep = 1e-8;
-/// Terms that are smaller beside the largest do not count.
-constexpr double kNoTerm = 1e-18;
-
-/// C(j, k) / C(n, k): what term k of n adds to B_j.
-struct Weights {
-  std::array<std::array<std::array<double, kMost>, kMost>, kMost> of{};
-  Weights() {
-    for (std::size_t n = 0; n < kMost; ++n)
-      for (std::size_t j = 0; j <= n; ++j) {
-        double weight = 1;
-        for (std::size_t k = 0; k <= j; ++k) {
-          of[n][j][k] = weight;
-          if (k < n) weight *= static_cast<double>(j - k) / static_cast<double>(n - k);
-        }
-      }
-  }
-};
-
 /// The `count` coefficients of its two halves.
 void split(const Coefficients& b, std::size_t count, Coefficients& left, Coefficients& right) {
   left = right = b;
@@ -134,24 +115,6 @@ std::optional<double> change_within(const Coefficients& b, std::size_t count, in
 StepPolynomial::StepPolynomial(std::span<const double> b, double error)
     : count_(b.size()), error_(error) {
   std::ranges::copy(b, b_.begin());
-}
-
-StepPolynomial StepPolynomial::of_series(const double* c, std::size_t stride, std::size_t terms,
-                                         double length) {
-  Coefficients a{}, b{};
-  double power = 1, size = 0;
-  for (std::size_t k = 0; k < terms; ++k) {
-    a[k] = c[k * stride] * power;
-    size = std::max(size, std::abs(a[k]));
-    power *= length;
-  }
-  const double error = std::abs(a[terms - 1]) + std::abs(a[terms - 2]);
-  std::size_t count = terms;
-  while (count > 1 && std::abs(a[count - 1]) <= kNoTerm * size) --count;
-  static const Weights weights;
-  for (std::size_t j = 0; j < count; ++j)
-    for (std::size_t k = 0; k <= j; ++k) b[j] += weights.of[count - 1][j][k] * a[k];
-  return {std::span(b).first(count), error};
 }
 
 StepPolynomial StepPolynomial::negated() const {

@@ -12,15 +12,11 @@ namespace gainsmith::pieces {
 
 class StepPolynomial {
  public:
-  static constexpr std::size_t kMostTerms = 17;
+  static constexpr std::size_t kMostTerms = 6;
   using Coefficients = std::array<double, kMostTerms>;
 
   /// The coefficients B_0 ... B_n on [0, 1], and its error.
   StepPolynomial(std::span<const double> b, double error);
-  /// The series sum c_k t^k, 0 <= t <= length, with c_k at c[k*stride], 1 < terms <= kMostTerms. The last
-  /// two terms tell its error. Terms that do not count beside the others are left out.
-  static StepPolynomial of_series(const double* c, std::size_t stride, std::size_t terms,
-                                  double length);
 
   /// With the opposite sign.
   StepPolynomial negated() const;

@@ -31,6 +31,8 @@ class Branches {
   void update_kinks(Eigen::VectorXd& values);
 
   bool is_kink(std::size_t one) const;
+  /// Of its first element among the values.
+  Eigen::Index offset(std::size_t one) const;
 
   /// An element of a switch whose branch changes.
   struct Change {
@@ -50,7 +52,6 @@ class Branches {
   void update_one(std::size_t one, Eigen::VectorXd& values);
   std::optional<Change> change_of(std::size_t one, Eigen::Index element, double branch,
                                   OnStep& on_step);
-  Eigen::Index offset(std::size_t one) const;
 
   const hybrid::System* system_;
   EventWatch* watch_;

@@ -10,7 +10,7 @@ namespace gainsmith::simulate {
 
 Accuracy Accuracy::times(double factor) const {
   return {std::max(relative * factor, ode::kFinest), absolute * factor, absolute_of * factor,
-          factor < 1 ? ode::kShorter * longest : longest};
+          factor < 1 ? ode::kShorter * longest : longest, in_31_digits};
 }
 
 std::unique_ptr<Flow> make_flow(VectorField& field, const Accuracy& accuracy, double longest,

@@ -6,6 +6,7 @@
 //                of degree 12 agrees to rounding, up to 1/w with w the largest |Im| or Re of an
 //                eigenvalue, so that nothing is stepped over; without those that die down in a hundred turns.
 //   integrated   the steps of an integrator (ode/integrator.h), and their polynomials.
+//   in 31 digits  steps of State31 (state_31.h), and polynomials in double through them.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,6 +14,7 @@
 
 #include "hybrid/trajectory.h"
 #include "simulate/last_places.h"
+#include "simulate/state_31.h"
 #include "simulate/vector_field.h"
 
 namespace gainsmith::simulate {
@@ -22,6 +24,7 @@ struct Accuracy {
   double absolute = 1e-10;
   Eigen::VectorXd absolute_of{};  ///< of each element of the variables; empty: `absolute` of all
   double longest = 1;             ///< step, as a part of the longest one of a run and of each flow
+  bool in_31_digits = false;      ///< then to that, whatever the others say (state_31.h)
 
   /// All errors times a factor; below 1e-13 relative nothing is gained. A sharper run takes shorter
   /// steps even where errors do not ask for them: equal steps of two runs have equal errors, and
@@ -42,6 +45,8 @@ class Flow {
   /// The step from where the last one ended, at most to `last`. IntegrationError (ode/integrator.h)
   /// where the flow ends before.
   virtual hybrid::DenseStep next() = 0;
+  /// The run has come to a time on it.
+  virtual void arrive(double t) { (void)t; }
 };
 
 /// The flow of the system of a field, which must outlive it; no step is longer than `longest`.
@@ -50,5 +55,7 @@ class Flow {
 /// differ in rounding by themselves.
 std::unique_ptr<Flow> make_flow(VectorField& field, const Accuracy& accuracy, double longest,
                                 const LastPlaces* moved = nullptr);
+/// In 31 digits; the state must outlive it. `share`: of the lengths that its steps might have.
+std::unique_ptr<Flow> flow_31(VectorField& field, State31& state, double longest, double share);
 
 }  // namespace gainsmith::simulate

@@ -46,7 +46,9 @@ JumpMaps::JumpMaps(const hybrid::System& system) : system_(&system) {
       Map& map = maps.emplace_back();
       for (const model::Dynamics::Assignment& one : pass.map) {
         map.entries.push_back({one.variable,
+                               &one.value.program,
                                hybrid::SystemFunction(one.value.program, system),
+                               {},
                                one.place,
                                nullptr,
                                {},
@@ -63,8 +65,10 @@ JumpMaps::JumpMaps(const hybrid::System& system) : system_(&system) {
 }
 
 VectorXd JumpMaps::operator()(std::size_t event, bool lost, const VectorXd& before,
-                              const LastPlaces* moved) {
+                              const LastPlaces* moved, const State31* state) {
   moved_ = moved;
+  state_ = state;
+  if (state_ != nullptr) after_31_ = state_->values();
   if (moved_ != nullptr) terms_ = VectorXd::Zero(system_->size);
   VectorXd after = before;
   std::int64_t passes = 0;
@@ -81,6 +85,7 @@ VectorXd JumpMaps::operator()(std::size_t event, bool lost, const VectorXd& befo
 std::int64_t JumpMaps::react(std::size_t reaction, const VectorXd& before, VectorXd& after) {
   const model::Dynamics::Reaction& one = system_->dynamics.reactions[reaction];
   VectorXd own = before;
+  if (state_ != nullptr) own_31_ = state_->values();
   std::int64_t passes = 0;
   for (std::size_t k = 0; k < one.passes.size(); ++k) {
     Map& map = maps_[reaction][k];
@@ -94,6 +99,9 @@ std::int64_t JumpMaps::react(std::size_t reaction, const VectorXd& before, Vecto
     for (const MapEntry& entry : map.entries) {
       const hybrid::Slot& slot = system_->layout.slots[entry.variable];
       after.segment(slot.offset, slot.shape.size()) = own.segment(slot.offset, slot.shape.size());
+      if (state_ != nullptr)
+        after_31_.segment(slot.offset, slot.shape.size()) =
+            own_31_.segment(slot.offset, slot.shape.size());
     }
   return passes;
 }
@@ -115,18 +123,29 @@ std::int64_t JumpMaps::repeat(const model::Dynamics::Pass& pass, std::int64_t mo
 
 void JumpMaps::apply(Map& map, VectorXd& own) {
   results_.resize(map.entries.size());
+  results_31_.resize(map.entries.size());
   for (std::size_t i = 0; i < map.entries.size(); ++i) {
-    results_[i] = map.entries[i].value(own);
-    check(map.entries[i], own, results_[i]);
-    if (moved_ != nullptr) move(map.entries[i], own, results_[i]);
+    MapEntry& entry = map.entries[i];
+    if (state_ != nullptr) {
+      if (!entry.value_31) entry.value_31.emplace(*entry.program, *system_, state_->constants());
+      results_31_[i] = (*entry.value_31)(own_31_);
+      results_[i] = results_31_[i].unaryExpr([](const DoubleDouble& one) { return one.hi(); });
+    } else {
+      results_[i] = entry.value(own);
+    }
+    check(entry, own, results_[i]);
+    if (moved_ != nullptr) move(entry, own, i);
   }
   for (std::size_t i = 0; i < map.entries.size(); ++i) {
     const hybrid::Slot& slot = system_->layout.slots[map.entries[i].variable];
     own.segment(slot.offset, slot.shape.size()) = results_[i].reshaped();
+    if (state_ != nullptr)
+      own_31_.segment(slot.offset, slot.shape.size()) = results_31_[i].reshaped();
   }
 }
 
-void JumpMaps::move(MapEntry& entry, const VectorXd& own, numbers::Matrix& value) {
+void JumpMaps::move(MapEntry& entry, const VectorXd& own, std::size_t result) {
+  numbers::Matrix& value = results_[result];
   const bool symmetric = is_symmetric_state(*system_, entry.variable);
   const Eigen::Index first = system_->layout.slots[entry.variable].offset;
   numbers::Matrix sizes = numbers::Matrix::Zero(value.rows(), value.cols());
@@ -148,9 +167,13 @@ void JumpMaps::move(MapEntry& entry, const VectorXd& own, numbers::Matrix& value
       else if (terms == 0 && found != before)
         terms = std::numeric_limits<double>::denorm_min();
       // What a branch leaves as it was has not been computed.
+      else if (found != before && state_ != nullptr)
+        found = (results_31_[result](row, column) += k31LastPlaces * moved_->of(found, terms)).hi();
       else if (found != before)
         found += moved_->of(found, terms);
       if (symmetric) value(column, row) = found;
+      if (symmetric && state_ != nullptr)
+        results_31_[result](column, row) = results_31_[result](row, column);
     }
 }
 
@@ -171,7 +194,7 @@ void JumpMaps::check(const MapEntry& entry, const VectorXd& own, numbers::Matrix
   value = ((value + value.transpose()) / 2).eval();
 }
 
-void JumpMaps::count(std::size_t event, std::int64_t passes, VectorXd& after) const {
+void JumpMaps::count(std::size_t event, std::int64_t passes, VectorXd& after) {
   using Kind = model::Dynamics::VariableKind;
   for (std::size_t i = 0; i < system_->dynamics.variables.size(); ++i) {
     const model::Dynamics::Variable& variable = system_->dynamics.variables[i];
@@ -180,6 +203,9 @@ void JumpMaps::count(std::size_t event, std::int64_t passes, VectorXd& after) co
       after(at) += 1;
     if (variable.kind == Kind::passes && variable.of == event)
       after(at) = static_cast<double>(passes);
+    const bool counts = variable.kind == Kind::jumps || variable.kind == Kind::count ||
+                        variable.kind == Kind::passes;
+    if (counts && state_ != nullptr) after_31_(at) = after(at);
   }
 }
 

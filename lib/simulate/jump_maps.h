@@ -4,22 +4,15 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "hybrid/event_functions.h"
-#include "hybrid/trajectory.h"
 #include "simulate/last_places.h"
+#include "simulate/run_end.h"
+#include "simulate/state_31.h"
 
 namespace gainsmith::simulate {
-
-/// The run ends here. The message is without time and place of the run.
-struct RunEnd : std::runtime_error {
-  RunEnd(hybrid::Ending why, const std::string& message)
-      : std::runtime_error(message), ending(why) {}
-  hybrid::Ending ending;
-};
 
 class JumpMaps {
  public:
@@ -30,16 +23,21 @@ class JumpMaps {
   /// own variables j, count(event) and passes(event) are new: passes of the loops of the jump
   /// together. RunEnd for a loop whose `until` does not become true; EvaluationError where a map
   /// has no value; InputError for a mode that is no whole number and a symmetric state that is not.
-  /// `moved`: by which results of arithmetic are moved, in a twin.
+  /// `moved`: by which results of arithmetic are moved, in a twin. `state`: the same values in 31
+  /// digits, in which the maps are evaluated then.
   Eigen::VectorXd operator()(std::size_t event, bool lost, const Eigen::VectorXd& before,
-                             const LastPlaces* moved = nullptr);
+                             const LastPlaces* moved = nullptr, const State31* state = nullptr);
+  /// The values after the last jump in 31 digits.
+  const Values31& in_31_digits() const { return after_31_; }
   /// Of the last jump of a twin, by element of the values: hybrid::JumpPoint::terms.
   const Eigen::VectorXd& terms() const { return terms_; }
 
  private:
   struct MapEntry {
     std::size_t variable = 0;
+    const expr::Program* program = nullptr;
     hybrid::SystemFunction value;
+    std::optional<Function31> value_31;  ///< made when it is asked for
     Place place;
     std::unique_ptr<const expr::Program> terms_program;
     std::optional<hybrid::SystemFunction> terms;  ///< none: nothing is computed
@@ -55,13 +53,16 @@ class JumpMaps {
   std::int64_t repeat(const model::Dynamics::Pass& pass, std::int64_t most, Map& map,
                       Eigen::VectorXd& own);
   void apply(Map& map, Eigen::VectorXd& own);
-  void move(MapEntry& entry, const Eigen::VectorXd& own, numbers::Matrix& value);
+  void move(MapEntry& entry, const Eigen::VectorXd& own, std::size_t result);
   void check(const MapEntry& entry, const Eigen::VectorXd& own, numbers::Matrix& value) const;
-  void count(std::size_t event, std::int64_t passes, Eigen::VectorXd& after) const;
+  void count(std::size_t event, std::int64_t passes, Eigen::VectorXd& after);
 
   const hybrid::System* system_;
   std::vector<Maps> maps_;                ///< by reaction
   std::vector<numbers::Matrix> results_;  ///< of one map
+  std::vector<Matrix31> results_31_;
+  const State31* state_ = nullptr;
+  Values31 own_31_, after_31_;
   const LastPlaces* moved_ = nullptr;
   Eigen::VectorXd terms_;
 };

@@ -32,6 +32,8 @@ class RunRecord {
   /// The flow that is open; without steps none is.
   const hybrid::FlowPiece& flow() const { return piece_; }
   void flow_ends();
+  /// Where the flow that is open ended is known better.
+  void ended_at(const Eigen::VectorXd& end) { end_ = end; }
 
   /// RunEnd when the record is full.
   void add(hybrid::JumpPoint jump);

@@ -35,6 +35,7 @@ struct Simulator::Texts {
   VectorField field;
   EventWatch watch;
   JumpMaps maps;
+  std::unique_ptr<State31> state_31;  ///< made when it is asked for
 };
 
 namespace {
@@ -43,8 +44,11 @@ class EventRun {
  public:
   EventRun(const hybrid::System& system, const hybrid::Scenario& scenario, VectorField& field,
            EventWatch& watch, JumpMaps& maps, std::uint64_t seed, std::uint64_t run,
-           const Accuracy& accuracy, const RecordLimits& limits, std::optional<std::uint64_t> moved)
+           const Accuracy& accuracy, const RecordLimits& limits, std::optional<std::uint64_t> moved,
+           State31* state)
       : system_(system),
+        run_(run),
+        state_(state),
         field_(field),
         watch_(watch),
         maps_(maps),
@@ -54,7 +58,10 @@ class EventRun {
         noise_(system, scenario, seed, run),
         rows_(system),
         branches_(system, watch, accuracy),
-        flow_(make_flow(field, accuracy, system.longest_step() * scenario.horizon, places())),
+        flow_(state != nullptr
+                  ? flow_31(field, *state, system.longest_step() * scenario.horizon,
+                            moved ? kShareOfTwin : 1)
+                  : make_flow(field, accuracy, system.longest_step() * scenario.horizon, places())),
         zeno_(system, scenario.horizon),
         flow_sets_(watch),
         sliding_(system, watch, accuracy, scenario.horizon),
@@ -87,6 +94,8 @@ class EventRun {
 
  private:
   enum class Went { on, stopped };
+  /// In 31 digits: steps of other lengths have other errors.
+  static constexpr double kShareOfTwin = 0.8;
   using NearTurns = std::vector<std::pair<hybrid::NearTurn, bool>>;
 
   // --- The start and the end. ---
@@ -98,6 +107,7 @@ class EventRun {
     due_.begin(values_, field_);
     field_.fill_clocks(0, values_);
     branches_.update(values_);
+    if (state_ != nullptr) state_->begin(run_, values_, due_.clocks(), places());
     record_.start(variables(values_));
     require_range();
   }
@@ -139,19 +149,35 @@ class EventRun {
     if (chain_ == 0) watch_zeno(event);
     sliding_.jumped();
     slow_steps_ = 0;
+    if (state_ != nullptr) meet(event);
     const VectorXd before = values_;
     const bool lost = system_.dynamics.events[event].lost > 0 && due_.clocks().loses(event);
-    values_ = maps_(event, lost, before, places());
+    values_ = maps_(event, lost, before, places(), state_);
     record_.flow_ends();
     due_.spend(event, t_, field_);
     field_.set_since(event, t_);
     field_.fill_clocks(t_, values_);
     due_.jumped(event, before, values_);
+    if (state_ != nullptr) state_->jumped(event, maps_.in_31_digits(), due_.clocks());
     record_.add(hybrid::JumpPoint{t_, j_, event, lost, variables(before), variables(values_),
                                   moved_ ? maps_.terms() : VectorXd()});
     ++j_;
     require_range();
     if (++chain_ >= hybrid::kMost) end_chain(event);
+  }
+
+  /// To the time of the event in 31 digits.
+  void meet(std::size_t event) {
+    state_->adopt(values_);
+    const bool by_flow = chain_ == 0 && t_ > 0;
+    state_->meet(event, watch_, values_, due_.clocks(), by_flow);
+    round_state();
+  }
+
+  /// The double values are those of 31 digits, also where the flow ends.
+  void round_state() {
+    values_.head(system_.size) = rounded(state_->values()).head(system_.size);
+    record_.ended_at(variables(values_));
   }
 
   [[noreturn]] void end_chain(std::size_t event) {
@@ -205,6 +231,7 @@ class EventRun {
 
   void flow() {
     if (rows_.leave(t_, values_)) {
+      if (state_ != nullptr) state_->adopt_given(values_, false);
       branches_.update(values_);
       if (due_.first(values_, t_)) return;  // by the last of several rows at t
     }
@@ -221,7 +248,10 @@ class EventRun {
     if (!is_split || go(early) == Went::on) go(stop);
     last_flow_ = t_ - from;
     const bool drawn = noise_.draw_due(t_, values_);
-    if (rows_.arrive(t_, values_) || drawn) branches_.update(values_);
+    if (rows_.arrive(t_, values_) || drawn) {
+      branches_.update(values_);
+      if (state_ != nullptr) state_->adopt_given(values_, true);
+    }
   }
 
   /// Steps up to `last` at most.
@@ -256,6 +286,9 @@ class EventRun {
   }
 
   void change_branch(const Branches::Change& change) {
+    // At a kink both branches are the same.
+    const bool jumps = state_ != nullptr && !branches_.is_kink(change.branch);
+    if (jumps) state_->meet_switch(change.branch, change.element - branches_.offset(change.branch));
     values_(change.element) = change.to;
     if (!branches_.is_kink(change.branch)) sliding_.switched(change.branch, t_, values_);
   }
@@ -294,6 +327,7 @@ class EventRun {
     }
     note(near, step.to);
     arrive(step, inside.at(step.to));
+    if (state_ != nullptr) round_state();
     if (flow_sets_.leaves(values_)) flow_sets_.leave_first(values_);
     return due_.first(values_, t_) ? Went::stopped : Went::on;
   }
@@ -316,6 +350,7 @@ class EventRun {
     record_.add(step, variables(values));
     values_ = std::move(values);
     t_ = step.to;
+    flow_->arrive(t_);
     if (moved_) moved_->next();
     chain_ = 0;
     changed_back_ = 0;
@@ -351,6 +386,8 @@ class EventRun {
   }
 
   const hybrid::System& system_;
+  std::uint64_t run_;
+  State31* state_;  ///< of a run in 31 digits
   VectorField& field_;
   EventWatch& watch_;
   JumpMaps& maps_;
@@ -387,8 +424,10 @@ Simulator::~Simulator() = default;
 
 hybrid::Trajectory Simulator::run(std::uint64_t seed, std::uint64_t run, const Accuracy& accuracy,
                                   const RecordLimits& limits, std::optional<std::uint64_t> moved) {
+  if (accuracy.in_31_digits && texts_->state_31 == nullptr)
+    texts_->state_31 = std::make_unique<State31>(*system_, *scenario_);
   return EventRun(*system_, *scenario_, texts_->field, texts_->watch, texts_->maps, seed, run,
-                  accuracy, limits, moved)
+                  accuracy, limits, moved, accuracy.in_31_digits ? texts_->state_31.get() : nullptr)
       .trajectory();
 }
 

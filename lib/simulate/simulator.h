@@ -47,6 +47,8 @@ class Simulator {
   /// The solution on [0, horizon], or to where it ends before, with the reason. InputError for what
   /// is wrong in the text whatever the run: a symmetric state that jumps or flows out of symmetry,
   /// a mode that is no whole number.
+  /// Accuracy::in_31_digits: of systems that may run so (state_31.h) alone; a run that cannot be
+  /// followed so is lost.
   /// `moved`: which of its twins it is, moved in the last places (last_places.h); none: the run.
   hybrid::Trajectory run(std::uint64_t seed, std::uint64_t run, const Accuracy& accuracy = {},
                          const RecordLimits& limits = {}, std::optional<std::uint64_t> moved = {});

@@ -2,6 +2,8 @@
 // each: unit | meaning | the test that fails where the value is wrong (docs/tolerances.md).
 #pragma once
 
+#include <cstdint>
+
 namespace gainsmith::simulate {
 
 constexpr double kEarly = 0.1;  ///< of a step
@@ -13,5 +15,20 @@ constexpr double kShorterStep = 1.5;  ///< times the length up to an event
 constexpr double kNearOfTerms = 1e-3;  ///< of the sizes of the terms of a guard
 ///< | turning points as near to 0 as that are compared with their errors
 ///< | EventRun.ATwinKeepsTurningPointsNextToZero
+constexpr double k31Residual = 1e-24;  ///< relative
+///< | stages of a step in 31 digits are corrected for the last time when they are off by less
+///< | State31.FollowsChaos
+constexpr double k31Solved = 1e-27;  ///< relative
+///< | a time, or a guard of its terms, that is known in 31 digits
+///< | State31.FollowsEventsOfFlows
+constexpr double k31Terms = 1e-15;  ///< of what moves
+///< | the last terms of a step in 31 digits: its end, of twice the order, is off by their square
+///< | State31.FollowsChaos
+constexpr double k31Near = 1e-11;  ///< of the terms of a guard
+///< | an event that is found in double has happened where its guard is so near to 0
+///< | State31.FollowsEventsOfFlows
+constexpr std::int64_t k31Steps = 2000;  ///< steps of a run
+///< | one that needs more is not made in 31 digits
+///< | State31.EndsWhereStepsAreMany
 
 }  // namespace gainsmith::simulate

@@ -188,15 +188,15 @@ const numbers::Matrix& VectorField::text_of(Entry& entry, const VectorXd& values
   return (*entry.free)(values);
 }
 
-bool VectorField::is_frozen(const Entry& entry) const {
-  const auto& variable = system_->dynamics.variables[entry.variable];
-  return variable.kind == model::Dynamics::VariableKind::state && is_frozen_[variable.component];
+bool VectorField::is_frozen(std::size_t variable) const {
+  const auto& own = system_->dynamics.variables[variable];
+  return own.kind == model::Dynamics::VariableKind::state && is_frozen_[own.component];
 }
 
 /// The rate of a variable: 0 in a frozen component, of a symmetric one its symmetric part.
 const numbers::Matrix& VectorField::value_of(Entry& entry, const VectorXd& values) {
   const auto& variable = system_->dynamics.variables[entry.variable];
-  if (is_frozen(entry)) {
+  if (is_frozen(entry.variable)) {
     symmetric_ = numbers::Matrix::Zero(variable.shape.rows, variable.shape.cols);
     return symmetric_;
   }
@@ -231,7 +231,7 @@ void VectorField::rates(VectorXd& rate) {
     for (std::size_t k = 0; k < rate_of_.size(); ++k) {
       const Element& one = rate_of_[k];
       const double value = together_.element(one.flow, one.at);
-      rate(static_cast<Index>(k)) = is_frozen(flows_[one.flow]) ? 0
+      rate(static_cast<Index>(k)) = is_frozen(flows_[one.flow].variable) ? 0
                                     : one.at == one.mirror
                                         ? value
                                         : (value + together_.element(one.flow, one.mirror)) / 2;

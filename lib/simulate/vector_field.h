@@ -65,6 +65,8 @@ class VectorField {
   /// The part of a step up to t: what is steady is the same line, and what rests keeps its bits.
   hybrid::DenseStep until(const hybrid::DenseStep& step, double t) const;
   const hybrid::System& system() const { return *system_; }
+  /// Whether the component of a state is, in the flow that has begun.
+  bool is_frozen(std::size_t variable) const;
   /// Of exact flows.
   ode::ExponentialTables& tables() { return tables_; }
 
@@ -96,7 +98,6 @@ class VectorField {
   const numbers::Matrix& value_of(Entry& entry, const Eigen::VectorXd& values);
   void set_steady(Entry& entry, double t);
   void require_symmetric(Entry& entry, const numbers::Matrix& rate);
-  bool is_frozen(const Entry& entry) const;
   void rates(Eigen::VectorXd& rate);
   void set_lines(hybrid::DenseStep& step) const;
 

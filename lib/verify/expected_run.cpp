@@ -33,8 +33,10 @@ RunDifferences run_differences(const model::Instance& instance, const model::Gai
   const auto& expect = instance.design->expect;
   if (!expect || expect->run.empty()) return result;
   const auto setup = claims::make_run_setup(bind::run_texts(instance, gains));
-  const claims::TwinRun runs =
-      claims::TwinRuns(*setup)(instance.design->campaign.seed, 0, claims::kAccuracyOfOne);
+  const std::uint64_t seed = instance.design->campaign.seed;
+  claims::TwinRuns twins(*setup);
+  const claims::TwinRun runs = twins(seed, 0, claims::kAccuracyOfOne);
+  std::optional<claims::TwinRun> in_31_digits;  // made where a figure is not known
   for (const model::ExpectedFigure& expected : expect->run) {
     ++result.figures;
     const model::Figure& figure = expected.figure;
@@ -51,7 +53,13 @@ RunDifferences run_differences(const model::Instance& instance, const model::Gai
         result.different.push_back(text);
       continue;
     }
-    const statistics::Estimate found = statistics::BoundFigure(figure, *setup).of(runs);
+    statistics::BoundFigure bound(figure, *setup);
+    statistics::Estimate found = bound.of(runs);
+    if (!found.known() && setup->has_31_digits()) {
+      if (!in_31_digits) in_31_digits = twins.in_31_digits(seed, 0, claims::kAccuracyOfOne);
+      if (statistics::Estimate sharper = bound.of(*in_31_digits); sharper.known())
+        found = std::move(sharper);
+    }
     const auto limit = [&](const model::Formula& formula) {
       return numbers::evaluate(formula.program, instance.values)(0, 0);
     };

@@ -75,6 +75,8 @@ bool is_doubtful(const claims::Finding& finding) {
          std::abs(finding.value - finding.bound) <= kDoubtful * finding.rounding;
 }
 
+bool is_open(const claims::Finding& finding) { return finding.undecided() || is_doubtful(finding); }
+
 }  // namespace
 
 Judge::Judge(const Setup& setup)
@@ -83,21 +85,22 @@ Judge::Judge(const Setup& setup)
 }
 
 /// A track whose events are noted.
-const Track& Judge::noted(std::uint64_t seed, std::uint64_t run, double factor,
-                          std::uint64_t twin) {
-  track_ = &tracks_.run(seed, run, factor, twin);
+const Track& Judge::noted(const Track& track) {
+  track_ = &track;
   happened_.resize(event_count_, 0);
   for (const claims::Move& move : track_->moves)
     if (move.jump) happened_[move.event] = 1;
   return *track_;
 }
 
+RunVerdict Judge::sharper(std::uint64_t seed, std::uint64_t run) {
+  return last_verdict(noted(tracks_.run(seed, run, kSharper, 1)), checks_);
+}
+
 RunVerdict Judge::confirm(std::uint64_t seed, std::uint64_t run) {
-  RunVerdict verdict = last_verdict(noted(seed, run, kSharper, 1), checks_);
-  if (verdict.judgement != claims::Judgement::undecided ||
-      !tracks_.can_decide_more(kSharper * kSharper))
-    return verdict;
-  return with_decided(verdict, last_verdict(noted(seed, run, kSharper * kSharper, 1), checks_));
+  RunVerdict verdict = sharper(seed, run);
+  decide(seed, run, verdict);
+  return verdict;
 }
 
 void Judge::take_held(const std::vector<bool>& holds, RunVerdict& verdict) const {
@@ -108,38 +111,43 @@ void Judge::take_held(const std::vector<bool>& holds, RunVerdict& verdict) const
   verdict.judgement = worst_of(verdict.findings);
 }
 
-void Judge::doubt(std::uint64_t seed, std::uint64_t run, RunVerdict& verdict) {
-  constexpr std::uint64_t first = 2;  // of twins that no verdict is from
-  bool refuted = false;
-  double factor = kSharper;  // other errors of integration, too
-  for (std::uint64_t twin = first; twin < first + kMoreTwins; ++twin, factor *= 0.5) {
-    if (std::none_of(verdict.findings.begin(), verdict.findings.end(), is_doubtful)) break;
-    const RunVerdict again = last_verdict(noted(seed, run, factor, twin), checks_);
-    for (std::size_t i = 0; i < verdict.findings.size(); ++i) {
-      claims::Finding& finding = verdict.findings[i];
-      if (!is_doubtful(finding) || again.findings[i].violated()) continue;
+void Judge::decide(std::uint64_t seed, std::uint64_t run, RunVerdict& verdict) {
+  if (std::ranges::none_of(verdict.findings, is_open)) return;
+  std::optional<RunVerdict> again;
+  if (tracks_.can_decide_in_31_digits())
+    again = last_verdict(noted(tracks_.run_in_31_digits(seed, run)), checks_);
+  if (again && again->termination == Termination::lost) again.reset();
+  for (std::size_t i = 0; i < verdict.findings.size(); ++i) {
+    claims::Finding& finding = verdict.findings[i];
+    const bool was_violated = finding.violated();
+    if (!is_open(finding) || (again && was_violated && again->findings[i].violated())) continue;
+    if (again) finding = again->findings[i];
+    if (was_violated && (!again || finding.undecided())) {
       finding.judgement = claims::Judgement::undecided;
-      finding.disputed = refuted = true;
+      finding.disputed = true;
     }
   }
-  if (!refuted) return;
-  verdict.judgement = worst_of(verdict.findings);
+  if (again) {
+    verdict.termination = again->termination;
+    verdict.message = again->message;
+  }
+  if (!verdict.unfinished()) verdict.judgement = worst_of(verdict.findings);
   verdict.confirmed = verdict.judgement == claims::Judgement::violated;
 }
 
 RunVerdict Judge::operator()(std::uint64_t seed, std::uint64_t run,
                              const std::vector<bool>& holds) {
   happened_.assign(event_count_, 0);
-  RunVerdict verdict = verdict_on(noted(seed, run, 1, 0), checks_);
+  RunVerdict verdict = verdict_on(noted(tracks_.run(seed, run, 1)), checks_);
   take_held(holds, verdict);
   const bool open = std::any_of(verdict.findings.begin(), verdict.findings.end(),
                                 [](const claims::Finding& one) { return one.undecided(); });
   // A run that is repeated may go on where it ended before.
   if (open || verdict.unfinished()) {
-    verdict = with_decided(verdict, confirm(seed, run));
+    verdict = with_decided(verdict, sharper(seed, run));
     take_held(holds, verdict);
   }
-  doubt(seed, run, verdict);
+  decide(seed, run, verdict);
   verdict.happened = happened_;
   return verdict;
 }

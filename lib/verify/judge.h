@@ -28,13 +28,14 @@ class Judge {
   /// A stop (base/stop.h) may end a run; then its verdict says nothing.
   explicit Judge(const Setup& setup);
 
-  /// A run with a claim that is not decided, or that does not reach the horizon, is repeated. So is
-  /// one with a claim that is violated by little: where the truth is a tie, the two runs of a twin
-  /// may agree by chance, and what other twins do not confirm is undecided.
+  /// A run with a claim that is not decided, or that does not reach the horizon, is repeated, and
+  /// where that does not decide once more, in 31 digits. So is one with a claim that is violated by
+  /// little: where the truth is a tie, two runs may agree by chance, and what 31 digits do not confirm
+  /// is undecided.
   /// `holds`: claims that are known to hold, of which what is not certain counts as held.
   RunVerdict operator()(std::uint64_t seed, std::uint64_t run, const std::vector<bool>& holds = {});
 
-  /// The run repeated.
+  /// The run repeated, so too.
   RunVerdict confirm(std::uint64_t seed, std::uint64_t run);
 
   /// To the accuracy of a campaign, until the next call.
@@ -44,9 +45,9 @@ class Judge {
   const std::vector<claims::ClaimCheck>& checks() const { return checks_; }
 
  private:
-  const claims::Track& noted(std::uint64_t seed, std::uint64_t run, double factor,
-                             std::uint64_t twin);
-  void doubt(std::uint64_t seed, std::uint64_t run, RunVerdict& verdict);
+  const claims::Track& noted(const claims::Track& track);
+  RunVerdict sharper(std::uint64_t seed, std::uint64_t run);
+  void decide(std::uint64_t seed, std::uint64_t run, RunVerdict& verdict);
   void take_held(const std::vector<bool>& holds, RunVerdict& verdict) const;
 
   std::size_t event_count_;

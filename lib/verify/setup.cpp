@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "bind/exact_values.h"
 #include "bind/stated.h"
-#include "hybrid/exact_values.h"
 #include "verify/coordinate_states.h"
 #include "verify/error_states.h"
 
@@ -34,7 +34,7 @@ std::unique_ptr<const LinearSetup> make_linear_setup(const model::Instance& inst
       }))
     return nullptr;
   setup->coordinates = linear::make_coordinates(
-      *setup->system, hybrid::exact_values(instance, dynamics.constants, gains), functions);
+      *setup->system, bind::exact_values(instance, dynamics.constants, gains), functions);
   return setup;
 }
 

@@ -14,9 +14,7 @@ constexpr std::uint64_t kSampled = 1024;  ///< runs | one of so many, or fewer (
 constexpr std::uint64_t kFewestInPacks = 8;  ///< runs | of fewer runs each is careful: some are made
         ///< carefully anyway | PackJudge.AFewRunsAreMadeOneByOne
 constexpr double kDoubtful = 1000;  ///< times its error | a claim that is violated by less is to be
-        ///< violated with other twins, too | Judge.ATieIsNotViolatedByChance
-constexpr std::uint64_t kMoreTwins = 3;  ///< runs | so many others confirm it |
-        ///< Judge.ATieIsNotViolatedByChance
+        ///< violated in 31 digits, too | Judge.ATieIsNotViolatedByChance
 constexpr double kReach = 3;  ///< standard deviations | so far a search for the worst run takes
         ///< normal noise | DrawCube.NormalNoiseReachesThreeDeviations
 constexpr double kLongestList = 64;  ///< draws | so many lengths, losses or values of one noise are

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "bind/exact_values.h"
 #include "bind/stated.h"
-#include "hybrid/exact_values.h"
 #include "linear/coordinates.h"
 #include "linear/polynomial.h"
 #include "linear/sampled_system.h"
@@ -22,7 +22,7 @@ struct SampledProblem {
         texts(bind::run_texts(instance, problem.gains)),
         dynamics(hybrid::make_system(texts.dynamics, texts.stated.values)),
         made(make_sampled_system(dynamics)),
-        values(hybrid::exact_values(instance, dynamics.constants, problem.gains)) {}
+        values(bind::exact_values(instance, dynamics.constants, problem.gains)) {}
   SampledProblem(const SampledProblem&) = delete;
   SampledProblem& operator=(const SampledProblem&) = delete;
 

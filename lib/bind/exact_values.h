@@ -9,7 +9,7 @@
 #include "model/instance.h"
 #include "numbers/real.h"
 
-namespace gainsmith::hybrid {
+namespace gainsmith::bind {
 
 /// Every constant of the system from the decimals as written. A datum is evaluated from its text in
 /// 100 digits. A number of the gain file, and one that replaced the problem's, is the shortest
@@ -22,4 +22,4 @@ numbers::ValuesOf<Decimal100> exact_values(const model::Instance& instance,
 /// The shortest decimal that reads as this double, in 100 digits.
 Decimal100 shortest_decimal(double value);
 
-}  // namespace gainsmith::hybrid
+}  // namespace gainsmith::bind

@@ -1,4 +1,4 @@
-#include "hybrid/exact_values.h"
+#include "bind/exact_values.h"
 
 #include <algorithm>
 #include <array>
@@ -6,9 +6,7 @@
 #include <optional>
 #include <string_view>
 
-#include "hybrid/tolerances.h"
-
-namespace gainsmith::hybrid {
+namespace gainsmith::bind {
 
 namespace {
 
@@ -18,6 +16,9 @@ using Wide = numbers::MatrixOf<Decimal100>;
 Wide shortest_decimals(const numbers::Matrix& matrix) {
   return matrix.unaryExpr([](double value) { return shortest_decimal(value); });
 }
+
+/// Relative: a text that gives another number is not what the number is from.
+constexpr double kOfText = 1e-9;
 
 bool is_determined(const expr::Program& program) {
   return !model::chooses_basis(program) &&
@@ -35,7 +36,7 @@ std::optional<Wide> from_text(const model::Design::Datum& datum, const numbers::
         wide.unaryExpr([](const Decimal100& v) { return as<double>(v); });
     const double size = used.size() > 0 ? used.cwiseAbs().maxCoeff() : 0;
     if (rounded.rows() != used.rows() || rounded.cols() != used.cols()) return std::nullopt;
-    if (used.size() > 0 && !((rounded - used).cwiseAbs().maxCoeff() <= kMeantEqual * size))
+    if (used.size() > 0 && !((rounded - used).cwiseAbs().maxCoeff() <= kOfText * size))
       return std::nullopt;
     return wide;
   } catch (const expr::EvaluationError&) {
@@ -75,4 +76,4 @@ numbers::ValuesOf<Decimal100> exact_values(const model::Instance& instance,
   return values;
 }
 
-}  // namespace gainsmith::hybrid
+}  // namespace gainsmith::bind

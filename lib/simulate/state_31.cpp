@@ -1,0 +1,463 @@
+#include "simulate/state_31.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/number.h"
+#include "base/unit_roundoff.h"
+#include "ode/gauss_stages.h"
+#include "simulate/run_end.h"
+#include "simulate/tolerances.h"
+
+namespace gainsmith::simulate {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+using VariableKind = model::Dynamics::VariableKind;
+
+namespace {
+
+constexpr int kStages = 16;
+/// Relative: iterations in double may end there.
+constexpr double kSolvedInDouble = 1e-13;
+constexpr double kNone = std::numeric_limits<double>::infinity();
+
+const ode::GaussStages<DoubleDouble>& gauss() {
+  static const ode::GaussStages<DoubleDouble> stages(kStages);
+  return stages;
+}
+
+/// A number that a person wrote; none: one of so many digits may have been computed.
+std::optional<DoubleDouble> written(double value) {
+  constexpr int kDigits = 12;
+  const std::string text = brief(value, kDigits);
+  if (parse_decimal(text) != value) return std::nullopt;
+  return parse_as<DoubleDouble>(text);
+}
+
+/// In the order of hybrid::EventCondition::comparisons.
+void add_comparisons(const expr::Condition& condition, const hybrid::System& system,
+                     const Constants31& constants, std::vector<Function31>& all) {
+  if (condition.is_comparison()) all.emplace_back(condition.difference, system, constants);
+  for (const expr::Condition& one : condition.parts) add_comparisons(one, system, constants, all);
+}
+
+bool is_clock(VariableKind kind) {
+  return kind == VariableKind::time || kind == VariableKind::since || kind == VariableKind::left;
+}
+
+}  // namespace
+
+bool State31::may_run(const hybrid::System& system, const hybrid::Scenario& scenario) {
+  const auto is_known = [](const std::optional<hybrid::StartRule>& rule) {
+    if (!rule || rule->kind != model::StartKind::list) return true;
+    return std::ranges::all_of(rule->values, [](const numbers::Matrix& value) {
+      return std::ranges::all_of(value.reshaped(),
+                                 [](double one) { return written(one).has_value(); });
+    });
+  };
+  return system.in_31_digits && std::ranges::all_of(scenario.starts, is_known);
+}
+
+State31::State31(const hybrid::System& system, const hybrid::Scenario& scenario)
+    : system_(&system), scenario_(&scenario), constants_(system.in_31_digits()) {
+  const auto& dynamics = system.dynamics;
+  const auto add_moving = [&](std::size_t variable) {
+    const hybrid::Slot& slot = system.layout.slots[variable];
+    for (Index k = 0; k < slot.shape.size(); ++k) moving_.push_back(slot.offset + k);
+  };
+  for (const model::Dynamics::Assignment& one : dynamics.flow) {
+    rates_.push_back({one.variable, Function31(one.value.program, system, constants_)});
+    add_moving(one.variable);
+  }
+  for (Index k = system.size; k < system.whole; ++k) adopted_.push_back(k);
+  for (std::size_t i = 0; i < dynamics.variables.size(); ++i) {
+    const hybrid::Slot& slot = system.layout.slots[i];
+    const VariableKind kind = dynamics.variables[i].kind;
+    for (Index k = slot.offset; k < slot.offset + slot.shape.size(); ++k) {
+      if (kind == VariableKind::noise) adopted_.push_back(k);
+      if (kind == VariableKind::measured || kind == VariableKind::measured_rate)
+        measured_.push_back(k);
+    }
+    if (!is_clock(kind)) continue;
+    clocks_.push_back({slot.offset, kind, dynamics.variables[i].of});
+    add_moving(i);
+  }
+  for (std::size_t e = 0; e < dynamics.events.size(); ++e) {
+    const model::Dynamics::Event& event = dynamics.events[e];
+    std::vector<Function31>& guards = guards_.emplace_back();
+    if (event.condition) add_comparisons(*event.condition, system, constants_, guards);
+    if (event.crossing) guards.emplace_back(event.crossing->program, system, constants_);
+    add_clocks(e);
+  }
+  for (const model::Dynamics::Noise& noise : dynamics.noise)
+    if (noise.every)
+      drawn_every_.push_back(numbers::evaluate<DoubleDouble>(noise.every->program, constants_)(0));
+  for (const hybrid::Switch& one : system.switches)
+    switches_.emplace_back(one.difference, system, constants_);
+}
+
+void State31::add_clocks(std::size_t event) {
+  const model::Dynamics::Event& one = system_->dynamics.events[event];
+  const auto value = [&](const model::Formula& formula) {
+    return numbers::evaluate<DoubleDouble>(formula.program, constants_);
+  };
+  std::vector<DoubleDouble>& times = times_.emplace_back();
+  for (const model::Formula& formula : one.times) {
+    const Matrix31 given = value(formula);
+    times.insert(times.end(), given.data(), given.data() + given.size());
+  }
+  period_.emplace_back();
+  first_.emplace_back();
+  const auto& clock = system_->clocks[event];
+  if (!clock || clock->low != clock->high) return;
+  period_.back() = value(*one.low)(0);
+  const auto& given = scenario_->first.empty() ? std::nullopt : scenario_->first[event];
+  if (given)
+    first_.back() = written(*given);
+  else if (!clock->first)
+    first_.back() = period_.back();
+  else if (clock->first->first == clock->first->second)
+    first_.back() = value(*one.first_low)(0);
+}
+
+Values31 State31::start_of(std::uint64_t run, const VectorXd& values) {
+  Values31 x = values.cast<DoubleDouble>();
+  const hybrid::GivenRun* given = scenario_->given_for(run);
+  for (std::size_t i = 0; i < scenario_->starts.size(); ++i) {
+    if (!scenario_->starts[i]) continue;
+    if (given != nullptr && i < given->starts.size() && given->starts[i]) continue;
+    const hybrid::StartRule& rule = *scenario_->starts[i];
+    const hybrid::Slot& slot = system_->layout.slots[i];
+    auto state = x.segment(slot.offset, slot.shape.size());
+    if (rule.kind == model::StartKind::expression)
+      state = Function31(rule.program, *system_, constants_)(x).reshaped();
+    if (rule.kind == model::StartKind::list)
+      state = state.unaryExpr([](const DoubleDouble& one) { return *written(one.hi()); });
+  }
+  for (const auto& [b, a] : scenario_->differences) {
+    const hybrid::Slot& slot = system_->layout.slots[b];
+    const auto& rule = scenario_->starts[b];
+    if (!rule || rule->kind != model::StartKind::expression) continue;  // that of the draw
+    auto d = x.segment(slot.offset, slot.shape.size());
+    d = Values31(x.segment(system_->layout.slots[a].offset, slot.shape.size()) - d);
+  }
+  return x;
+}
+
+void State31::begin(std::uint64_t run, const VectorXd& values, const hybrid::EventClocks& clocks,
+                    const LastPlaces* moved) {
+  moved_ = moved;
+  t_ = 0;
+  to_ = longest_ = 0;
+  since_.assign(system_->dynamics.events.size(), t_);
+  x_ = start_of(run, values);
+  drawn_first_.clear();
+  for (std::size_t e = 0; e < first_.size(); ++e) drawn_first_.push_back(clocks.due(e));
+  fill_clocks(clocks);
+}
+
+void State31::adopt(const VectorXd& values) {
+  for (const Index k : adopted_) x_(k) = values(k);
+}
+
+void State31::adopt_given(const VectorXd& values, bool arrives) {
+  const double t = t_.hi();
+  std::optional<DoubleDouble> time;
+  for (const DoubleDouble& every : drawn_every_)
+    if (const DoubleDouble at = std::round(t / every.hi()) * every;
+        std::abs(at.hi() - t) <= hybrid::kOneInstant * t)
+      time = at;
+  for (const model::Dynamics::Measured& one : system_->dynamics.measured)
+    for (const double row : one.series->times)
+      if (std::abs(row - t) <= hybrid::kOneInstant * t)
+        time = parse_as<DoubleDouble>(shortest(row));
+  if (arrives && time) shift(*time - t_);
+  adopt(values);
+  for (const Index k : measured_) x_(k) = values(k);
+}
+
+DoubleDouble State31::due(std::size_t event, double rounded) const {
+  const auto nearer = [&](const DoubleDouble& a, const DoubleDouble& b) {
+    return abs(a - rounded) < abs(b - rounded);
+  };
+  if (!times_[event].empty())
+    return *std::min_element(times_[event].begin(), times_[event].end(), nearer);
+  if (!period_[event]) return rounded;
+  const DoubleDouble first = first_[event].value_or(drawn_first_[event]);
+  const double count = std::round(((rounded - first) / *period_[event]).hi());
+  return first + count * *period_[event];
+}
+
+void State31::fill_clocks(const hybrid::EventClocks& clocks) {
+  for (const Clock& one : clocks_) {
+    DoubleDouble& value = x_(one.element);
+    if (one.kind == VariableKind::time) value = t_;
+    if (one.kind == VariableKind::since) value = t_ - since_[one.event];
+    if (one.kind != VariableKind::left) continue;
+    const double rounded = clocks.due(one.event);
+    value = std::isfinite(rounded) ? due(one.event, rounded) - t_ : DoubleDouble(rounded);
+  }
+}
+
+void State31::begin_flow(VectorField& field, const VectorXd& values) {
+  adopt(values);
+  field_ = &field;
+  VectorXd integrated = VectorXd::Zero(x_.size());
+  field.spread(VectorXd::Ones(field.size()), integrated);
+  is_integrated_.clear();
+  for (const Index element : moving_) is_integrated_.push_back(integrated(element) == 1);
+  for (Rate& one : rates_) one.rests = field.is_frozen(one.variable);
+}
+
+void State31::rates(const Values31& x, Values31& rate) {
+  rate.setZero(x.size());
+  for (Rate& one : rates_) {
+    if (one.rests) continue;
+    const hybrid::Slot& slot = system_->layout.slots[one.variable];
+    rate.segment(slot.offset, slot.shape.size()) = one.value(x).reshaped();
+  }
+  for (const Clock& one : clocks_) rate(one.element) = one.kind == VariableKind::left ? -1 : 1;
+}
+
+/// The stages in double, by iteration, and the derivatives of the rates at them; false: it does not
+/// converge.
+bool State31::solve_in_double() {
+  static const numbers::Matrix A = gauss().A.cast<double>();
+  const VectorXd y = field_->gathered(rounded(x_));
+  const double t = t_.hi(), h = length_.hi();
+  VectorXd rate(y.size()), moved_rate(y.size());
+  field_->rate(t, y, rate);
+  numbers::Matrix F = rate.replicate(1, kStages);
+  double last = kNone;
+  constexpr int kMostSweeps = 60;
+  for (int k = 0; k < kMostSweeps; ++k) {
+    const numbers::Matrix moves = h * F * A.transpose();
+    double change = 0;
+    for (int i = 0; i < kStages; ++i) {
+      field_->rate(t + gauss().c(i).hi() * h, y + moves.col(i), rate);
+      const VectorXd size = y.cwiseAbs().cwiseMax(std::abs(h) * rate.cwiseAbs());
+      for (Index e = 0; e < y.size(); ++e)
+        if (const double by = std::abs(h * (rate(e) - F(e, i))); !(by == 0))
+          change = std::fmax(change, by / size(e));
+      F.col(i) = rate;
+    }
+    if (!(change < kNone)) return false;
+    if (change <= kUnitRoundoff || (change <= kSolvedInDouble && change > 0.5 * last)) break;
+    if (k > 4 && change > 0.8 * last) return false;
+    last = change;
+  }
+  slopes_.assign(kStages, numbers::Matrix(y.size(), y.size()));
+  const numbers::Matrix moves = h * F * A.transpose();
+  for (int i = 0; i < kStages; ++i) {
+    VectorXd at = y + moves.col(i);
+    field_->rate(t + gauss().c(i).hi() * h, at, rate);
+    for (Index e = 0; e < y.size(); ++e) {
+      const double own = at(e);
+      at(e) += std::sqrt(kUnitRoundoff) * std::max(std::abs(own), std::abs(moves(e, i)));
+      if (at(e) == own) at(e) += std::sqrt(kUnitRoundoff);
+      field_->rate(t + gauss().c(i).hi() * h, at, moved_rate);
+      slopes_[static_cast<std::size_t>(i)].col(e) = (moved_rate - rate) / (at(e) - own);
+      at(e) = own;
+    }
+    VectorXd all = rounded(x_);
+    field_->spread(F.col(i), all);
+    for (std::size_t k = 0; k < moving_.size(); ++k)
+      if (is_integrated_[k]) stages_(static_cast<Index>(k), i) = all(moving_[k]);
+  }
+  return true;
+}
+
+/// By how much of what moves the rates at the stages differ from the stages; `residual`: by how much.
+double State31::residual(Matrix31& residual) {
+  const Matrix31 moves = length_ * stages_.lazyProduct(gauss().A.transpose());
+  Values31 at = x_, rate;
+  double change = 0;
+  for (int i = 0; i < kStages; ++i) {
+    for (std::size_t k = 0; k < moving_.size(); ++k)
+      at(moving_[k]) = x_(moving_[k]) + moves(static_cast<Index>(k), i);
+    rates(at, rate);
+    for (std::size_t k = 0; k < moving_.size(); ++k) {
+      const auto row = static_cast<Index>(k);
+      residual(row, i) = rate(moving_[k]) - stages_(row, i);
+      const double size =
+          std::max(std::abs(x_(moving_[k]).hi()), std::abs((length_ * rate(moving_[k])).hi()));
+      const double by = std::abs((length_ * residual(row, i)).hi());
+      if (!(by == 0)) change = std::fmax(change, std::isfinite(by) ? by / size : kNone);
+    }
+  }
+  return change;
+}
+
+/// The stages go by what the residual, in double, makes of them to first order:
+/// d = r + h J (d A').
+void State31::correct(const Matrix31& residual) {
+  static const numbers::Matrix A = gauss().A.cast<double>();
+  numbers::Matrix r(field_->size(), kStages);
+  VectorXd all = VectorXd::Zero(x_.size());
+  for (int i = 0; i < kStages; ++i) {
+    for (std::size_t k = 0; k < moving_.size(); ++k)
+      all(moving_[k]) = residual(static_cast<Index>(k), i).hi();
+    r.col(i) = field_->gathered(all);
+  }
+  numbers::Matrix d = r;
+  constexpr int kSweeps = 20;
+  for (int k = 0; k < kSweeps; ++k) {
+    const numbers::Matrix moves = length_.hi() * d * A.transpose();
+    for (int i = 0; i < kStages; ++i)
+      d.col(i) = r.col(i) + slopes_[static_cast<std::size_t>(i)] * moves.col(i);
+  }
+  for (int i = 0; i < kStages; ++i) {
+    all.setZero();
+    field_->spread(d.col(i) - r.col(i), all);
+    for (std::size_t k = 0; k < moving_.size(); ++k)
+      stages_(static_cast<Index>(k), i) += residual(static_cast<Index>(k), i) + all(moving_[k]);
+  }
+}
+
+double State31::step(double to) {
+  to_ = to;
+  length_ = DoubleDouble(to) - t_;
+  try {
+    Values31 rate;
+    rates(x_, rate);
+    stages_.resize(static_cast<Index>(moving_.size()), kStages);
+    for (std::size_t k = 0; k < moving_.size(); ++k)
+      stages_.row(static_cast<Index>(k)).setConstant(rate(moving_[k]));
+    if (!solve_in_double()) return kNone;
+    Matrix31 rest(stages_.rows(), kStages);
+    // A correction leaves of the residual what the slopes are off by, 1e-7.
+    constexpr int kMostCorrections = 8;
+    for (int k = 0; k < kMostCorrections; ++k) {
+      const double change = residual(rest);
+      if (!(change < k31Residual || k + 1 < kMostCorrections)) return kNone;
+      correct(rest);
+      if (change <= k31Residual) break;
+    }
+  } catch (const expr::EvaluationError&) {
+    return kNone;
+  }
+  end_ = x_;
+  double most = 0;
+  for (std::size_t k = 0; k < moving_.size(); ++k) {
+    const auto rates_of = stages_.row(static_cast<Index>(k));
+    DoubleDouble sum(0), largest(0), terms[] = {0, 0};
+    for (int i = 0; i < kStages; ++i) {
+      const DoubleDouble part = gauss().b(i) * rates_of(i);
+      sum += part;
+      largest = std::max(largest, abs(rates_of(i)));
+      for (int n : {0, 1}) terms[n] += part * gauss().legendre(i, kStages - 1 - n);
+    }
+    const double size = std::max(std::abs(x_(moving_[k]).hi()), std::abs((length_ * largest).hi()));
+    const double term = std::max(std::abs(terms[0].hi()), std::abs(terms[1].hi()));
+    if (size > 0) most = std::max(most, std::abs(length_.hi()) * 2 * kStages * term / size);
+    end_(moving_[k]) += length_ * sum;
+  }
+  return most / k31Terms;
+}
+
+numbers::Matrix State31::along(const VectorXd& parts) const {
+  numbers::Matrix weights(kStages, parts.size());
+  const numbers::Matrix legendre = gauss().legendre.leftCols(kStages).cast<double>();
+  const VectorXd b = rounded(gauss().b);
+  for (Index p = 0; p < parts.size(); ++p)
+    weights.col(p) =
+        b.cwiseProduct(legendre * ode::GaussStages<double>::integrals(kStages, 2 * parts(p) - 1));
+  numbers::Matrix values = rounded(x_).replicate(1, parts.size());
+  const numbers::Matrix moves = length_.hi() * stages_.cast<double>() * weights;
+  for (std::size_t k = 0; k < moving_.size(); ++k)
+    values.row(moving_[k]) += moves.row(static_cast<Index>(k));
+  return values;
+}
+
+void State31::arrive(double to) {
+  if (to != to_ && !std::isfinite(step(to)))
+    throw RunEnd(hybrid::Ending::lost, "a step in 31 digits does not converge");
+  x_ = end_;
+  t_ = DoubleDouble(to);
+  longest_ = std::max(longest_, std::abs(length_.hi()));
+  move(k31LastPlaces);
+}
+
+void State31::move(double part) {
+  if (moved_ == nullptr) return;
+  for (const Rate& one : rates_) {
+    const hybrid::Slot& slot = system_->layout.slots[one.variable];
+    for (DoubleDouble& value : x_.segment(slot.offset, slot.shape.size()))
+      value += part * moved_->of(value.hi(), std::abs(value.hi()));
+  }
+}
+
+void State31::shift(const DoubleDouble& by) {
+  Values31 rate;
+  rates(x_, rate);
+  rates(Values31(x_ + by / DoubleDouble(2) * rate), rate);
+  x_ += by * rate;
+  t_ += by;
+}
+
+bool State31::shift_to_root(const Guard& guard) {
+  constexpr int kSteps = 3;  // of Newton, from 16 digits
+  const double beside = std::ldexp(longest_, -40);
+  for (int k = 0; k < kSteps; ++k) {
+    const DoubleDouble value = guard();
+    if (value == 0) return true;
+    const Values31 here = x_;
+    const DoubleDouble t = t_;
+    shift(beside);
+    const DoubleDouble slope = (guard() - value) / DoubleDouble(beside);
+    x_ = here;
+    t_ = t;
+    const DoubleDouble by = -value / slope;
+    if (!(std::abs(by.hi()) <= beside + k31Near * longest_ + 64 * kUnitRoundoff * t_.hi()))
+      return false;
+    shift(by);
+  }
+  return true;
+}
+
+void State31::meet(std::size_t event, EventWatch& watch, const VectorXd& values,
+                   const hybrid::EventClocks& clocks, bool by_flow) {
+  if (!goes_to(event, watch, values, clocks, by_flow)) blur();
+}
+
+bool State31::goes_to(std::size_t event, EventWatch& watch, const VectorXd& values,
+                      const hybrid::EventClocks& clocks, bool by_flow) {
+  const double rounding = k31Solved * std::max(std::abs(t_.hi()), std::abs(length_.hi()));
+  if (system_->has_clock(event)) {
+    const DoubleDouble by = due(event, clocks.due(event)) - t_;
+    if (std::abs(by.hi()) <= rounding) return true;
+    if (by < 0 && !by_flow) return false;
+    shift(by);
+    return true;
+  }
+  bool moved = !by_flow;
+  for (std::size_t k = 0; k < guards_[event].size(); ++k) {
+    hybrid::EventFunction& guard = watch.crossing[event]
+                                       ? *watch.crossing[event]
+                                       : watch.when[event]->comparisons()[k].function;
+    if (guard.rests()) continue;
+    const numbers::Matrix value = guard(values), terms = guard.terms(values);
+    for (Index e = 0; e < value.size(); ++e) {
+      if (!(std::abs(value(e)) <= k31Near * terms(e))) continue;
+      const auto in_31_digits = [&] { return guards_[event][k](x_)(e); };
+      if (!moved && !shift_to_root(in_31_digits)) return false;
+      if (moved && !(std::abs(in_31_digits().hi()) <= k31Solved * terms(e))) return false;
+      moved = true;
+    }
+  }
+  return true;
+}
+
+void State31::meet_switch(std::size_t one, Index element) {
+  if (!shift_to_root([&] { return switches_[one](x_)(element); })) blur();
+}
+
+void State31::jumped(std::size_t event, const Values31& after, const hybrid::EventClocks& clocks) {
+  x_ = after;
+  since_[event] = t_;
+  fill_clocks(clocks);
+}
+
+}  // namespace gainsmith::simulate
