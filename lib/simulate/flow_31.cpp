@@ -16,7 +16,12 @@ constexpr int kDegree = 16;
 class Flow31 : public Flow {
  public:
   Flow31(VectorField& field, State31& state, double longest, double share)
-      : field_(&field), state_(&state), longest_(longest), share_(share), wanted_(longest) {}
+      : field_(&field),
+        state_(&state),
+        longest_(longest),
+        share_(share),
+        wanted_(longest),
+        most_(k31Steps / std::max<std::int64_t>(field.size() / 10, 1)) {}
 
   void start(double t, const Eigen::VectorXd& values, double last) override {
     t_ = t;
@@ -27,7 +32,7 @@ class Flow31 : public Flow {
   hybrid::DenseStep next() override {
     const double from = t_;
     for (int k = 0; k < kMostTries; ++k) {
-      if (++steps_ > k31Steps) break;
+      if (++steps_ > most_) break;
       const double rest = last_ - from;
       const double length = wanted_ >= rest ? rest : std::min(wanted_, rest / 2);
       t_ = length == rest ? last_ : from + length;
@@ -68,7 +73,7 @@ class Flow31 : public Flow {
   double longest_, share_;
   double wanted_;  ///< length of the next step
   double t_ = 0, last_ = 0;
-  std::int64_t steps_ = 0;
+  std::int64_t steps_ = 0, most_;
 };
 
 }  // namespace

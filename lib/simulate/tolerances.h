@@ -27,7 +27,7 @@ constexpr double k31Terms = 1e-15;  ///< of what moves
 constexpr double k31Near = 1e-11;  ///< of the terms of a guard
 ///< | an event that is found in double has happened where its guard is so near to 0
 ///< | State31.FollowsEventsOfFlows
-constexpr std::int64_t k31Steps = 2000;  ///< steps of a run
+constexpr std::int64_t k31Steps = 2000;  ///< steps of a run of ten states; of more fewer
 ///< | one that needs more is not made in 31 digits
 ///< | State31.EndsWhereStepsAreMany
 

@@ -99,7 +99,7 @@ RunVerdict Judge::sharper(std::uint64_t seed, std::uint64_t run) {
 
 RunVerdict Judge::confirm(std::uint64_t seed, std::uint64_t run) {
   RunVerdict verdict = sharper(seed, run);
-  decide(seed, run, verdict);
+  decide(seed, run, true, verdict);
   return verdict;
 }
 
@@ -111,10 +111,10 @@ void Judge::take_held(const std::vector<bool>& holds, RunVerdict& verdict) const
   verdict.judgement = worst_of(verdict.findings);
 }
 
-void Judge::decide(std::uint64_t seed, std::uint64_t run, RunVerdict& verdict) {
+void Judge::decide(std::uint64_t seed, std::uint64_t run, bool in_31_digits, RunVerdict& verdict) {
   if (std::ranges::none_of(verdict.findings, is_open)) return;
   std::optional<RunVerdict> again;
-  if (tracks_.can_decide_in_31_digits())
+  if (in_31_digits && tracks_.can_decide_in_31_digits())
     again = last_verdict(noted(tracks_.run_in_31_digits(seed, run)), checks_);
   if (again && again->termination == Termination::lost) again.reset();
   for (std::size_t i = 0; i < verdict.findings.size(); ++i) {
@@ -147,7 +147,7 @@ RunVerdict Judge::operator()(std::uint64_t seed, std::uint64_t run,
     verdict = with_decided(verdict, sharper(seed, run));
     take_held(holds, verdict);
   }
-  decide(seed, run, verdict);
+  decide(seed, run, run < kIn31Digits, verdict);
   verdict.happened = happened_;
   return verdict;
 }

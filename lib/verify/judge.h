@@ -31,7 +31,7 @@ class Judge {
   /// A run with a claim that is not decided, or that does not reach the horizon, is repeated, and
   /// where that does not decide once more, in 31 digits. So is one with a claim that is violated by
   /// little: where the truth is a tie, two runs may agree by chance, and what 31 digits do not confirm
-  /// is undecided.
+  /// is undecided. Of a campaign the first kIn31Digits runs are made so (tolerances.h).
   /// `holds`: claims that are known to hold, of which what is not certain counts as held.
   RunVerdict operator()(std::uint64_t seed, std::uint64_t run, const std::vector<bool>& holds = {});
 
@@ -47,7 +47,7 @@ class Judge {
  private:
   const claims::Track& noted(const claims::Track& track);
   RunVerdict sharper(std::uint64_t seed, std::uint64_t run);
-  void decide(std::uint64_t seed, std::uint64_t run, RunVerdict& verdict);
+  void decide(std::uint64_t seed, std::uint64_t run, bool in_31_digits, RunVerdict& verdict);
   void take_held(const std::vector<bool>& holds, RunVerdict& verdict) const;
 
   std::size_t event_count_;

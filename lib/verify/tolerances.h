@@ -15,6 +15,9 @@ constexpr std::uint64_t kFewestInPacks = 8;  ///< runs | of fewer runs each is c
         ///< carefully anyway | PackJudge.AFewRunsAreMadeOneByOne
 constexpr double kDoubtful = 1000;  ///< times its error | a claim that is violated by less is to be
         ///< violated in 31 digits, too | Judge.ATieIsNotViolatedByChance
+constexpr std::uint64_t kIn31Digits = 1000;  ///< runs of a campaign | so many of its first are made in 31
+        ///< digits where doubles leave them open: where the truth is a tie, all are |
+        ///< Judge.AsManyTiesAsRunsTakeTheirTime
 constexpr double kReach = 3;  ///< standard deviations | so far a search for the worst run takes
         ///< normal noise | DrawCube.NormalNoiseReachesThreeDeviations
 constexpr double kLongestList = 64;  ///< draws | so many lengths, losses or values of one noise are

@@ -12,8 +12,10 @@
 #include "bind/bind.h"
 #include "io/problem_text.h"
 #include "verify/campaign.h"
+#include "verify/judge.h"
 #include "verify/pack_agreement.h"
 #include "verify/pack_cases.h"
+#include "verify/tolerances.h"
 
 namespace gainsmith::verify {
 namespace {
@@ -227,6 +229,25 @@ campaign: {runs: 800, horizon: 5, initial: {x: {box: )yaml";
     EXPECT_EQ(report.violations, 0U) << box;
     EXPECT_EQ(report.undecided, 800U) << box;
   }
+}
+
+/// After 69 ticks 31 digits know a chaotic map, and doubles do not.
+TEST(Judge, AsManyTiesAsRunsTakeTheirTime) {
+  const std::string text = R"yaml(problem: p
+method:
+  method: m
+  events: {tick: {every: 1}, look: {at: [69.5]}}
+  plant:
+    state: {x: {shape: scalar, start: 0.3}, y: {shape: scalar, start: 0}}
+    at: {tick: {x: 4*x*(1 - x)}, look: {y: x}}
+  claims: {c: {below: y, bound: 0.5, over: look}}
+campaign: {runs: 1, horizon: 70}
+)yaml";
+  const auto setup = make_setup(bind::bind(io::read_problem(text)), {});
+  Judge judge(*setup);
+  EXPECT_NE(judge(1, kIn31Digits - 1).judgement, Judgement::undecided);
+  EXPECT_EQ(judge(1, kIn31Digits).judgement, Judgement::undecided);
+  EXPECT_NE(judge.confirm(1, kIn31Digits).judgement, Judgement::undecided);
 }
 
 TEST(PackJudge, ThreadsDoNotMatter) {
