@@ -153,6 +153,7 @@ void State31::begin(std::uint64_t run, const VectorXd& values, const hybrid::Eve
   to_ = longest_ = 0;
   since_.assign(system_->dynamics.events.size(), t_);
   x_ = start_of(run, values);
+  sizes_ = VectorXd::Zero(x_.size());
   drawn_first_.clear();
   for (std::size_t e = 0; e < first_.size(); ++e) drawn_first_.push_back(clocks.due(e));
   fill_clocks(clocks);
@@ -226,6 +227,7 @@ void State31::rates(const Values31& x, Values31& rate) {
 bool State31::solve_in_double() {
   static const numbers::Matrix A = gauss().A.cast<double>();
   const VectorXd y = field_->gathered(rounded(x_));
+  const VectorXd of_sizes = field_->gathered(sizes_);
   const double t = t_.hi(), h = length_.hi();
   VectorXd rate(y.size()), moved_rate(y.size());
   field_->rate(t, y, rate);
@@ -237,7 +239,7 @@ bool State31::solve_in_double() {
     double change = 0;
     for (int i = 0; i < kStages; ++i) {
       field_->rate(t + gauss().c(i).hi() * h, y + moves.col(i), rate);
-      const VectorXd size = y.cwiseAbs().cwiseMax(std::abs(h) * rate.cwiseAbs());
+      const VectorXd size = of_sizes.cwiseMax(std::abs(h) * rate.cwiseAbs());
       for (Index e = 0; e < y.size(); ++e)
         if (const double by = std::abs(h * (rate(e) - F(e, i))); !(by == 0))
           change = std::fmax(change, by / size(e));
@@ -281,8 +283,7 @@ double State31::residual(Matrix31& residual) {
     for (std::size_t k = 0; k < moving_.size(); ++k) {
       const auto row = static_cast<Index>(k);
       residual(row, i) = rate(moving_[k]) - stages_(row, i);
-      const double size =
-          std::max(std::abs(x_(moving_[k]).hi()), std::abs((length_ * rate(moving_[k])).hi()));
+      const double size = std::max(sizes_(moving_[k]), std::abs((length_ * rate(moving_[k])).hi()));
       const double by = std::abs((length_ * residual(row, i)).hi());
       if (!(by == 0)) change = std::fmax(change, std::isfinite(by) ? by / size : kNone);
     }
@@ -319,6 +320,8 @@ void State31::correct(const Matrix31& residual) {
 double State31::step(double to) {
   to_ = to;
   length_ = DoubleDouble(to) - t_;
+  sizes_ = sizes_.cwiseMax(rounded(x_).cwiseAbs());
+  sizes_ = sizes_.cwiseMax(k31Least * sizes_.maxCoeff());
   try {
     Values31 rate;
     rates(x_, rate);
@@ -349,7 +352,7 @@ double State31::step(double to) {
       largest = std::max(largest, abs(rates_of(i)));
       for (int n : {0, 1}) terms[n] += part * gauss().legendre(i, kStages - 1 - n);
     }
-    const double size = std::max(std::abs(x_(moving_[k]).hi()), std::abs((length_ * largest).hi()));
+    const double size = std::max(sizes_(moving_[k]), std::abs((length_ * largest).hi()));
     const double term = std::max(std::abs(terms[0].hi()), std::abs(terms[1].hi()));
     if (size > 0) most = std::max(most, std::abs(length_.hi()) * 2 * kStages * term / size);
     end_(moving_[k]) += length_ * sum;

@@ -112,6 +112,7 @@ class State31 {
   std::vector<double> drawn_first_;  ///< by event: of a clock whose first time is drawn
   double to_ = 0;                    ///< of the step
   DoubleDouble length_;              ///< of the step
+  Eigen::VectorXd sizes_;            ///< the largest values so far, by which errors are measured
   double longest_ = 0;               ///< of those that have been taken
   Matrix31 stages_;                  ///< rates of what moves, one column a stage
 };

@@ -24,10 +24,13 @@ constexpr double k31Solved = 1e-27;  ///< relative
 constexpr double k31Terms = 1e-15;  ///< of what moves
 ///< | the last terms of a step in 31 digits: its end, of twice the order, is off by their square
 ///< | State31.FollowsChaos
+constexpr double k31Least = 1e-12;  ///< of the largest value so far
+///< | values in 31 digits that have never been larger are known as if they had been
+///< | State31.DecaysInLongSteps
 constexpr double k31Near = 1e-11;  ///< of the terms of a guard
 ///< | an event that is found in double has happened where its guard is so near to 0
 ///< | State31.FollowsEventsOfFlows
-constexpr std::int64_t k31Steps = 2000;  ///< steps of a run of ten states; of more fewer
+constexpr std::int64_t k31Steps = 1000;  ///< steps of a run of ten states; of more fewer
 ///< | one that needs more is not made in 31 digits
 ///< | State31.EndsWhereStepsAreMany
 

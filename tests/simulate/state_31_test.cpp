@@ -123,6 +123,15 @@ TEST(State31, ATwinIsMovedInItsLastPlaces) {
   EXPECT_GE(differ, 2);
 }
 
+/// What is 0, or has decayed, asks for no accuracy of its own.
+TEST(State31, DecaysInLongSteps) {
+  DynamicsText decays;
+  decays.state("x", 3, "[-x(1); x(3)^3; -5*x(3)]", "[1; 0; 1e-3]");
+  const Run31 run(decays, 50);
+  EXPECT_EQ(run.run.ending, hybrid::Ending::horizon);
+  EXPECT_NEAR(run.last("x") * std::exp(50), 1, 1e-9);
+}
+
 TEST(State31, EndsWhereStepsAreMany) {
   DynamicsText fast;
   fast.state("x", 2, "[1e5*x(2); -1e5*x(1)]", "[1; 0]");
