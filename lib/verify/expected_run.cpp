@@ -57,7 +57,10 @@ RunDifferences run_differences(const model::Instance& instance, const model::Gai
     statistics::Estimate found = bound.of(runs);
     if (!found.known() && setup->has_31_digits()) {
       if (!in_31_digits) in_31_digits = twins.in_31_digits(seed, 0, claims::kAccuracyOfOne);
-      if (statistics::Estimate sharper = bound.of(*in_31_digits); sharper.known())
+      statistics::Estimate sharper = bound.of(*in_31_digits);
+      // One that ends before its time says what has been by then, and nothing of the whole.
+      const bool has_been = figure.kind == model::FigureKind::at_time && sharper.value;
+      if (sharper.known() && (has_been || is_complete(in_31_digits->run.ending)))
         found = std::move(sharper);
     }
     const auto limit = [&](const model::Formula& formula) {
