@@ -48,6 +48,9 @@ class RunTracks {
   /// `factor`: of the accuracy of a campaign. `twin`: one of several twins, moved by other units.
   const Track& run(std::uint64_t seed, std::uint64_t run, double factor, std::uint64_t twin = 0);
 
+  /// Whether flows are integrated, so that a smaller factor means smaller errors.
+  bool is_integrated() const { return !setup_->system.affine; }
+
   /// The same, both runs in 31 digits: what differs by less than a double's rounding is the same.
   const Track& run_in_31_digits(std::uint64_t seed, std::uint64_t run);
   /// Whether that may decide what the last run left open.

@@ -61,7 +61,7 @@ constexpr double kOfAccuracy = 1e-3;  ///< of the accuracy of the integration
 ///< | what matters to nothing that is integrated
 ///< | Judge.FindsALateJump
 constexpr double kMeantEqual = 1e-9;  ///< relative
-///< | numbers that a person meant to be equal: elements of a symmetric matrix, a datum and its text
+///< | numbers that a person meant to be equal: elements of a symmetric matrix
 ///< | EventEnding.StatesThatAreNoneOfTheirKindAreErrors
 constexpr double kNearBreak = 0.02;  ///< of the largest difference on a step
 ///< | a text comes near to another branch where it is as near as that and turns back

@@ -20,7 +20,7 @@ class Flow31 : public Flow {
         state_(&state),
         longest_(longest),
         share_(share),
-        wanted_(longest),
+        wanted_(share * longest),
         most_(k31Steps / std::max<std::int64_t>(field.size() / 10, 1)) {}
 
   void start(double t, const Eigen::VectorXd& values, double last) override {
@@ -37,7 +37,7 @@ class Flow31 : public Flow {
       const double length = wanted_ >= rest ? rest : std::min(wanted_, rest / 2);
       t_ = length == rest ? last_ : from + length;
       const double terms = state_->step(t_);
-      const double factor = 0.9 * std::pow(terms, -1.0 / kDegree);
+      const double factor = 0.9 * share_ * std::pow(terms, -1.0 / kDegree);
       if (terms <= 1) {
         if (length == wanted_ || factor < 1)
           wanted_ = std::min(share_ * longest_, length * std::clamp(factor, 0.3, 2.0));

@@ -161,9 +161,9 @@ void State31::adopt_given(const VectorXd& values, bool arrives) {
         std::abs(at.hi() - t) <= hybrid::kOneInstant * t)
       time = at;
   for (const model::Dynamics::Measured& one : system_->dynamics.measured)
-    for (const double row : one.series->times)
-      if (std::abs(row - t) <= hybrid::kOneInstant * t)
-        time = parse_as<DoubleDouble>(shortest(row));
+    if (const std::size_t row = one.series->not_before(t - hybrid::kOneInstant * t);
+        row < one.series->times.size() && one.series->times[row] <= t + hybrid::kOneInstant * t)
+      time = parse_as<DoubleDouble>(shortest(one.series->times[row]));
   if (arrives && time) shift(*time - t_);
   adopt(values);
   for (const Index k : measured_) x_(k) = values(k);

@@ -114,15 +114,20 @@ void Judge::take_held(const std::vector<bool>& holds, RunVerdict& verdict) const
 void Judge::decide(std::uint64_t seed, std::uint64_t run, bool in_31_digits, RunVerdict& verdict) {
   if (std::ranges::none_of(verdict.findings, is_open)) return;
   std::optional<RunVerdict> again;
-  if (in_31_digits && tracks_.can_decide_in_31_digits())
-    again = last_verdict(noted(tracks_.run_in_31_digits(seed, run)), checks_);
-  if (again && again->termination == Termination::lost) again.reset();
+  const auto take = [&](const Track& track) {
+    RunVerdict made = last_verdict(noted(track), checks_);
+    if (made.termination != Termination::lost) again = std::move(made);
+  };
+  if (in_31_digits && tracks_.can_decide_in_31_digits()) take(tracks_.run_in_31_digits(seed, run));
+  const bool is_known = again.has_value();
+  if (!is_known && tracks_.is_integrated()) take(tracks_.run(seed, run, kSharper * kSharper, 1));
   for (std::size_t i = 0; i < verdict.findings.size(); ++i) {
     claims::Finding& finding = verdict.findings[i];
     const bool was_violated = finding.violated();
-    if (!is_open(finding) || (again && was_violated && again->findings[i].violated())) continue;
-    if (again) finding = again->findings[i];
-    if (was_violated && (!again || finding.undecided())) {
+    const bool is_confirmed = is_known && was_violated && again->findings[i].violated();
+    if (!is_open(finding) || is_confirmed) continue;
+    if (again && (is_known || !was_violated)) finding = again->findings[i];
+    if (was_violated && (!is_known || finding.undecided())) {
       finding.judgement = claims::Judgement::undecided;
       finding.disputed = true;
     }
@@ -131,7 +136,7 @@ void Judge::decide(std::uint64_t seed, std::uint64_t run, bool in_31_digits, Run
     verdict.termination = again->termination;
     verdict.message = again->message;
   }
-  if (!verdict.unfinished()) verdict.judgement = worst_of(verdict.findings);
+  if (again || !verdict.unfinished()) verdict.judgement = worst_of(verdict.findings);
   verdict.confirmed = verdict.judgement == claims::Judgement::violated;
 }
 

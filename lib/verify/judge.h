@@ -28,10 +28,10 @@ class Judge {
   /// A stop (base/stop.h) may end a run; then its verdict says nothing.
   explicit Judge(const Setup& setup);
 
-  /// A run with a claim that is not decided, or that does not reach the horizon, is repeated, and
-  /// where that does not decide once more, in 31 digits. So is one with a claim that is violated by
-  /// little: where the truth is a tie, two runs may agree by chance, and what 31 digits do not confirm
-  /// is undecided. Of a campaign the first kIn31Digits runs are made so (tolerances.h).
+  /// A run with a claim that is not decided, or that does not reach the horizon, is repeated. What that
+  /// leaves open is made in 31 digits, or, where those are lost, to a third accuracy. So is a claim
+  /// that is violated by little: where the truth is a tie, two runs may agree by chance, and what 31
+  /// digits do not confirm is undecided. Of a campaign the first kIn31Digits runs are made so.
   /// `holds`: claims that are known to hold, of which what is not certain counts as held.
   RunVerdict operator()(std::uint64_t seed, std::uint64_t run, const std::vector<bool>& holds = {});
 
