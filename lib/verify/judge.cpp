@@ -69,13 +69,13 @@ RunVerdict with_decided(const RunVerdict& before, RunVerdict again) {
 
 constexpr double kSharper = claims::kAccuracyOfOne / claims::kAccuracyOfMany;
 
-/// By so little that it may be rounding.
-bool is_doubtful(const claims::Finding& finding) {
-  return finding.violated() && !finding.ended &&
+/// Undecided, or violated by so little that it may be rounding; not where the run breaks off, which
+/// violates each claim.
+bool is_open(const RunVerdict& verdict, const claims::Finding& finding) {
+  if (finding.undecided()) return true;
+  return finding.violated() && verdict.termination != Termination::broken_off &&
          std::abs(finding.value - finding.bound) <= kDoubtful * finding.rounding;
 }
-
-bool is_open(const claims::Finding& finding) { return finding.undecided() || is_doubtful(finding); }
 
 }  // namespace
 
@@ -112,7 +112,8 @@ void Judge::take_held(const std::vector<bool>& holds, RunVerdict& verdict) const
 }
 
 void Judge::decide(std::uint64_t seed, std::uint64_t run, bool in_31_digits, RunVerdict& verdict) {
-  if (std::ranges::none_of(verdict.findings, is_open)) return;
+  const auto is_open_one = [&](const claims::Finding& one) { return is_open(verdict, one); };
+  if (std::ranges::none_of(verdict.findings, is_open_one)) return;
   std::optional<RunVerdict> again;
   const auto take = [&](const Track& track) {
     RunVerdict made = last_verdict(noted(track), checks_);
@@ -125,7 +126,7 @@ void Judge::decide(std::uint64_t seed, std::uint64_t run, bool in_31_digits, Run
     claims::Finding& finding = verdict.findings[i];
     const bool was_violated = finding.violated();
     const bool is_confirmed = is_known && was_violated && again->findings[i].violated();
-    if (!is_open(finding) || is_confirmed) continue;
+    if (!is_open_one(finding) || is_confirmed) continue;
     if (again && (is_known || !was_violated)) finding = again->findings[i];
     if (was_violated && (!is_known || finding.undecided())) {
       finding.judgement = claims::Judgement::undecided;
