@@ -29,6 +29,25 @@ Rational power_of_ten(int exponent) {
   return exponent < 0 ? Rational(Integer(1), power) : Rational(power);
 }
 
+std::string exact_text(const Rational& x) {
+  constexpr int kMost = 100;
+  int decimals = 0;
+  Integer below = denominator(x);
+  for (; below != 1 && decimals <= kMost; ++decimals) {
+    const Integer step = gcd(below, Integer(10));
+    if (step == 1) return x.str();
+    below /= step;
+  }
+  if (decimals > kMost) return x.str();
+  std::string digits = Integer(numerator(Rational(abs(x) * power_of_ten(decimals)))).str();
+  if (decimals > 0) {
+    const auto places = static_cast<std::size_t>(decimals);
+    if (digits.size() <= places) digits.insert(0, places + 1 - digits.size(), '0');
+    digits.insert(digits.size() - places, ".");
+  }
+  return (x < 0 ? "-" : "") + digits;
+}
+
 std::optional<Rational> parse_rational(std::string_view text) {
   if (!parse_decimal(text)) return std::nullopt;
   std::string digits;

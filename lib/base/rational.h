@@ -3,6 +3,7 @@
 
 #include <boost/multiprecision/gmp.hpp>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "base/double_double.h"
@@ -20,6 +21,9 @@ Rational power_of_ten(int exponent);
 /// The value of a decimal text. Texts and refusals are those of parse_decimal
 /// (number.h), which leave no exponent that takes all memory.
 std::optional<Rational> parse_rational(std::string_view text);
+
+/// "0.125" where x has decimals, up to 100 of them, and otherwise "1/3".
+std::string exact_text(const Rational& x);
 
 /// The whole number nearest to x, of two the larger one.
 Integer nearest_integer(const Rational& x);

@@ -161,6 +161,12 @@ RationalMatrix rational_value(const expr::Program& program, const RationalValues
   return evaluator.run();
 }
 
+Ball<DoubleDouble> ball_of(const Rational& x) {
+  const DoubleDouble mid = nearest_double_double(x);
+  const bool exact = Rational(mid.hi()) + Rational(mid.lo()) == x;
+  return {mid, exact ? 0 : unit_roundoff<DoubleDouble>() * magnitude(mid)};
+}
+
 std::size_t most_bits(const RationalMatrix& x) {
   std::size_t most = 0;
   for (const Rational& value : x.reshaped())

@@ -10,6 +10,7 @@
 
 #include "expr/number_type.h"
 #include "expr/program.h"
+#include "numbers/ball.h"
 #include "numbers/matrix.h"
 #include "numerics/rational_matrix.h"
 
@@ -32,6 +33,9 @@ void require_fractions(const expr::Program& program);
 
 /// Evaluates once. EvaluationError when an operation or an input has no value here.
 RationalMatrix rational_value(const expr::Program& program, const RationalValues& values);
+
+/// In 31 digits.
+Ball<DoubleDouble> ball_of(const Rational& x);
 
 /// Of the longest numerator or denominator.
 std::size_t most_bits(const RationalMatrix& x);

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "base/stop.h"
+#include "numbers/residue.h"
 
 namespace gainsmith::numbers {
 
@@ -16,23 +17,6 @@ void subtract_row(RationalMatrix& M, Eigen::Index i, Eigen::Index r, Eigen::Inde
     if (M(r, j) != 0) M(i, j) -= factor * M(r, j);
 }
 
-/// A prime whose square is a number of 64 bits.
-constexpr std::uint64_t kPrime = 2147483647;
-
-std::uint64_t power_modulo(std::uint64_t base, std::uint64_t exponent) {
-  std::uint64_t result = 1;
-  for (; exponent > 0; exponent /= 2, base = base * base % kPrime)
-    if (exponent % 2 == 1) result = result * base % kPrime;
-  return result;
-}
-
-std::uint64_t inverse_modulo(std::uint64_t x) { return power_modulo(x, kPrime - 2); }
-
-std::uint64_t remainder_of(const Integer& x) {
-  const Integer prime(kPrime);
-  return static_cast<std::uint64_t>(Integer((x % prime + prime) % prime));
-}
-
 using Residues = Eigen::Matrix<std::uint64_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// None when the prime divides a denominator.
@@ -40,12 +24,10 @@ std::optional<Residues> residues_of(const RationalMatrix& M) {
   Residues result = Residues::Zero(M.rows(), M.cols());
   for (Eigen::Index i = 0; i < M.rows(); ++i)
     for (Eigen::Index j = 0; j < M.cols(); ++j) {
-      const Rational& x = M(i, j);
-      if (x == 0) continue;
-      const std::uint64_t below = remainder_of(denominator(x));
-      if (below == 0) return std::nullopt;
-      const std::uint64_t above = remainder_of(numerator(x));
-      result(i, j) = below == 1 ? above : above * inverse_modulo(below) % kPrime;
+      if (M(i, j) == 0) continue;
+      const auto residue = residue_of(M(i, j));
+      if (!residue) return std::nullopt;
+      result(i, j) = *residue;
     }
   return result;
 }

@@ -110,19 +110,13 @@ ExactBlock<DoubleDouble> exact_block(const RationalBlock& block, const lmi::Bala
         const int row = kept[static_cast<std::size_t>(r)];
         const int column = kept[static_cast<std::size_t>(c)];
         if (matrix(row, column) == 0) continue;
-        const auto ball =
-            numbers::scaled(ball_of(matrix(row, column)), balance.factor(at, row, column, i));
+        const auto ball = numbers::scaled(numbers::ball_of(matrix(row, column)),
+                                          balance.factor(at, row, column, i));
         elements.push_back({r, c, ball.mid, ball.rad});
       }
     if (!elements.empty()) result.terms.emplace_back(i, std::move(elements));
   }
   return result;
-}
-
-numbers::Ball<DoubleDouble> ball_of(const Rational& x) {
-  const DoubleDouble mid = nearest_double_double(x);
-  const bool exact = Rational(mid.hi()) + Rational(mid.lo()) == x;
-  return {mid, exact ? 0 : numbers::unit_roundoff<DoubleDouble>() * numbers::magnitude(mid)};
 }
 
 Rational printed_fraction(double value) {

@@ -29,9 +29,6 @@ struct RationalBlock {
 std::vector<RationalBlock> rational_blocks(const lmi::Inequalities& of,
                                            const std::vector<lmi::Block>& blocks);
 
-/// In 31 digits.
-numbers::Ball<DoubleDouble> ball_of(const Rational& x);
-
 /// The rows `kept` in the units of a balance, where the block is number `at`.
 ExactBlock<DoubleDouble> exact_block(const RationalBlock& block, const lmi::Balance& balance,
                                      std::size_t at, const std::vector<int>& kept);

@@ -151,10 +151,10 @@ Costs on_face(const Faces& faces, const Costs& costs) {
   result[0] = costs[0];
   for (std::size_t i = 1; i < costs.size(); ++i) {
     if (costs[i].is_zero()) continue;
-    result[0] = result[0] + costs[i] * ball_of(faces.origin()[i - 1]);
+    result[0] = result[0] + costs[i] * numbers::ball_of(faces.origin()[i - 1]);
     for (std::size_t j = 1; j < result.size(); ++j)
-      result[j] =
-          result[j] + costs[i] * ball_of(N(static_cast<Index>(i) - 1, static_cast<Index>(j) - 1));
+      result[j] = result[j] + costs[i] * numbers::ball_of(N(static_cast<Index>(i) - 1,
+                                                            static_cast<Index>(j) - 1));
   }
   return result;
 }

@@ -26,14 +26,14 @@ struct Case {
     const RationalMatrix zero = RationalMatrix::Constant(n, n, Rational(0));
     block = {static_cast<int>(n), false, true, {{0, zero}}};
     block.terms[0].second(n - 1, n - 1) = 1;
-    costs.push_back(ball_of(Rational(C(n - 1, n - 1))));
+    costs.push_back(numbers::ball_of(Rational(C(n - 1, n - 1))));
     for (Eigen::Index c = 0; c < n; ++c)
       for (Eigen::Index r = 0; r <= c; ++r) {
         if (r == n - 1) continue;
         RationalMatrix B = zero;
         B(r, c) = B(c, r) = 1;
         if (r == c) B(n - 1, n - 1) = -1;
-        costs.push_back(ball_of(r == c ? Rational(C(r, r)) - Rational(C(n - 1, n - 1))
+        costs.push_back(numbers::ball_of(r == c ? Rational(C(r, r)) - Rational(C(n - 1, n - 1))
                                        : 2 * Rational(C(r, c))));
         block.terms.emplace_back(static_cast<int>(costs.size()) - 1, std::move(B));
       }
@@ -114,7 +114,7 @@ TEST(WeakDuality, NoMultipliersShowWhatIsFalse) {
 /// x_1 costs something, and no block holds it: nothing is below.
 TEST(WeakDuality, ACostThatNothingLimitsHasNoBound) {
   Case of(Matrix::Identity(2, 2));
-  of.costs.push_back(ball_of(Rational(1, 3)));
+  of.costs.push_back(numbers::ball_of(Rational(1, 3)));
   EXPECT_FALSE(of.bound(Matrix::Identity(2, 2)));
   of.costs.pop_back();
   EXPECT_TRUE(of.bound(0.5 * Matrix::Identity(2, 2)));
