@@ -1,0 +1,47 @@
+// Monomials x_1^e_1 ... x_n^e_n.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace gainsmith::polynomial {
+
+/// The exponents e_1, e_2, ... up to the last that is not 0, so that a monomial is the same in any
+/// number of variables.
+class Monomial {
+ public:
+  Monomial() = default;
+  /// x_i^e, i from 0.
+  explicit Monomial(std::size_t variable, int exponent = 1);
+  explicit Monomial(std::vector<int> exponents);
+
+  int exponent(std::size_t variable) const {
+    return variable < exponents_.size() ? exponents_[variable] : 0;
+  }
+  /// One more than the last variable that occurs.
+  std::size_t variables() const { return exponents_.size(); }
+  int degree() const { return degree_; }
+  const std::vector<int>& exponents() const { return exponents_; }
+  /// With e_i = 0.
+  Monomial without(std::size_t variable) const;
+
+  friend Monomial operator*(const Monomial& a, const Monomial& b);
+  bool operator==(const Monomial&) const = default;
+  /// By degree, and then the higher powers of the first variables first: 1, x, y, x^2, x*y, y^2.
+  friend bool operator<(const Monomial& a, const Monomial& b);
+
+ private:
+  void trim();
+
+  std::vector<int> exponents_;
+  int degree_ = 0;
+};
+
+/// "x_1^2*x_2"; "1" without variables.
+std::string to_string(const Monomial& monomial, const std::vector<std::string>& names);
+
+/// All monomials in n variables of a degree from `low` to `high`, in their order.
+std::vector<Monomial> monomials(std::size_t n, int low, int high);
+
+}  // namespace gainsmith::polynomial

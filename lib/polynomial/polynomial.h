@@ -1,0 +1,76 @@
+// Polynomials in x_1, x_2, ... whose coefficients are affine in unknowns u_1, u_2, ..., with
+// fractions for numbers:
+//   p(x; u) = sum over monomials m of (c_m0 + sum_k c_mk u_k) m(x).
+#pragma once
+
+#include <cstddef>
+#include <map>
+
+#include "base/rational.h"
+#include "polynomial/monomial.h"
+
+namespace gainsmith::polynomial {
+
+/// A monomial in x and an unknown, counted from 1; 0 is the constant 1.
+struct Term {
+  Monomial monomial;
+  int unknown = 0;
+
+  friend bool operator<(const Term& a, const Term& b) {
+    if (a.monomial == b.monomial) return a.unknown < b.unknown;
+    return a.monomial < b.monomial;
+  }
+  bool operator==(const Term&) const = default;
+};
+
+class Polynomial {
+ public:
+  Polynomial() = default;
+  Polynomial(int number) : Polynomial(Rational(number)) {}  // NOLINT: a scalar of Eigen
+  Polynomial(const Rational& number) {                      // NOLINT
+    add(Term{}, number);
+  }
+  /// A polynomial of one term with the coefficient 1.
+  explicit Polynomial(const Term& term) : terms_{{term, Rational(1)}} {}
+
+  /// No coefficient is 0.
+  const std::map<Term, Rational>& terms() const { return terms_; }
+  bool is_number() const;
+  /// Of one that is a number.
+  Rational number() const { return terms_.empty() ? Rational(0) : terms_.begin()->second; }
+  /// 0, or an unknown that occurs.
+  int unknown() const;
+  /// The highest degree in x; of 0 it is 0.
+  int degree() const;
+  /// The number of variables up to the last that occurs.
+  std::size_t variables() const;
+
+  void add(const Term& term, const Rational& coefficient);
+  void add(const Polynomial& other, const Rational& factor);
+
+  Polynomial& operator+=(const Polynomial& b);
+  Polynomial& operator-=(const Polynomial& b);
+  Polynomial& operator*=(const Rational& factor);
+  friend Polynomial operator+(Polynomial a, const Polynomial& b) { return a += b; }
+  friend Polynomial operator-(Polynomial a, const Polynomial& b) { return a -= b; }
+  friend Polynomial operator-(Polynomial a) { return a *= Rational(-1); }
+  /// std::logic_error where both have an unknown.
+  friend Polynomial operator*(const Polynomial& a, const Polynomial& b);
+  Polynomial& operator*=(const Polynomial& b) { return *this = *this * b; }
+  bool operator==(const Polynomial&) const = default;
+
+ private:
+  std::map<Term, Rational> terms_;
+};
+
+/// dp/dx_i.
+Polynomial derivative(const Polynomial& p, std::size_t variable);
+
+/// p with numbers for its unknowns.
+Polynomial with_unknowns(const Polynomial& p, const std::vector<Rational>& u);
+
+/// p with polynomials for the variables from `first` on.
+Polynomial substituted(const Polynomial& p, std::size_t first,
+                       const std::vector<Polynomial>& values);
+
+}  // namespace gainsmith::polynomial

@@ -1,0 +1,109 @@
+#include "sos/decide.h"
+
+#include <utility>
+
+#include "sos/face.h"
+#include "sos/moments.h"
+
+namespace gainsmith::sos {
+
+namespace {
+
+/// The decimals of u that a gain file prints.
+std::optional<std::vector<Rational>> decimals_of(const Program& program, const Point& point) {
+  const std::vector<double> u(point.free.begin(), point.free.begin() + program.unknowns);
+  return decimals_near(u, conditions_on_unknowns(program));
+}
+
+class Deciding {
+ public:
+  Deciding(Program program, const sdp::Options& options, const std::optional<Equation>& level)
+      : options_(options), level_(level) {
+    result_.program = std::move(program);
+  }
+
+  Decision take() {
+    if (!level_) result_.contradiction = reduce(result_.program);
+    if (result_.contradiction) {
+      result_.excluded = true;
+      return std::move(result_);
+    }
+    constexpr int kMostFaces = 5;
+    for (int face = 0; face < kMostFaces; ++face) {
+      const auto point = solve(face == 0, options_);
+      if (!point || result_.excluded || is_shown(*point)) break;
+      auto next = restricted_to_faces(result_.program, *point);
+      if (!next) next = restricted_in_more_digits();
+      if (!next) break;
+      result_.program = std::move(*next);
+    }
+    return std::move(result_);
+  }
+
+ private:
+  /// A point of the program as it is; `is_whole`: on no face, so that moments exclude all solutions.
+  std::optional<Point> solve(bool is_whole, const sdp::Options& options) {
+    std::vector<Equation> equations = equations_of(result_.program);
+    if (level_) equations.push_back(*level_);
+    const Eliminated eliminated = eliminate(result_.program, std::move(equations));
+    if (eliminated.contradiction) {
+      if (is_whole && !level_) {
+        result_.contradiction = eliminated.contradiction;
+        result_.excluded = true;
+      }
+      return std::nullopt;
+    }
+    const Semidefinite posed = semidefinite_program(result_.program, eliminated);
+    result_.solution = sdp::solve(posed.problem, options);
+    result_.iterations += result_.solution.iterations;
+    if (result_.solution.x.empty()) return std::nullopt;
+    const bool is_out = result_.solution.status == sdp::Status::dual_infeasible;
+    std::vector<double> x = result_.solution.x;
+    x.resize(posed.equations.size());
+    if (is_whole && !level_) {
+      result_.inside = x;
+      const bool may_exclude = is_out || margin_of(result_.solution) < 0;
+      result_.excluded =
+          may_exclude && excluding_moments(result_.program, eliminated, posed, x).has_value();
+    }
+    if (is_out || result_.excluded) return std::nullopt;
+    return point_of(result_.program, eliminated, posed, result_.solution);
+  }
+
+  bool is_shown(const Point& point) {
+    const auto u = decimals_of(result_.program, point);
+    if (!u) return false;
+    auto found = identity_near(result_.program, point, *u);
+    auto* identity = std::get_if<Identity>(&found);
+    if (identity == nullptr) return false;
+    result_.u = *u;
+    result_.identity = std::move(*identity);
+    return true;
+  }
+
+  std::optional<Program> restricted_in_more_digits() {
+    constexpr int kMostEquations = 400;
+    sdp::Options wide = options_;
+    wide.precision = "quad";
+    wide.tolerance = 1e-20;
+    if (wide.precision == options_.precision ||
+        static_cast<int>(equations_of(result_.program).size()) > kMostEquations)
+      return std::nullopt;
+    const auto point = solve(false, wide);
+    if (!point) return std::nullopt;
+    return restricted_to_faces(result_.program, *point);
+  }
+
+  const sdp::Options& options_;
+  const std::optional<Equation>& level_;
+  Decision result_;
+};
+
+}  // namespace
+
+Decision decide(Program program, const sdp::Options& options,
+                const std::optional<Equation>& level) {
+  return Deciding(std::move(program), options, level).take();
+}
+
+}  // namespace gainsmith::sos

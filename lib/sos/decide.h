@@ -1,0 +1,33 @@
+// Whether a program has a solution: an identity in fractions, or what excludes all.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "sdp/solver.h"
+#include "sos/identity.h"
+#include "sos/reduce.h"
+
+namespace gainsmith::sos {
+
+struct Decision {
+  Program program;                         ///< with the bases of the identity
+  std::optional<std::vector<Rational>> u;  ///< of a yes, in decimals
+  Identity identity;
+  /// Of a no: an equation, or else moments.
+  std::optional<Contradiction> contradiction;
+  bool excluded = false;
+
+  std::vector<double>
+      inside;              ///< multipliers of the equations of the whole program, without u and t
+  sdp::Solution solution;  ///< the last
+  int iterations = 0;      ///< of the solver, in all
+};
+
+/// `level`: an equation that a solution should nearly satisfy. The solver is asked for a point far
+/// from singular; where all are singular, on their face again, in more digits where its fractions
+/// are long.
+Decision decide(Program program, const sdp::Options& options,
+                const std::optional<Equation>& level = std::nullopt);
+
+}  // namespace gainsmith::sos

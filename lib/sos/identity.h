@@ -1,0 +1,49 @@
+// From a point in floating point to an identity in fractions (Peyrl and Parrilo 2008).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "numbers/rational.h"
+#include "sos/solve.h"
+
+namespace gainsmith::sos {
+
+/// Values with which all equations of a program hold exactly, Q_j > 0 for each Gram matrix.
+struct Identity {
+  std::vector<numbers::RationalMatrix> grams;
+  std::vector<Rational> free;  ///< u, then t
+};
+
+/// Why there is none near a point.
+struct NoIdentity {
+  enum class Cause {
+    unknowns,  ///< the equations leave no Gram matrices for these u
+    definite   ///< a Gram matrix is not positive definite
+  };
+  Cause cause = Cause::definite;
+  std::size_t at = 0;  ///< of an equation, of a Gram matrix
+};
+
+/// With the decimals u. All else is rounded to some 13 digits; what an equation is off by then goes
+/// evenly to the elements that no other equation has, and otherwise by the least change.
+std::variant<Identity, NoIdentity> identity_near(const Program& program, const Point& point,
+                                                 const std::vector<Rational>& u);
+
+/// Equations that u alone must satisfy so that the others have a solution: where bases are those of a
+/// face, the values at its zeros, say.
+std::vector<Equation> conditions_on_unknowns(const Program& program);
+
+/// Decimals near u that satisfy the conditions; none where only other fractions do.
+std::optional<std::vector<Rational>> decimals_near(const std::vector<double>& u,
+                                                   const std::vector<Equation>& conditions);
+
+/// x with so many decimals.
+Rational rounded_to(const Rational& x, int decimals);
+
+/// Whether it is shown, in 31 digits or in fractions, that Q > 0.
+bool is_shown_definite(const numbers::RationalMatrix& Q);
+
+}  // namespace gainsmith::sos

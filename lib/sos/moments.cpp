@@ -1,0 +1,98 @@
+#include "sos/moments.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/stop.h"
+#include "numbers/rational_algebra.h"
+#include "sos/identity.h"
+
+namespace gainsmith::sos {
+
+using numbers::RationalMatrix;
+
+namespace {
+
+/// sum_i y_i F_ij + D_j.
+std::vector<RationalMatrix> matrices(const Program& program, const Eliminated& eliminated,
+                                     const Semidefinite& posed, const Moments& y,
+                                     const Equation* objective) {
+  const Columns columns(program);
+  std::vector<RationalMatrix> result;
+  for (const Gram& gram : program.grams)
+    result.push_back(RationalMatrix::Zero(gram.size(), gram.size()));
+  const auto add = [&](const Equation& equation, const Rational& factor) {
+    for (const auto& [column, c] : equation.terms) {
+      const Columns::Place place = columns.place(column);
+      const Rational value = c * factor / (place.row == place.column ? 1 : 2);
+      result[place.gram](place.row, place.column) += value;
+      if (place.row != place.column) result[place.gram](place.column, place.row) += value;
+    }
+  };
+  for (std::size_t i = 0; i < y.size(); ++i)
+    if (y[i] != 0) add(eliminated.equations[posed.equations[i]], y[i]);
+  if (objective != nullptr) add(*objective, Rational(1));
+  return result;
+}
+
+bool are_semidefinite(const std::vector<RationalMatrix>& X) {
+  constexpr Eigen::Index kSmall = 30;
+  return std::ranges::all_of(X, [](const RationalMatrix& one) {
+    check_stop();
+    return is_shown_definite(one) ||
+           (one.rows() <= kSmall && numbers::is_rational_semidefinite(one));
+  });
+}
+
+/// With so many digits of the largest.
+Moments rounded(const std::vector<double>& x, int digits) {
+  double largest = 0;
+  for (const double value : x) largest = std::max(largest, std::abs(value));
+  if (!(largest > 0) || !std::isfinite(largest)) return Moments(x.size(), Rational(0));
+  const int decimals = digits - static_cast<int>(std::ceil(std::log10(largest)));
+  Moments result;
+  for (const double value : x) result.push_back(rounded_to(Rational(value), decimals));
+  return result;
+}
+
+Rational value_of(const Eliminated& eliminated, const Semidefinite& posed, const Moments& y) {
+  Rational sum = 0;
+  for (std::size_t i = 0; i < y.size(); ++i)
+    sum += y[i] * eliminated.equations[posed.equations[i]].value;
+  return sum;
+}
+
+}  // namespace
+
+std::optional<Moments> excluding_moments(const Program& program, const Eliminated& eliminated,
+                                         const Semidefinite& posed, const std::vector<double>& x) {
+  for (const int digits : {3, 6, 12, 18}) {
+    Moments y = rounded(x, digits);
+    if (value_of(eliminated, posed, y) < 0 &&
+        are_semidefinite(matrices(program, eliminated, posed, y, nullptr)))
+      return y;
+  }
+  return std::nullopt;
+}
+
+std::optional<Rational> lower_bound(const Program& program, const Eliminated& eliminated,
+                                    const Semidefinite& posed, const Equation& objective,
+                                    const std::vector<double>& x,
+                                    const std::vector<double>& inside) {
+  constexpr int kDigits = 18;
+  double size = 0, own = 0;
+  for (const double value : x) own = std::max(own, std::abs(value));
+  for (const double value : inside) size = std::max(size, std::abs(value));
+  for (const double share : {0.0, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5}) {
+    std::vector<double> both = x;
+    if (share > 0 && size > 0)
+      for (std::size_t i = 0; i < both.size() && i < inside.size(); ++i)
+        both[i] += share * std::max(own, 1.0) / size * inside[i];
+    const Moments y = rounded(both, kDigits);
+    if (are_semidefinite(matrices(program, eliminated, posed, y, &objective)))
+      return Rational(-value_of(eliminated, posed, y) - objective.value);
+  }
+  return std::nullopt;
+}
+
+}  // namespace gainsmith::sos

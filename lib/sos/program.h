@@ -1,0 +1,138 @@
+// Inequalities between polynomials as sums of squares (Parrilo 2003; Putinar 1993).
+//
+//   M(x; u) >= 0  for all x with g_j(x) >= 0, h_l(x) = 0,   M symmetric, q x q, affine in u,
+//
+// holds where there are Gram matrices Q_j >= 0 and polynomials t_l, any, with
+//   v'M(x; u)v = z_0'Q_0 z_0 + sum_j g_j(x) z_j'Q_j z_j + sum_l h_l(x) t_l,
+// the z_j being vectors of monomials in x, times elements of v. The two sides are equal coefficient
+// by coefficient: each monomial gives an equation that is linear in u, the Q_j and the t_l. An
+// inequality without variables has z_0 = v and Q_0 = M.
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "polynomial/polynomial_numbers.h"
+
+namespace gainsmith::sos {
+
+using polynomial::Monomial;
+using polynomial::Polynomial;
+
+struct Statement {
+  std::string name;                       ///< of the comparison
+  polynomial::PolynomialMatrix matrix;    ///< M
+  bool strict = false;                    ///< Q_0 > 0, with the constants in z_0: M >= c I, c > 0
+  std::vector<Polynomial> nonnegative{};  ///< g_j, without unknowns
+  std::vector<Polynomial> zero{};         ///< h_l, without unknowns
+  std::optional<int> degree{};            ///< of all terms in x; none: of M, or what g_j need
+  int more = 0;                           ///< added to it
+};
+
+/// v_row times a monomial in x.
+struct Element {
+  int row = 0;
+  Monomial monomial;
+
+  friend bool operator<(const Element& a, const Element& b) {
+    return a.row != b.row ? a.row < b.row : a.monomial < b.monomial;
+  }
+};
+
+/// sum of c times elements; of the first program one element.
+using BasisPolynomial = std::vector<std::pair<Element, Rational>>;
+
+/// times(x) z'Qz.
+struct Gram {
+  std::size_t statement = 0;
+  std::size_t multiplier = 0;  ///< j; 0 of the main one, where `times` is 1
+  Polynomial times;
+  std::vector<BasisPolynomial> basis;  ///< z
+  /// Powers of two, one for each row: in solutions Q_ab is of the size of scale_a scale_b.
+  std::vector<double> scale{};
+
+  int size() const { return static_cast<int>(basis.size()); }
+};
+
+/// An unknown coefficient of t_l: times(x) m(x) v_row v_column.
+struct FreeTerm {
+  std::size_t statement = 0;
+  std::size_t equation = 0;  ///< l
+  Polynomial times;
+  int row = 0;
+  int column = 0;
+  Monomial monomial;
+};
+
+struct Program {
+  std::vector<Statement> statements;
+  int unknowns = 0;  ///< the number of u
+  std::vector<Gram> grams;
+  std::vector<FreeTerm> free;
+};
+
+/// The coefficient of m(x) v_row v_column, row <= column, of a statement.
+struct Key {
+  std::size_t statement = 0;
+  int row = 0;
+  int column = 0;
+  Monomial monomial;
+
+  friend bool operator<(const Key& a, const Key& b) {
+    if (a.statement != b.statement) return a.statement < b.statement;
+    if (a.row != b.row) return a.row < b.row;
+    if (a.column != b.column) return a.column < b.column;
+    return a.monomial < b.monomial;
+  }
+};
+
+/// Numbers the unknowns of a program: u, then the coefficients of t, then the elements of the upper
+/// triangles of the Gram matrices, column by column.
+class Columns {
+ public:
+  explicit Columns(const Program& program);
+
+  int unknown(int k) const { return k - 1; }
+  int free(std::size_t k) const { return unknowns_ + static_cast<int>(k); }
+  /// row <= column.
+  int element(std::size_t gram, int row, int column) const {
+    return first_[gram] + column * (column + 1) / 2 + row;
+  }
+  bool is_element(int column) const { return column >= first_.front(); }
+  int unknowns() const { return unknowns_; }
+  int frees() const { return first_.front(); }  ///< u and t
+  int size() const { return first_.back(); }
+  struct Place {
+    std::size_t gram = 0;
+    int row = 0;
+    int column = 0;
+  };
+  /// Of the column of an element.
+  Place place(int column) const;
+
+ private:
+  int unknowns_;
+  std::vector<int> first_;
+};
+
+/// sum of terms[column] times unknown = value.
+struct Equation {
+  Key key;
+  std::map<int, Rational> terms;
+  Rational value = 0;
+};
+
+/// With full bases: monomials of half the degree, within the bounds that the powers of the single
+/// variables and the degree give (half the Newton polytope, by its extent along these). InputError's
+/// text for more than 20,000 monomials is left to the caller: it throws std::length_error.
+Program pose(std::vector<Statement> statements, int unknowns);
+
+/// One for each monomial, in the order of keys.
+std::vector<Equation> equations_of(const Program& program);
+
+}  // namespace gainsmith::sos
