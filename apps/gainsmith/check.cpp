@@ -10,6 +10,7 @@
 #include "bind/stated.h"
 #include "claims/run_setup.h"
 #include "design/excluded_inequalities.h"
+#include "design/sos_statements.h"
 #include "gainsmith/commands.h"
 #include "gainsmith/gain_check.h"
 #include "gainsmith/load.h"
@@ -95,9 +96,23 @@ std::vector<std::string> check_runs(const model::Instance& instance) {
   return notes;
 }
 
+struct Sizes {
+  int unknowns = 0;
+  std::size_t blocks = 0;
+};
+
+/// Of its inequalities, which are posed: InputError where they cannot be.
+Sizes sizes_of(const model::Instance& instance) {
+  const lmi::Inequalities inequalities(instance);
+  if (design::has_sums_of_squares(*instance.design))
+    return {inequalities.unknowns.size(), design::sos_statements(inequalities).statements.size()};
+  const lmi::Lmi lmi = lmi::compile(inequalities);
+  return {lmi.unknowns, lmi.blocks.size()};
+}
+
 /// What a valid problem asks for.
 io::Json description(const model::Instance& instance, const std::vector<std::string>& notes) {
-  const lmi::Lmi lmi = lmi::compile(lmi::Inequalities(instance));
+  const Sizes found = sizes_of(instance);
   if (!instance.design->necessary.inequalities.empty())
     lmi::compile(lmi::Inequalities(design::with_necessary(instance)));
   io::Json sizes = io::Json::object();
@@ -106,8 +121,8 @@ io::Json description(const model::Instance& instance, const std::vector<std::str
                      {"problem", instance.design->name},
                      {"method", instance.design->method},
                      {"dimensions", sizes},
-                     {"unknown_scalars", lmi.unknowns},
-                     {"blocks", lmi.blocks.size()},
+                     {"unknown_scalars", found.unknowns},
+                     {"blocks", found.blocks},
                      {"campaign_defaults", campaign_defaults(*instance.design)},
                      {"notes", notes}};
   if (const auto& dynamics = instance.design->dynamics) {

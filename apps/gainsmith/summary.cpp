@@ -116,9 +116,9 @@ std::string bounds_text(const model::Gains& gains) {
 std::string certificate_text(const model::Gains& gains) {
   if (!gains.certificate) return "";
   const model::CertificateRecord& c = *gains.certificate;
-  const std::string of = c.is_about_problem() ? "the decimals of the file"
-                         : c.about == "hull"  ? "the hull"
-                                              : "the vertex test";
+  const std::string of = subject_of(c);
+  if (c.exact && c.multipliers.empty() && !c.algebraic)
+    return fmt::format("certificate in fractions: {}\n", model::shown_by(c));
   if (c.algebraic)
     return fmt::format("certificate {}, exact in fractions of {}:\n            {}\n",
                        to_string(*c.algebraic), of, model::shown_by(c));

@@ -1,4 +1,5 @@
 #include "bind/data.h"
+#include "bind/polynomials.h"
 
 #include <algorithm>
 #include <cmath>
@@ -362,6 +363,7 @@ void add_unknown(Binding& binding, const model::UnknownDeclaration& unknown) {
   bound.declared = unknown.shape.text;
   bound.place = unknown.place;
   bound.degree = degree_of(binding, unknown, bound);
+  if (!unknown.arguments.empty()) return add_polynomial(binding, unknown, bound);
   if (unknown.in) {
     bound.in = {unknown.name, scalar(unknown.in->low, binding.names->known),
                 scalar(unknown.in->high, binding.names->known), unknown.in->place};

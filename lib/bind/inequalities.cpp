@@ -1,11 +1,13 @@
 #include "bind/inequalities.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <memory>
 #include <utility>
 
 #include "base/nearest.h"
+#include "base/number.h"
 #include "bind/bind.h"
 #include "bind/convex_terms.h"
 #include "bind/estimates.h"
@@ -73,10 +75,38 @@ std::vector<expr::Expression> points_of(const Binding& binding, const model::For
   return elements;
 }
 
+/// n of "x in R^n", a whole number of known values.
+int length_of(const Binding& binding, const model::Forall& forall, const Member& member) {
+  if (forall.points.empty()) return 1;
+  constexpr double kMost = 100;
+  const expr::Expression text = instantiate(forall.points.front(), member, binding.names->known);
+  const model::Formula formula = scalar(text, binding.names->known);
+  const double length = scalar_value(formula, binding.recorder->values);
+  if (!(length >= 1 && length <= kMost) || std::trunc(length) != length)
+    throw InputError(
+        formula.place,
+        forall.variable + " in R^n: n must be a whole number from 1 to 100, not " + brief(length));
+  return static_cast<int>(length);
+}
+
+/// "h in R" where R is a vector of the data runs over its elements.
+model::Forall meant(const Binding& binding, const model::Forall& forall) {
+  const bool is_vector = forall.over == model::Over::reals && forall.points.empty() &&
+                         binding.names->known.symbols.contains("R");
+  if (!is_vector) return forall;
+  const expr::Text text = expr::Text::generated("R", forall.place);
+  return {forall.variable, model::Over::set, {expr::parse(text)}, forall.place, true};
+}
+
 model::Design::Variable variable(const Binding& binding, const model::Forall& forall,
                                  const Member& member) {
   model::Design::Variable bound{forall.variable, forall.over, {}, {}, forall.place};
   const expr::Scope& scope = binding.names->known;
+  if (forall.over == model::Over::reals) {
+    const int length = length_of(binding, forall, member);
+    bound.shape = {length, 1};
+    return bound;
+  }
   const std::vector<expr::Expression> points = points_of(binding, forall, member);
   if (forall.over == model::Over::interval) {
     for (const expr::Expression& end : points) bound.points.push_back(scalar(end, scope));
@@ -168,6 +198,43 @@ void bind_objective(Binding& binding, const expr::Expression& text) {
   binding.design->quotient = std::move(bound);
 }
 
+/// InputError where a comparison under `where` has an unknown.
+void refuse_unknowns_in(const Binding& binding, const expr::CompiledRelation& relation,
+                        const Place& place) {
+  for (const model::Design::Unknown& unknown : binding.design->unknowns)
+    if (uses(relation.difference, unknown))
+      throw InputError(place,
+                       "'where' has the unknown " + unknown.name +
+                           ": its product with an unknown multiplier is bilinear; fix it as a "
+                           "datum, search a scalar of it, or solve in turn for the one and the "
+                           "other (docs/sums-of-squares.md)");
+}
+
+std::optional<model::Design::Inequality::SumOfSquares> sum_of_squares(
+    const Binding& binding, const model::Requirement& requirement, const Member& member,
+    const std::vector<model::Design::Variable>& domain, const expr::Scope& scope) {
+  const bool is_over_reals = std::ranges::any_of(
+      domain, [](const auto& variable) { return variable.over == model::Over::reals; });
+  if (!requirement.sos && !is_over_reals) {
+    if (!requirement.where.empty() || requirement.degree)
+      throw InputError(requirement.place,
+                       "'where' and 'degree' are of sums of squares: add by: sos, or forall: x in "
+                       "R^n");
+    return std::nullopt;
+  }
+  model::Design::Inequality::SumOfSquares result{{}, requirement.degree, requirement.adds_degree};
+  for (const expr::Expression& text : requirement.where)
+    for (const expr::Expression& part : expr::conjuncts(instantiate(text, member, scope))) {
+      const Place place = part.place(*part.root);
+      for (expr::CompiledRelation& relation : expr::compile_relations(part, scope)) {
+        refuse_unknowns_in(binding, relation, place);
+        refuse_estimate(*binding.design, relation.difference, "'" + requirement.name + "'");
+        result.where.push_back({std::move(relation.difference), relation.equation, place});
+      }
+    }
+  return result;
+}
+
 model::Design::Inequality inequality(Binding& binding, const model::Requirement& requirement,
                                      const Member& member) {
   model::Design::Inequality bound;
@@ -178,7 +245,8 @@ model::Design::Inequality inequality(Binding& binding, const model::Requirement&
   expr::Scope& scope = adds ? own : binding.names->design;
   const expr::Expression that = instantiate(requirement.that, member, scope);
   bound.that_place = that.place(*that.root);
-  for (const model::Forall& forall : requirement.forall) {
+  for (const model::Forall& written : requirement.forall) {
+    const model::Forall forall = meant(binding, written);
     if (const auto elements = elements_of_box(binding, forall, member)) {
       add_box(binding, forall, member, *elements, bound, scope);
       continue;
@@ -187,9 +255,15 @@ model::Design::Inequality inequality(Binding& binding, const model::Requirement&
     scope.symbols[forall.variable] = {bound.domain.back().shape};
   }
   std::vector<expr::Expression> comparisons;
-  for (const expr::Expression& part : expr::conjuncts(that))
+  bound.sos = sum_of_squares(binding, requirement, member, bound.domain, scope);
+  for (const expr::Expression& part : expr::conjuncts(that)) {
+    if (bound.sos) {
+      comparisons.push_back(part);
+      continue;
+    }
     for (expr::Expression& comparison : affine_comparisons(binding, part, scope, adds))
       comparisons.push_back(std::move(comparison));
+  }
   add_comparisons(comparisons, bound, requirement.name, member.label, scope);
   for (const auto& comparison : bound.comparisons)
     refuse_estimate(*binding.design, comparison.difference, "'" + requirement.name + "'");

@@ -1,5 +1,7 @@
 #include "design/elastic.h"
 
+#include "design/sos_statements.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -104,10 +106,15 @@ model::Instance with_inequalities(const model::Instance& instance,
 }
 
 Diagonals row_scales_of(const model::Instance& instance) {
+  Diagonals scales;
+  if (has_sums_of_squares(*instance.design)) {
+    for (const Design::Inequality& inequality : instance.design->inequalities)
+      scales[inequality.name] = {1};
+    return scales;
+  }
   const lmi::Inequalities inequalities(instance);
   const lmi::Lmi lmi = lmi::compile(inequalities);
   const lmi::Balance balance = lmi::pose_objective(lmi, {}, 0).balance;
-  Diagonals scales;
   for (const Design::Inequality& inequality : instance.design->inequalities) {
     std::vector<double>& rows = scales[inequality.name];
     for (std::size_t k = 0; k < lmi.blocks.size(); ++k) {
@@ -130,7 +137,8 @@ ByInequality scales_of(const model::Instance& instance) {
 model::Instance elastic(const model::Instance& instance, const Diagonals& scales,
                         std::map<std::string, std::string>& slacks) {
   // Without constant parts every solution may be scaled, and every slack with it.
-  const bool scaled = lmi::is_homogeneous(lmi::compile(lmi::Inequalities(instance)).blocks);
+  const bool scaled = !has_sums_of_squares(*instance.design) &&
+                      lmi::is_homogeneous(lmi::compile(lmi::Inequalities(instance)).blocks);
   const Diagonals demands = scaled ? row_scales_of(instance) : Diagonals{};
   return with_design(instance, [&](Design& design) {
     std::vector<Design::Inequality> relaxed;
@@ -179,6 +187,7 @@ Slacks smallest_slacks(const model::Instance& instance, const ByInequality& scal
 std::optional<double> estimated_violation(const model::Instance& instance, const Diagonals& scales,
                                           const sdp::Options& solver) {
   constexpr double kNear = 1e-4;  // of the objectives
+  if (has_sums_of_squares(*instance.design)) return std::nullopt;
   std::map<std::string, std::string> names;
   const model::Instance relaxed = elastic(instance, scales, names);
   const lmi::Inequalities inequalities(relaxed);

@@ -9,6 +9,7 @@
 #include "design/bisect.h"
 #include "design/elastic.h"
 #include "design/excluded_inequalities.h"
+#include "design/sos_statements.h"
 #include "design/synthesize.h"
 #include "lmi/compile.h"
 #include "lmi/formulation.h"
@@ -20,7 +21,9 @@ namespace {
 /// Whether nothing keeps all unknowns from being 0.
 bool holds_at_zero(const model::Instance& instance) {
   if (instance.design->inequalities.empty()) return true;
-  const lmi::Lmi lmi = lmi::compile(lmi::Inequalities(instance));
+  const lmi::Inequalities inequalities(instance);
+  if (has_sums_of_squares(*instance.design)) return hold_at_zero(sos_statements(inequalities));
+  const lmi::Lmi lmi = lmi::compile(inequalities);
   return lmi::is_homogeneous(lmi.blocks) &&
          std::none_of(lmi.blocks.begin(), lmi.blocks.end(),
                       [](const lmi::Block& block) { return block.strict; });
@@ -59,6 +62,8 @@ bool seems_infeasible(const model::Instance& instance, const std::set<std::strin
   constexpr double kNone = 1e-8;  // of the largest margin
   const model::Instance part = with_inequalities(instance, names);
   if (holds_at_zero(part)) return false;
+  if (has_sums_of_squares(*part.design))
+    return synthesize(part, solver, Depth::verdict).verdict == model::Verdict::no;
   const lmi::Inequalities inequalities(part);
   const lmi::Lmi lmi = lmi::compile(inequalities);
   sdp::Options narrow = solver;

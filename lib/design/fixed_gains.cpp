@@ -1,5 +1,8 @@
 #include "design/fixed_gains.h"
 
+#include "design/sos_statements.h"
+#include "design/sums_of_squares.h"
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -292,7 +295,16 @@ std::optional<std::vector<double>> packed(const lmi::Unknowns& unknowns,
 
 /// Step 1. Whether something certainly fails.
 bool check_own(const lmi::Inequalities& inequalities, const std::vector<double>& x,
-               GainCheck& check) {
+               const sdp::Options& options, GainCheck& check) {
+  if (has_sums_of_squares(inequalities.design())) {
+    model::Gains own;
+    check_sums_of_squares(inequalities, x, options, own);
+    if (own.verdict != model::Verdict::yes)
+      for (const auto& inequality : inequalities.design().inequalities)
+        check.not_shown.push_back(inequality.name);
+    check.margins = std::move(own.margins);
+    return false;
+  }
   using Status = forall::DomainProof::Status;
   verdict::PrintedCheck printed(inequalities, x);
   bool fails = false;
@@ -351,7 +363,7 @@ GainCheck check_gains(const model::Instance& instance, const model::Gains& gains
   const lmi::Inequalities inequalities(fixed.instance);
   const bool nothing_unknown = inequalities.unknowns.size() == 0;
   if (const auto x = packed(inequalities.unknowns, gains)) {
-    const bool fails = check_own(inequalities, *x, check);
+    const bool fails = check_own(inequalities, *x, options, check);
     if (check.not_shown.empty()) {
       check.verdict = model::Verdict::yes;
       check.own_unknowns = true;

@@ -17,6 +17,7 @@
 #include "design/hautus.h"
 #include "design/joint_refinement.h"
 #include "design/results.h"
+#include "design/sos_statements.h"
 #include "design/synthesize.h"
 #include "search/ipopt.h"
 #include "search/minimize.h"
@@ -294,7 +295,8 @@ class OuterSearch {
       try {
         std::tie(gains, best) = design_at(overrides(*minimum.point), extreme_of(minimum));
         if (request_.measure && gains.verdict == model::Verdict::yes) best = minimum.value;
-        if (request_.refine && best && finished) refined = refine_design(gains, best);
+        if (request_.refine && best && finished && !has_sums_of_squares(*own_.design))
+          refined = refine_design(gains, best);
       } catch (const Stopped&) {
         if (!best_) throw;  // all figures were known
         finished = false;

@@ -2,6 +2,8 @@
 
 #include "base/number.h"
 #include "design/facial_reduction.h"
+#include "design/sos_statements.h"
+#include "design/sums_of_squares.h"
 #include "lmi/formulation.h"
 
 namespace gainsmith::design {
@@ -59,6 +61,7 @@ SemidefiniteProgram semidefinite_program(const model::Instance& instance) {
                      "minimize: " + instance.design->quotient->text +
                          " is solved by several semidefinite programs; there is no one to write");
   const lmi::Inequalities inequalities(instance);
+  if (has_sums_of_squares(*instance.design)) return program_of_sums_of_squares(inequalities);
   const model::SynthesisOptions& choices = inequalities.design().synthesis;
   const lmi::Lmi lmi = lmi::compile(inequalities);
   const lmi::GainBounds bounds = lmi::gain_bounds(inequalities, lmi);

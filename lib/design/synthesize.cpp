@@ -18,6 +18,8 @@
 #include "design/hautus.h"
 #include "design/limits.h"
 #include "design/quotient.h"
+#include "design/sos_statements.h"
+#include "design/sums_of_squares.h"
 #include "forall/faults.h"
 #include "numbers/dense.h"
 
@@ -317,6 +319,16 @@ class Synthesis {
   double solve_seconds_ = 0;
 };
 
+model::Gains by_sums_of_squares(const model::Instance& instance, const sdp::Options& options) {
+  const auto start = Clock::now();
+  const lmi::Inequalities inequalities(instance);
+  model::Gains gains = stated(instance);
+  solve_sums_of_squares(inequalities, options, gains);
+  add_gains(inequalities, gains);
+  gains.timings = {{"total", seconds_since(start)}};
+  return gains;
+}
+
 /// Gains of formulas alone: nothing is unknown and nothing required.
 model::Gains evaluated(const model::Instance& instance) {
   model::Gains gains = stated(instance);
@@ -332,6 +344,7 @@ model::Gains evaluated(const model::Instance& instance) {
 model::Gains synthesize(const model::Instance& instance, const sdp::Options& options, Depth depth) {
   const model::Design& design = *instance.design;
   if (design.inequalities.empty() && design.unknowns.empty()) return evaluated(instance);
+  if (has_sums_of_squares(design)) return by_sums_of_squares(instance, options);
   require_convex(instance);
   if (instance.design->quotient) return smallest_quotient(instance, options, depth);
   return Synthesis(instance, options, depth).run();

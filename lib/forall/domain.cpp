@@ -17,6 +17,7 @@ Variable variable_of(const model::Design::Variable& stated, const numbers::Value
   result.over = stated.over;
   result.shape = stated.shape;
   result.place = stated.place;
+  if (stated.over == Over::reals) return result;
   if (stated.over == Over::interval) {
     result.low = scalar_value(stated.points[0], values);
     result.high = scalar_value(stated.points[1], values);

@@ -33,6 +33,14 @@ std::vector<expr::Index> indices(const YamlFile& file, const std::optional<YamlI
   return result;
 }
 
+std::vector<model::Argument> arguments_of(const YamlFile& file, const YamlItem& of) {
+  std::vector<model::Argument> result;
+  for (const YamlItem& argument : items_of(file, of, "of"))
+    result.push_back({argument.key, model::parse_shape(file.scalar(argument.value, argument.key)),
+                      argument.place});
+  return result;
+}
+
 model::Declaration declaration(const YamlFile& file, const YamlItem& item, const char* fallback) {
   model::Declaration result;
   result.name = item.key;
@@ -54,10 +62,7 @@ model::Declaration declaration(const YamlFile& file, const YamlItem& item, const
   if (has_default) {
     result.indices = indices(file, map.find("for"));
     const auto of = map.find("of");
-    for (const YamlItem& argument : items_of(file, of, "of"))
-      result.arguments.push_back({argument.key,
-                                  model::parse_shape(file.scalar(argument.value, argument.key)),
-                                  argument.place});
+    if (of) result.arguments = arguments_of(file, *of);
     if (of && !result.indices.empty())
       throw InputError(of->place, "of: a family of matrices has no arguments");
   }

@@ -21,6 +21,9 @@ std::vector<expr::Text> texts_of(const YamlFile& file, const YamlItem& item);
 /// "for: i in 1..N" or "for: [i in 1..N, j in 1..M]".
 std::vector<expr::Index> indices(const YamlFile& file, const std::optional<YamlItem>& item);
 
+/// "of: {x: n, u: 2}".
+std::vector<model::Argument> arguments_of(const YamlFile& file, const YamlItem& of);
+
 /// "A: n x n" or "A: {shape: n x n, default: ..., help: ...}"; `fallback` is the key of the value
 /// without a given one: "default" of a datum, "start" of a state.
 model::Declaration declaration(const YamlFile& file, const YamlItem& item, const char* fallback);

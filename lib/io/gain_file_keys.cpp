@@ -31,6 +31,7 @@ constexpr std::array kKeysOfDocument = {
     Key{"bounds", "[bound]", "the bounds on the gains", kRequired},
     Key{"certificate", "certificate", "of a no"},
     Key{"optimum", "{rows}", "multipliers that show objective_lower_bound"},
+    Key{"sums_of_squares", "[sum of squares]", "the identities that show inequalities"},
     Key{"proof", "proof", "that the results are those of the statement"},
     Key{"solver", "solver", "what the solver says", kRequired},
     Key{"statement", "statement", "the problem that was solved", kRequired},
@@ -75,6 +76,26 @@ constexpr std::array kKeysOfTerm = {
     Key{"vector", "[[text]]", "Z, z = Z (1, l, ...)'", kRequired},
     Key{"weight", "[text]", "of 1, l + m and l m in c, m the conjugate of l", kRequired},
     Key{"step", "whole", "of a chain of rational multipliers; 1 when absent"}};
+
+constexpr std::array kKeysOfSumOfSquares = {
+    Key{"name", "text", "of the inequality", kRequired}, Key{"variables", "[text]", "", kRequired},
+    Key{"squares", "[square]", "times z'Qz", kRequired},
+    Key{"free", "[free term]", "times a polynomial, of equations under 'where'"}};
+
+constexpr std::array kKeysOfSquare = {
+    Key{"times", "whole", "0: 1; k: the k-th polynomial that is >= 0", kRequired},
+    Key{"basis", "[[summand]]", "z, polynomials times rows of the inequality", kRequired},
+    Key{"gram", "[[text]]", "Q, fractions: the lower triangle", kRequired}};
+
+constexpr std::array kKeysOfSummand = {Key{"c", "text", "a fraction", kRequired},
+                                       Key{"row", "whole", "from 0", kRequired},
+                                       Key{"exponents", "[whole]", "of the variables", kRequired}};
+
+constexpr std::array kKeysOfFreeTerm = {
+    Key{"times", "whole", "k: the k-th polynomial that is 0", kRequired},
+    Key{"c", "text", "a fraction", kRequired}, Key{"row", "whole", "from 0", kRequired},
+    Key{"column", "whole", "from 0", kRequired},
+    Key{"exponents", "[whole]", "of the variables", kRequired}};
 
 constexpr std::array kKeysOfRefinement = {
     Key{"before", "number", "", kRequired}, Key{"after", "number | nothing", "", kRequired},
@@ -128,6 +149,12 @@ const Level kBoundLevel = {"bound", "A bound on a gain", kKeysOfBound};
 const Level kCertificateLevel = {"certificate", "The certificate of a no", kKeysOfCertificate};
 const Level kAlgebraicLevel = {"algebraic", "Multipliers in fractions", kKeysOfAlgebraic};
 const Level kTermLevel = {"algebraic term", "A part of a multiplier", kKeysOfTerm};
+const Level kSumOfSquaresLevel = {"sum of squares", "An inequality as a sum of squares",
+                                  kKeysOfSumOfSquares};
+const Level kSquareLevel = {"square", "Squares with one multiplier", kKeysOfSquare};
+const Level kSummandLevel = {"summand", "A term of a polynomial", kKeysOfSummand};
+const Level kFreeTermLevel = {"free term", "A term of the multiplier of an equation",
+                              kKeysOfFreeTerm};
 const Level kRefinementLevel = {"refinement", "Scalars and unknowns moved together",
                                 kKeysOfRefinement};
 const Level kSearchLevel = {"search", "How a search ended", kKeysOfSearch};
@@ -139,10 +166,12 @@ const Level kFileLevel = {"file", "A file that was read", kKeysOfFile};
 }  // namespace
 
 std::span<const Level* const> gain_file_levels() {
-  static constexpr std::array kLevels = {
-      &kDocumentLevel,   &kGainFunctionLevel, &kMarginLevel, &kBoundLevel,     &kCertificateLevel,
-      &kRefinementLevel, &kSearchLevel,       &kSolverLevel, &kStatementLevel, &kProofLevel,
-      &kFileLevel,       &kAlgebraicLevel,    &kTermLevel};
+  static constexpr std::array kLevels = {&kDocumentLevel, &kGainFunctionLevel, &kMarginLevel,
+                                         &kBoundLevel,    &kCertificateLevel,  &kRefinementLevel,
+                                         &kSearchLevel,   &kSolverLevel,       &kStatementLevel,
+                                         &kProofLevel,    &kFileLevel,         &kAlgebraicLevel,
+                                         &kTermLevel,     &kSumOfSquaresLevel, &kSquareLevel,
+                                         &kSummandLevel,  &kFreeTermLevel};
   return kLevels;
 }
 

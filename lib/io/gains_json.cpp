@@ -6,6 +6,7 @@
 
 #include "io/json_reader.h"
 #include "io/sources.h"
+#include "io/sums_of_squares_json.h"
 
 namespace gainsmith::io {
 
@@ -391,6 +392,8 @@ Json to_json(const model::Gains& gains) {
     document["certificate"] = certificate_json(gains, "certificate", *gains.certificate);
   if (!gains.optimum_multipliers.empty())
     document["optimum"] = matrices_json(gains, "optimum", gains.optimum_multipliers);
+  if (!gains.sums_of_squares.empty())
+    document["sums_of_squares"] = list_json(gains.sums_of_squares, sum_of_squares_json);
   document["proof"] = {{"version", kProofVersion}, {"sha256", model::results_hash(gains)}};
   document["solver"] = solver_json(gains.solver);
   document["statement"] = statement_json(gains.statement);
@@ -449,6 +452,9 @@ model::Gains parse_gains(const std::string& text, const std::string& file) {
   if (reader.has("certificate"))
     gains.certificate = certificate_of(reader.at("certificate"), gains);
   if (reader.has("optimum")) gains.optimum_multipliers = matrices_of(reader.at("optimum"), gains);
+  if (reader.has("sums_of_squares"))
+    for (const JsonReader& item : reader.at("sums_of_squares").items())
+      gains.sums_of_squares.push_back(sum_of_squares_of(item));
   gains.solver = solver_of(reader.at("solver"));
   for (const auto& [key, value] :
        {std::pair{"status", &gains.solver.status}, {"cause", &gains.solver.cause}})

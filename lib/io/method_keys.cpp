@@ -47,18 +47,23 @@ constexpr std::array kDeclaration = {Key{"shape", "text", "such as n x p", kRequ
 constexpr std::array kParameter = {Key{"default", "text"}, Key{"help", "text"},
                                    Key{"search", "range", "where it is searched"}};
 
-constexpr std::array kUnknown = {Key{"shape", "text", "such as symmetric n", kRequired},
-                                 Key{"help", "text"},
-                                 Key{"of", "text", "the variable of a function"},
-                                 Key{"for", "texts", "the indices of a family"},
-                                 Key{"degree", "text", "of a polynomial"},
-                                 Key{"in", "range", "where the variable is"}};
+constexpr std::array kUnknown = {
+    Key{"shape", "text", "such as symmetric n", kRequired},
+    Key{"help", "text"},
+    Key{"of", "text | {text}", "the variable of a function, or the columns of a polynomial"},
+    Key{"for", "texts", "the indices of a family"},
+    Key{"degree", "text | [text, text]", "of a polynomial, or [least, largest] of its terms"},
+    Key{"in", "range", "where the variable is"}};
 constexpr std::array kUnknownRules = {Rule::needs("degree", "of"), Rule::needs("in", "of")};
 
 constexpr std::array kRequirement = {
-    Key{"forall", "texts", "such as tau in [0, T]"}, Key{"that", "text", "the inequality"},
+    Key{"forall", "texts", "such as tau in [0, T]"},
+    Key{"that", "text", "the inequality"},
     Key{"blocks", "{{text}?}+", "its blocks by the names of their rows"},
-    Key{"is", "text", "< 0 or > 0"}};
+    Key{"is", "text", "< 0 or > 0"},
+    Key{"where", "texts", "comparisons of polynomials that the variables satisfy"},
+    Key{"by", "text", "sos: as a sum of squares"},
+    Key{"degree", "text", "of all terms of the sum of squares; +2 adds to that of the inequality"}};
 constexpr std::array kRequirementRules = {Rule::exactly_one("that,blocks"),
                                           Rule::needs("blocks", "is"), Rule::needs("is", "blocks")};
 

@@ -18,7 +18,22 @@ namespace gainsmith::io {
 
 namespace {
 
-/// "Y: n x p", "Y: {shape: n x p, help: ...}" or "Y: {shape: n x p, of: tau, degree: 2}".
+/// "4" or "[2, 4]".
+void read_degree(const YamlFile& file, const YamlItem& item, model::UnknownDeclaration& out) {
+  if (!item.value.IsSequence()) {
+    out.degree = file.expression(item.value, item.key);
+    return;
+  }
+  if (item.value.size() != 2 || out.arguments.empty())
+    throw InputError(file.place(item.value),
+                     "degree: expected a whole number or, of a polynomial in the columns that 'of' "
+                     "names, [least, largest] degree of its terms");
+  out.least = file.expression(item.value[0], item.key);
+  out.degree = file.expression(item.value[1], item.key);
+}
+
+/// "Y: n x p", "Y: {shape: n x p, help: ...}", "Y: {shape: n x p, of: tau, degree: 2}" or
+/// "V: {shape: scalar, of: {x: 3}, degree: [2, 4]}".
 model::UnknownDeclaration unknown(const YamlFile& file, const YamlItem& item) {
   model::UnknownDeclaration result;
   result.name = item.key;
@@ -30,7 +45,11 @@ model::UnknownDeclaration unknown(const YamlFile& file, const YamlItem& item) {
   YamlMap map(file, item.value, item.key, keys::unknown);
   result.shape = model::parse_shape(file.scalar(map.require("shape").value, "shape"));
   result.help = optional_string(file, map.find("help"));
-  result.variable = optional_string(file, map.find("of"));
+  const auto of = map.find("of");
+  if (of && of->value.IsMap())
+    result.arguments = arguments_of(file, *of);
+  else
+    result.variable = optional_string(file, of);
   result.indices = indices(file, map.find("for"));
   const auto degree = map.find("degree");
   const auto in = map.find("in");
@@ -39,11 +58,13 @@ model::UnknownDeclaration unknown(const YamlFile& file, const YamlItem& item) {
     throw InputError(in->place,
                      "in: only of an unknown that is a function; say of which variable by 'of'");
   if (in) result.in = scalar_range(file, {"in", in->key_text, in->place, in->value});
-  if (degree && result.variable.empty())
+  if (degree && result.variable.empty() && result.arguments.empty())
     throw InputError(degree->place,
                      "degree: only of an unknown that is a function; say of which "
                      "variable by 'of'");
-  result.degree = optional_expression(file, degree);
+  if (!degree && !result.arguments.empty())
+    throw InputError(of->place, "a polynomial needs its degree, such as degree: [2, 4]");
+  if (degree) read_degree(file, *degree, result);
   return result;
 }
 
@@ -102,6 +123,31 @@ void add_forall(const expr::Text& text, model::Requirement& result) {
     result.forall.push_back(parse_forall(text));
 }
 
+/// "by: sos", "where: ...", "degree: 4" or "degree: +2".
+void read_sum_of_squares(const YamlFile& file, YamlMap& map, model::Requirement& result) {
+  if (const auto by = map.find("by")) {
+    const std::string way = file.string(by->value, "by");
+    if (way != "sos")
+      throw InputError(file.place(by->value),
+                       "by: expected sos; synthesis.forall chooses among the other ways");
+    result.sos = true;
+  }
+  if (const auto where = map.find("where"))
+    for (const expr::Text& text : texts_of(file, *where)) result.where.push_back(expr::parse(text));
+  const auto degree = map.find("degree");
+  if (!degree) return;
+  const std::string text = file.string(degree->value, "degree");
+  constexpr std::size_t kDigits = 2;
+  result.adds_degree = text.starts_with('+');
+  const std::string digits = text.substr(result.adds_degree ? 1 : 0);
+  const bool is_whole = !digits.empty() && digits.size() <= kDigits &&
+                        digits.find_first_not_of("0123456789") == std::string::npos;
+  if (!is_whole)
+    throw InputError(file.place(degree->value),
+                     "degree: expected a whole number, such as 4 or +2, not '" + text + "'");
+  result.degree = std::stoi(digits);
+}
+
 model::Requirement requirement(const YamlFile& file, const YamlItem& item) {
   model::Requirement result;
   result.name = item.key;
@@ -123,6 +169,7 @@ model::Requirement requirement(const YamlFile& file, const YamlItem& item) {
   if (!blocks) result.that = file.expression(that->value, "that");
   if (const auto forall = map.find("forall"))
     for (const expr::Text& text : texts_of(file, *forall)) add_forall(text, result);
+  read_sum_of_squares(file, map, result);
   map.finish();
   if (!result.conditions.empty() && result.indices.empty())
     throw InputError(result.conditions.front().place(*result.conditions.front().root),
@@ -171,14 +218,27 @@ std::vector<expr::Expression> parse_list(const expr::Text& text) {
   return parts;
 }
 
+namespace {
+
+/// Where the n of "R^n" begins; 0 of "R"; none of other texts.
+std::optional<std::size_t> power_of_reals(const std::string& text) {
+  if (text == "R") return 0;
+  if (!text.starts_with('R')) return std::nullopt;
+  const std::size_t sign = text.find_first_not_of(' ', 1);
+  if (sign == std::string::npos || text[sign] != '^') return std::nullopt;
+  return sign + 1;
+}
+
+}  // namespace
+
 model::Forall parse_forall(const expr::Text& text) {
   using model::Over;
   const std::string& source = text.str();
   const auto fail = [&](std::size_t at) {
     throw InputError(
         text.place(at),
-        "expected 'NAME in [low, high]', 'NAME in {a, b, ...}', 'NAME in VECTOR', 'NAME "
-        "in conv{A, B, ...}', or an index 'NAME in 1..N'");
+        "expected 'NAME in [low, high]', 'NAME in R^n', 'NAME in {a, b, ...}', 'NAME in VECTOR', "
+        "'NAME in conv{A, B, ...}', or an index 'NAME in 1..N'");
   };
   const std::size_t in = source.find(" in ");
   if (in == std::string::npos) fail(0);
@@ -190,6 +250,11 @@ model::Forall parse_forall(const expr::Text& text) {
   if (hull) open = source.find_first_not_of(' ', open + kHull.size());
   if (!signature.parameters.empty()) fail(0);
   if (open == std::string::npos || close < open) fail(in);
+  if (const auto power = power_of_reals(source.substr(open, close + 1 - open))) {
+    model::Forall forall{signature.name, Over::reals, {}, text.place(0)};
+    if (*power > 0) forall.points = {expr::parse(text.part(open + *power, close + 1))};
+    return forall;
+  }
   const bool interval = !hull && source[open] == '[' && source[close] == ']';
   const bool set = source[open] == '{' && source[close] == '}';
   const bool name = std::isalpha(static_cast<unsigned char>(source[open])) != 0;

@@ -112,7 +112,8 @@ struct Design {
     std::string name;
     Over over = Over::interval;
     expr::Shape shape;
-    std::vector<Formula> points;  ///< the two ends, the elements, or the vertices
+    std::vector<Formula>
+        points;  ///< the two ends, the elements, or the vertices; none of all numbers
     Place place;
   };
 
@@ -130,6 +131,19 @@ struct Design {
     std::vector<Comparison> comparisons;
     Place place;       ///< of the name
     Place that_place;  ///< of the comparison
+    /// What is shown as a sum of squares (sos/program.h), for all values of its variables where
+    /// these differences are >= 0, or of an equation 0.
+    struct Where {
+      expr::Program difference;
+      bool equation = false;
+      Place place;
+    };
+    struct SumOfSquares {
+      std::vector<Where> where;
+      std::optional<int> degree;
+      bool adds_degree = false;
+    };
+    std::optional<SumOfSquares> sos{};
 
     /// Whether an unknown function is called in it.
     bool calls_functions() const;

@@ -31,10 +31,15 @@ std::string to_string(GainFunction::Kind kind) {
   return "?";
 }
 
+std::string subject_of(const CertificateRecord& certificate) {
+  if (certificate.is_about_problem()) return "the decimals of the file";
+  if (certificate.about == "hull") return "the hull";
+  return certificate.is_about_squares() ? "sums of squares of these degrees" : "the vertex test";
+}
+
 std::string shown_by(const CertificateRecord& certificate) {
-  const std::string of = certificate.is_about_problem() ? ""
-                         : certificate.about == "hull"  ? " of the hull"
-                                                        : " of the vertex test";
+  const std::string of = certificate.is_about_problem() ? "" : " of " + subject_of(certificate);
+  if (certificate.is_about_squares()) return "no " + subject_of(certificate) + " exist";
   if (certificate.exact) return "no solution" + of + " exists";
   return "no solution" + of + " survives a relative change of " +
          brief(certificate.backward_error, 2) + " of the coefficients";
@@ -57,7 +62,7 @@ std::string to_string(const AlgebraicRecord& algebraic) {
 
 std::string limits_of(const CertificateRecord& certificate) {
   if (certificate.is_about_problem()) return "";
-  return certificate.about == "hull" ? " for the hull only" : " for the vertex test only";
+  return " for " + subject_of(certificate) + " only";
 }
 
 std::string statement_hash(const Statement& statement) {

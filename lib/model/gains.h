@@ -75,11 +75,13 @@ struct CertificateRecord {
   /// needs: its name and the matrix.
   NamedMatrices multipliers;
   /// What it is about: the "problem", or a condition that is only sufficient for its inequalities:
-  /// their "hull", or the test at the "vertices" (docs/gain-file.md).
+  /// their "hull", the test at the "vertices", or "sums of squares" of their degrees
+  /// (docs/gain-file.md).
   std::string about = "problem";
   std::optional<AlgebraicRecord> algebraic{};
 
   bool is_about_problem() const { return about == "problem"; }
+  bool is_about_squares() const { return about == "sums of squares"; }
 };
 
 /// What it shows: "no solution exists"; of one that is not exact, "no solution survives a relative
@@ -89,8 +91,37 @@ std::string shown_by(const CertificateRecord& certificate);
 /// "multipliers at the eigenvalue 0.1 + 2i of A", "rational multipliers".
 std::string to_string(const AlgebraicRecord& algebraic);
 
+/// "the decimals of the file", "the hull", "the vertex test", "sums of squares of these degrees".
+std::string subject_of(const CertificateRecord& certificate);
+
 /// What is added to "infeasible": "", " for the hull only", " for the vertex test only".
 std::string limits_of(const CertificateRecord& certificate);
+
+/// An inequality as a sum of squares (sos/program.h), in fractions: with z the basis and Q the Gram
+/// matrix of each of the squares,
+///   v'M(x)v = sum of times(x) z'Qz + sum of times(x) c x^exponents v_row v_column.
+struct SumOfSquaresRecord {
+  /// c x^exponents v_row, rows from 0.
+  struct Summand {
+    std::string c;
+    int row = 0;
+    std::vector<int> exponents;
+  };
+  struct Square {
+    int times = 0;  ///< 0: 1; k: the k-th of the polynomials that are >= 0
+    std::vector<std::vector<Summand>> basis;
+    std::vector<std::vector<std::string>> gram;  ///< the lower triangle, row by row
+  };
+  struct Free {
+    int times = 0;  ///< k: the k-th of the polynomials that are 0
+    int column = 0;
+    Summand summand;
+  };
+  std::string name;                    ///< of the comparison
+  std::vector<std::string> variables;  ///< "x(1)"
+  std::vector<Square> squares;
+  std::vector<Free> free;
+};
 
 /// The multiplier of an inequality at a point of its domain, or of a bound on gains, at a minimum:
 /// adding t*I to its larger side there lowers the minimum by at most `trace` times t.
@@ -222,6 +253,7 @@ struct Gains {
   std::vector<Margin> margins;
   std::vector<GainBound> bounds;
   std::optional<CertificateRecord> certificate;
+  std::vector<SumOfSquaresRecord> sums_of_squares;
   Statement statement;
   /// Of the matrices that were read with other decimals than printed(): all elements, by key.
   std::map<std::string, std::vector<std::string>> decimals;

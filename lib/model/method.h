@@ -23,11 +23,13 @@ struct ScalarRange {
   Place place;
 };
 
-/// An unknown: a matrix or, with `variable`, a function of a scalar given by coefficient matrices.
+/// An unknown: a matrix or, with `variable`, a function of a scalar given by coefficient matrices, or,
+/// with `arguments`, a polynomial in their elements.
 struct UnknownDeclaration : Declaration {
-  std::string variable;                    ///< "tau" of `of: tau`; empty: a matrix
-  std::optional<expr::Expression> degree;  ///< of its polynomial; none: 0
-  std::optional<ScalarRange> in{};         ///< "in: [0, T2]": where its digits are kept
+  std::string variable;                     ///< "tau" of `of: tau`; empty: a matrix
+  std::optional<expr::Expression> degree;   ///< of its polynomial; none: 0
+  std::optional<expr::Expression> least{};  ///< degree of its terms: 2 of `degree: [2, 4]`
+  std::optional<ScalarRange> in{};          ///< "in: [0, T2]": where its digits are kept
 };
 
 /// A scalar that the engineer may tune.
@@ -54,7 +56,7 @@ struct Gain {
 struct Forall {
   std::string variable;
   Over over = Over::interval;
-  std::vector<expr::Expression> points;  ///< the two ends, the elements, or the vertices
+  std::vector<expr::Expression> points;  ///< the two ends, the elements, the vertices, or n of R^n
   Place place;
   bool of_vector = false;  ///< "forall: h in v": the elements of one vector
 };
@@ -67,6 +69,12 @@ struct Requirement {
   std::vector<Forall> forall;
   expr::Expression that;
   Place place;
+  /// Asked for as a sum of squares, which it also is with a variable over all numbers; where the
+  /// comparisons of `where` hold.
+  bool sos = false;
+  std::vector<expr::Expression> where{};
+  std::optional<int> degree{};  ///< of all its terms
+  bool adds_degree = false;     ///< to that of the inequality
 };
 
 /// What a simulation can check of the gains. Expressions may use data, parameters, gains, values of

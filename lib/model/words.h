@@ -26,6 +26,7 @@ std::string to_string(Structure structure);
 /// What a variable of `forall` runs over.
 enum class Over {
   interval,  ///< all numbers between two ends
+  reals,     ///< all numbers, or all columns of a length
   set,       ///< finitely many elements, numbers or matrices of one shape
   polytope   ///< all convex combinations of matrices of one shape
 };

@@ -46,9 +46,8 @@ std::string proof_of_no(const model::Gains& gains) {
   const model::CertificateRecord& certificate = *gains.certificate;
   std::string text;
   if (!certificate.is_about_problem())
-    text = "This no is about a condition that is only sufficient for the inequalities, the " +
-           std::string(certificate.about == "hull" ? "hull" : "test at the vertices") +
-           ": the inequalities themselves may have a solution. ";
+    text = "This no is about a condition that is only sufficient for the inequalities, " +
+           subject_of(certificate) + ": the inequalities themselves may have a solution. ";
   text += certificate.algebraic
               ? "It rests on " + to_string(*certificate.algebraic) +
                     ", checked in fractions on the decimals of the problem file."

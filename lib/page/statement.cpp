@@ -115,9 +115,15 @@ class Given {
 std::string unknown_row(const model::UnknownDeclaration& unknown, const Notation& notation) {
   std::string left = declared(unknown.name, unknown.indices, notation);
   if (!unknown.variable.empty()) left = row(left + fenced(symbol(unknown.variable)));
+  std::string arguments;
+  for (const model::Argument& argument : unknown.arguments)
+    arguments += (arguments.empty() ? "" : mo(",")) + symbol(argument.name);
+  if (!arguments.empty()) left = row(left + fenced(row(arguments)));
   std::string remark = shape_text(unknown.shape, notation);
   if (unknown.degree)
-    remark += ", a polynomial of degree " + formula(mathml(*unknown.degree, notation));
+    remark += ", a polynomial of degree " +
+              (unknown.least ? formula(mathml(*unknown.least, notation)) + " to " : std::string()) +
+              formula(mathml(*unknown.degree, notation));
   const std::string members = for_all_text(unknown.indices, notation);
   if (!members.empty()) remark += ", " + members;
   if (!unknown.help.empty()) remark += "; " + help_of(unknown.help);
@@ -125,6 +131,14 @@ std::string unknown_row(const model::UnknownDeclaration& unknown, const Notation
 }
 
 std::string domain(const model::Forall& forall, const Notation& notation) {
+  if (forall.over == model::Over::reals) {
+    const std::string reals = "<mi>ℝ</mi>";
+    const std::string space =
+        forall.points.empty()
+            ? reals
+            : "<msup>" + reals + row(mathml(forall.points.front(), notation)) + "</msup>";
+    return formula(row(symbol(forall.variable) + mo("∈") + space));
+  }
   const bool set = forall.over == model::Over::set;
   std::string points = forall.of_vector && forall.points.size() == 1
                            ? mathml(forall.points.front(), notation)
@@ -151,6 +165,11 @@ std::string holds_for(const model::Requirement& requirement, const Notation& not
   for (const expr::Expression& condition : requirement.conditions)
     add(formula(mathml(condition, notation)));
   for (const model::Forall& forall : requirement.forall) add(domain(forall, notation));
+  const char* before = " where ";
+  for (const expr::Expression& condition : requirement.where) {
+    text += before + formula(inequality_mathml(condition, notation));
+    before = ", ";
+  }
   return text;
 }
 

@@ -1,0 +1,84 @@
+#include "bind/polynomials.h"
+
+#include <cmath>
+
+#include "base/number.h"
+#include "bind/formulas.h"
+#include "polynomial/monomial.h"
+
+namespace gainsmith::bind {
+
+namespace {
+
+/// The least degree, a number that is written.
+int least_degree(const Binding& binding, const model::UnknownDeclaration& unknown, int most) {
+  if (!unknown.least) return 0;
+  const model::Formula formula = scalar(*unknown.least, binding.names->known);
+  const bool is_written = formula.program.inputs.empty();
+  const double least = is_written ? scalar_value(formula, {}) : -1;
+  if (!(least >= 0 && least <= most) || std::trunc(least) != least)
+    throw InputError(formula.place, "the least degree of " + unknown.name +
+                                        " must be written as a whole number from 0 to " +
+                                        std::to_string(most));
+  return static_cast<int>(least);
+}
+
+/// x(1), x(2), ..., or x of one element, of all arguments.
+std::vector<std::string> variables_of(const Binding& binding,
+                                      const model::UnknownDeclaration& unknown) {
+  std::vector<std::string> names;
+  for (const model::Argument& argument : unknown.arguments) {
+    const auto shape = resolve(argument.shape, binding.design->dimensions);
+    if (!shape || shape->cols != 1 || shape->rows < 1)
+      throw InputError(argument.place, "'" + argument.name + "' of " + unknown.name +
+                                           ": expected the length of a column that the data have, "
+                                           "such as n or 3, not " +
+                                           argument.shape.text);
+    for (int k = 1; k <= shape->rows; ++k)
+      names.push_back(shape->rows == 1 ? argument.name
+                                       : argument.name + "(" + std::to_string(k) + ")");
+  }
+  return names;
+}
+
+std::string coefficient_name(const std::string& name, const polynomial::Monomial& monomial,
+                             std::size_t variables) {
+  std::string result = name;
+  for (std::size_t i = 0; i < variables; ++i) result += "_" + std::to_string(monomial.exponent(i));
+  return result;
+}
+
+}  // namespace
+
+void add_polynomial(Binding& binding, const model::UnknownDeclaration& unknown,
+                    const model::Design::Unknown& like) {
+  constexpr std::size_t kMostTerms = 5000;
+  const std::vector<std::string> variables = variables_of(binding, unknown);
+  double count = 1;
+  for (std::size_t i = 1; i <= variables.size(); ++i)
+    count *= static_cast<double>(like.degree + static_cast<int>(i)) / static_cast<double>(i);
+  if (count > kMostTerms)
+    throw InputError(unknown.place, unknown.name + " has " + brief(count) +
+                                        " terms; at most 5000 are computed with");
+  expr::Scope& scope = binding.names->design;
+  std::string text;
+  const int least = least_degree(binding, unknown, like.degree);
+  for (const polynomial::Monomial& monomial :
+       polynomial::monomials(variables.size(), least, like.degree)) {
+    model::Design::Unknown coefficient = like;
+    coefficient.name = coefficient_name(unknown.name, monomial, variables.size());
+    if (scope.symbols.contains(coefficient.name) || scope.definitions.contains(coefficient.name))
+      throw InputError(unknown.place, "'" + coefficient.name + "', a coefficient of " +
+                                          unknown.name + ", already has a meaning");
+    scope.symbols[coefficient.name] = {coefficient.shape};
+    text += (text.empty() ? "" : " + ") + coefficient.name;
+    if (monomial.degree() > 0) text += "*" + to_string(monomial, variables);
+    binding.design->unknowns.push_back(std::move(coefficient));
+  }
+  std::vector<std::string> parameters;
+  for (const model::Argument& argument : unknown.arguments) parameters.push_back(argument.name);
+  scope.definitions[unknown.name] = {parameters,
+                                     expr::parse(expr::Text::generated(text, unknown.place))};
+}
+
+}  // namespace gainsmith::bind

@@ -1,0 +1,303 @@
+#include "design/sums_of_squares.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "base/number.h"
+#include "design/sos_statements.h"
+#include "numbers/definite.h"
+#include "sos/decide.h"
+#include "sos/moments.h"
+#include "verdict/rational_blocks.h"
+
+namespace gainsmith::design {
+
+namespace {
+
+using sos::Equation;
+
+/// c'u + c_0 as a sum over columns.
+Equation objective_of(const sos::Polynomial& objective) {
+  Equation result;
+  for (const auto& [term, c] : objective.terms())
+    if (term.unknown == 0)
+      result.value -= c;
+    else
+      result.terms[term.unknown - 1] = c;
+  return result;
+}
+
+sos::Program posed(const lmi::Inequalities& inequalities, const SosStatements& stated) {
+  try {
+    return sos::pose(stated.statements, inequalities.unknowns.size());
+  } catch (const std::length_error&) {
+    throw InputError(inequalities.statements.front().stated->place,
+                     "the inequalities have more than 20,000 monomials of their degree");
+  }
+}
+
+model::SumOfSquaresRecord::Summand summand_of(const sos::Element& element, const Rational& c,
+                                              std::size_t variables) {
+  std::vector<int> exponents;
+  for (std::size_t i = 0; i < variables; ++i) exponents.push_back(element.monomial.exponent(i));
+  return {exact_text(c), element.row, std::move(exponents)};
+}
+
+model::SumOfSquaresRecord::Square square_of(const sos::Gram& gram, const numbers::RationalMatrix& Q,
+                                            std::size_t variables) {
+  model::SumOfSquaresRecord::Square square{static_cast<int>(gram.multiplier), {}, {}};
+  for (const sos::BasisPolynomial& basis : gram.basis) {
+    auto& texts = square.basis.emplace_back();
+    for (const auto& [element, c] : basis) texts.push_back(summand_of(element, c, variables));
+  }
+  for (Eigen::Index r = 0; r < Q.rows(); ++r) {
+    auto& row = square.gram.emplace_back();
+    for (Eigen::Index c = 0; c <= r; ++c) row.push_back(exact_text(Q(r, c)));
+  }
+  return square;
+}
+
+/// What a gain file keeps of an identity, one for each statement.
+std::vector<model::SumOfSquaresRecord> records(const sos::Program& program,
+                                               const sos::Identity& identity,
+                                               const SosStatements& stated) {
+  std::vector<model::SumOfSquaresRecord> result;
+  for (std::size_t s = 0; s < program.statements.size(); ++s)
+    result.push_back({program.statements[s].name, stated.variables[s], {}, {}});
+  for (std::size_t g = 0; g < program.grams.size(); ++g) {
+    const sos::Gram& gram = program.grams[g];
+    if (gram.size() == 0) continue;
+    model::SumOfSquaresRecord& record = result[gram.statement];
+    record.squares.push_back(square_of(gram, identity.grams[g], record.variables.size()));
+  }
+  for (std::size_t k = 0; k < program.free.size(); ++k) {
+    const sos::FreeTerm& free = program.free[k];
+    const Rational& c = identity.free[static_cast<std::size_t>(program.unknowns) + k];
+    if (c == 0) continue;
+    model::SumOfSquaresRecord& record = result[free.statement];
+    record.free.push_back({static_cast<int>(free.equation) + 1, free.column,
+                           summand_of({free.row, free.monomial}, c, record.variables.size())});
+  }
+  return result;
+}
+
+class Solving {
+ public:
+  Solving(const lmi::Inequalities& inequalities, const sdp::Options& options, SosStatements stated,
+          model::Gains& gains)
+      : inequalities_(inequalities),
+        options_(options),
+        gains_(gains),
+        stated_(std::move(stated)),
+        program_(posed(inequalities, stated_)) {}
+
+  void run() {
+    gains_.verdict = model::Verdict::undecided;
+    gains_.solver.status = "undecided";
+    gains_.solver.cause = model::kNothingToSolve;
+    gains_.solver.precision = "double";
+    const sos::Decision decision = decided(std::nullopt);
+    if (decision.u) {
+      accept(decision);
+      if (stated_.objective) minimise(decision);
+    } else if (decision.excluded) {
+      exclude(decision);
+    } else {
+      note_open();
+    }
+  }
+
+ private:
+  sos::Decision decided(const std::optional<Equation>& level) {
+    sos::Decision decision = sos::decide(program_, options_, level);
+    if (!level) sos::reduce(program_);
+    note(decision.solution, decision.iterations);
+    return decision;
+  }
+
+  void note(const sdp::Solution& solution, int iterations) {
+    if (iterations == 0) return;
+    gains_.solver.iterations += iterations;
+    gains_.solver.cause = to_string(solution.cause);
+    gains_.solver.relative_gap = solution.relative_gap;
+    gains_.solver.primal_infeasibility = solution.dimacs[2];
+    gains_.solver.dual_infeasibility = solution.dimacs[0];
+    gains_.solver.precision = solution.precision;
+  }
+
+  /// First the least value, then a point inside a little above it.
+  void minimise(const sos::Decision& inside) {
+    const Equation cost = objective_of(*stated_.objective);
+    const sos::Eliminated eliminated = eliminate(program_, equations_of(program_));
+    const auto sum = eliminated.without_free(cost);
+    std::optional<sos::Semidefinite> posed;
+    sdp::Solution least;
+    if (sum) posed = semidefinite_program(program_, eliminated, sum);
+    if (posed && !posed->problem.c.empty()) {
+      least = sdp::solve(posed->problem, options_);
+      note(least, least.iterations);
+    }
+    const bool is_bounded = !least.x.empty() && least.status != sdp::Status::primal_infeasible &&
+                            least.status != sdp::Status::dual_infeasible;
+    gains_.solver.status =
+        is_bounded && least.status == sdp::Status::optimal ? "optimal" : "feasible";
+    if (!is_bounded) {
+      gains_.solver.unbounded = true;
+      gains_.solver.add_message(
+          "the objective is that of a point inside: the solver finds it unbounded below");
+      return;
+    }
+    const double optimum = -least.dual_objective - nearest_double(sum->value);
+    for (const double paid : {1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4}) {
+      Equation level = cost;
+      level.value += Rational(optimum + paid * std::max(std::abs(optimum), 1.0));
+      const sos::Decision near = decided(level);
+      if (!near.u) continue;
+      accept(near);
+      break;
+    }
+    if (const auto bound = lower_bound(program_, eliminated, *posed, *sum, least.x, inside.inside))
+      gains_.objective_lower_bound = std::min(*gains_.objective, nearest_double(*bound));
+  }
+
+  void accept(const sos::Decision& decision) {
+    const std::vector<Rational>& u = *decision.u;
+    gains_.verdict = model::Verdict::yes;
+    if (!stated_.objective) gains_.solver.status = "optimal";
+    std::vector<double> x;
+    for (const Rational& value : u) x.push_back(nearest_double(value));
+    const numbers::Values values = inequalities_.unknowns.values(x);
+    gains_.unknowns.clear();
+    for (const lmi::Unknown& unknown : inequalities_.unknowns.list()) {
+      gains_.unknowns.emplace_back(unknown.name, values.at(unknown.name));
+      keep_decimals(unknown, u);
+    }
+    gains_.sums_of_squares = records(decision.program, decision.identity, stated_);
+    if (stated_.objective) {
+      Rational value = 0;
+      for (const auto& [term, c] : stated_.objective->terms())
+        value +=
+            term.unknown == 0 ? c : Rational(c * u[static_cast<std::size_t>(term.unknown) - 1]);
+      gains_.objective = nearest_double(value);
+    }
+    add_margins(decision);
+  }
+
+  /// Of unknowns whose decimals no double prints.
+  void keep_decimals(const lmi::Unknown& unknown, const std::vector<Rational>& u) {
+    std::vector<std::string> texts(static_cast<std::size_t>(unknown.shape.size()), "0.0");
+    bool is_printed = true;
+    for (int k = 0; k < unknown.count; ++k) {
+      const Rational& value = u[static_cast<std::size_t>(unknown.first + k) - 1];
+      const double nearest = nearest_double(value);
+      const bool is_same = verdict::printed_fraction(nearest) == value;
+      is_printed = is_printed && is_same;
+      for (const auto& [row, column] : unknown.places(k))
+        texts[static_cast<std::size_t>(row * unknown.shape.cols + column)] =
+            is_same ? model::printed(nearest) : exact_text(value);
+    }
+    if (!is_printed) gains_.decimals["unknowns." + unknown.name] = std::move(texts);
+  }
+
+  void add_margins(const sos::Decision& decision) {
+    gains_.margins.clear();
+    for (std::size_t g = 0; g < decision.program.grams.size(); ++g) {
+      const sos::Gram& gram = decision.program.grams[g];
+      if (gram.multiplier != 0) continue;
+      const numbers::Matrix Q =
+          decision.identity.grams[g].unaryExpr([](const Rational& x) { return nearest_double(x); });
+      const sos::Statement& statement = program_.statements[gram.statement];
+      model::Margin margin;
+      margin.name = statement.name;
+      margin.strict = statement.strict;
+      margin.reached = Q.size() == 0 ? 0 : numbers::margin(Q);
+      margin.smallest_eigenvalue = Q.size() == 0 ? 0 : numbers::smallest_eigenvalue(Q);
+      margin.holds = true;
+      gains_.margins.push_back(margin);
+    }
+  }
+
+  std::string place_of(const sos::Key& key) const {
+    const sos::Statement& statement = stated_.statements[key.statement];
+    const std::string monomial = to_string(key.monomial, stated_.variables[key.statement]);
+    std::string text = "'" + statement.name + "': the coefficient of " + monomial;
+    if (statement.matrix.rows() > 1)
+      text += " of the element (" + std::to_string(key.row + 1) + ", " +
+              std::to_string(key.column + 1) + ")";
+    return text;
+  }
+
+  void exclude(const sos::Decision& decision) {
+    gains_.verdict = model::Verdict::no;
+    gains_.solver.status = "infeasible";
+    gains_.certificate = model::CertificateRecord{true, 0, 0, {}, "sums of squares"};
+    gains_.solver.add_message(
+        decision.contradiction
+            ? "no sums of squares of these degrees: " + place_of(decision.contradiction->key) +
+                  " " + decision.contradiction->why
+            : std::string("no sums of squares of these degrees, by moments in fractions; a higher "
+                          "'degree' may have some"));
+  }
+
+  void note_open() {
+    gains_.solver.add_message(
+        gains_.solver.cause == "certificate"
+            ? "the solver finds no sums of squares of these degrees, and no fractions that show it"
+            : "no fractions were found near the solution of the solver");
+  }
+
+  const lmi::Inequalities& inequalities_;
+  const sdp::Options& options_;
+  model::Gains& gains_;
+  const SosStatements stated_;
+  sos::Program program_;
+};
+
+}  // namespace
+
+void solve_sums_of_squares(const lmi::Inequalities& inequalities, const sdp::Options& options,
+                           model::Gains& gains) {
+  Solving(inequalities, options, sos_statements(inequalities), gains).run();
+}
+
+void check_sums_of_squares(const lmi::Inequalities& inequalities, const std::vector<double>& x,
+                           const sdp::Options& options, model::Gains& gains) {
+  SosStatements stated = sos_statements(inequalities);
+  stated.objective.reset();
+  std::vector<Rational> u;
+  for (const double value : x) u.push_back(verdict::printed_fraction(value));
+  for (sos::Statement& statement : stated.statements)
+    for (sos::Polynomial& p : statement.matrix.reshaped()) p = with_unknowns(p, u);
+  Solving(inequalities, options, std::move(stated), gains).run();
+}
+
+SemidefiniteProgram program_of_sums_of_squares(const lmi::Inequalities& inequalities) {
+  const SosStatements stated = sos_statements(inequalities);
+  sos::Program program = posed(inequalities, stated);
+  const auto refuse = [&](const sos::Contradiction& contradiction) {
+    throw InputError(inequalities.statements.front().stated->place,
+                     "no semidefinite program: the coefficient of a monomial " + contradiction.why);
+  };
+  if (const auto contradiction = sos::reduce(program)) refuse(*contradiction);
+  const sos::Eliminated eliminated = eliminate(program, equations_of(program));
+  if (eliminated.contradiction) refuse(*eliminated.contradiction);
+  std::optional<Equation> least;
+  if (stated.objective) least = eliminated.without_free(objective_of(*stated.objective));
+  SemidefiniteProgram result{semidefinite_program(program, eliminated, least).problem, {}};
+  result.remarks = {
+      "Written by gainsmith. The dual matrix Y has the Gram matrices of sums of squares "
+      "as its blocks; each equation F_i . Y = c_i is that of a monomial.",
+      "Unknowns without sign have been eliminated."};
+  result.remarks.push_back(
+      least
+          ? "The objective of the problem = -(F_0 . Y) + " +
+                brief(-nearest_double(least->value), 17) + "."
+          : std::string("The last two blocks are s - t and t + 10, where Y >= t I and the solution "
+                        "is Y/s: the largest t is wanted."));
+  return result;
+}
+
+}  // namespace gainsmith::design
