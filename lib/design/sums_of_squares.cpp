@@ -99,21 +99,23 @@ class Solving {
     gains_.solver.status = "undecided";
     gains_.solver.cause = model::kNothingToSolve;
     gains_.solver.precision = "double";
-    const sos::Decision decision = decided(std::nullopt);
-    if (decision.u) {
-      accept(decision);
-      if (stated_.objective) minimise(decision);
-    } else if (decision.excluded) {
-      exclude(decision);
-    } else {
-      note_open();
-    }
+    if (const auto contradiction = sos::reduce(program_)) return exclude(contradiction);
+    if (stated_.objective && minimise(program_)) return;
+    const sos::Decision decision = decided(program_, std::nullopt);
+    if (decision.excluded) return exclude(decision.contradiction);
+    if (!decision.u) return note_open();
+    accept(decision);
+    if (!stated_.objective) return;
+    if (gains_.solver.unbounded)
+      gains_.solver.add_message(
+          "the objective is that of a point inside: the solver finds it unbounded below");
+    else if (decision.on_face)
+      minimise(decision.program);
   }
 
  private:
-  sos::Decision decided(const std::optional<Equation>& level) {
-    sos::Decision decision = sos::decide(program_, options_, level);
-    if (!level) sos::reduce(program_);
+  sos::Decision decided(const sos::Program& program, const std::optional<Equation>& level) {
+    sos::Decision decision = sos::decide(program, options_, level);
     note(decision.solution, decision.iterations);
     return decision;
   }
@@ -128,39 +130,41 @@ class Solving {
     gains_.solver.precision = solution.precision;
   }
 
-  /// First the least value, then a point inside a little above it.
-  void minimise(const sos::Decision& inside) {
+  /// The least value, and then a point inside a little above it; whether there is one.
+  bool minimise(const sos::Program& program) {
+    gains_.solver.status = "feasible";
     const Equation cost = objective_of(*stated_.objective);
-    const sos::Eliminated eliminated = eliminate(program_, equations_of(program_));
+    const sos::Eliminated eliminated = eliminate(program, equations_of(program));
+    if (eliminated.contradiction) return false;
     const auto sum = eliminated.without_free(cost);
-    std::optional<sos::Semidefinite> posed;
-    sdp::Solution least;
-    if (sum) posed = semidefinite_program(program_, eliminated, sum);
-    if (posed && !posed->problem.c.empty()) {
-      least = sdp::solve(posed->problem, options_);
-      note(least, least.iterations);
-    }
-    const bool is_bounded = !least.x.empty() && least.status != sdp::Status::primal_infeasible &&
-                            least.status != sdp::Status::dual_infeasible;
-    gains_.solver.status =
-        is_bounded && least.status == sdp::Status::optimal ? "optimal" : "feasible";
-    if (!is_bounded) {
-      gains_.solver.unbounded = true;
-      gains_.solver.add_message(
-          "the objective is that of a point inside: the solver finds it unbounded below");
-      return;
-    }
+    gains_.solver.unbounded = !sum || eliminated.equations.empty();
+    if (gains_.solver.unbounded) return false;
+    const sos::Semidefinite posed = semidefinite_program(program, eliminated, sum);
+    const sdp::Solution least = sdp::solve(posed.problem, options_);
+    note(least, least.iterations);
+    gains_.solver.unbounded = least.status == sdp::Status::primal_infeasible;
+    if (least.x.empty() || least.status != sdp::Status::optimal) return false;
     const double optimum = -least.dual_objective - nearest_double(sum->value);
     for (const double paid : {1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4}) {
       Equation level = cost;
       level.value += Rational(optimum + paid * std::max(std::abs(optimum), 1.0));
-      const sos::Decision near = decided(level);
+      const sos::Decision near = decided(program, level);
       if (!near.u) continue;
       accept(near);
-      break;
+      gains_.solver.status = "optimal";
+      if (&program == &program_) add_lower_bound(eliminated, posed, *sum, least);
+      return true;
     }
-    if (const auto bound = lower_bound(program_, eliminated, *posed, *sum, least.x, inside.inside))
-      gains_.objective_lower_bound = std::min(*gains_.objective, nearest_double(*bound));
+    return false;
+  }
+
+  void add_lower_bound(const sos::Eliminated& eliminated, const sos::Semidefinite& posed,
+                       const Equation& sum, const sdp::Solution& least) {
+    auto bound = lower_bound(program_, eliminated, posed, sum, least.x, {});
+    if (!bound)
+      bound = lower_bound(program_, eliminated, posed, sum, least.x,
+                          decided(program_, std::nullopt).inside);
+    if (bound) gains_.objective_lower_bound = std::min(*gains_.objective, nearest_double(*bound));
   }
 
   void accept(const sos::Decision& decision) {
@@ -230,14 +234,14 @@ class Solving {
     return text;
   }
 
-  void exclude(const sos::Decision& decision) {
+  void exclude(const std::optional<sos::Contradiction>& contradiction) {
     gains_.verdict = model::Verdict::no;
     gains_.solver.status = "infeasible";
     gains_.certificate = model::CertificateRecord{true, 0, 0, {}, "sums of squares"};
     gains_.solver.add_message(
-        decision.contradiction
-            ? "no sums of squares of these degrees: " + place_of(decision.contradiction->key) +
-                  " " + decision.contradiction->why
+        contradiction
+            ? "no sums of squares of these degrees: " + place_of(contradiction->key) + " " +
+                  contradiction->why
             : std::string("no sums of squares of these degrees, by moments in fractions; a higher "
                           "'degree' may have some"));
   }

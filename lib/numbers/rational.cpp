@@ -1,7 +1,6 @@
 #include "numbers/rational.h"
 
 #include <algorithm>
-#include <array>
 
 #include "base/stop.h"
 #include "expr/evaluate.h"
@@ -13,31 +12,6 @@ namespace gainsmith::numbers {
 namespace {
 
 using expr::Op;
-
-/// Operations whose results are no fractions, but for a few operands.
-constexpr bool is_irrational(Op op) {
-  constexpr std::array kOperations = {Op::real_power,
-                                      Op::log,
-                                      Op::sqrt,
-                                      Op::atan2,
-                                      Op::norm,
-                                      Op::pseudo_inverse,
-                                      Op::singular_values,
-                                      Op::range_basis,
-                                      Op::kernel_basis,
-                                      Op::complement_basis,
-                                      Op::jacobian,
-                                      Op::project_polytope,
-                                      Op::project_ellipsoid,
-                                      Op::project_affine,
-                                      Op::project_convex,
-                                      Op::flow_map,
-                                      Op::extremum,
-                                      Op::eigenvalues,
-                                      Op::continuous_riccati,
-                                      Op::discrete_riccati};
-  return std::find(kOperations.begin(), kOperations.end(), op) != kOperations.end();
-}
 
 [[noreturn]] void not_rational(Op op) {
   throw expr::EvaluationError("the " + expr::to_string(op) + " has no exact fraction");

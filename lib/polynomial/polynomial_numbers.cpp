@@ -52,41 +52,17 @@ int unknown_of(const PolynomialMatrix& x) {
 
 /// Operations that a polynomial has no value of.
 constexpr bool leaves_polynomials(Op op) {
-  constexpr std::array kOperations = {Op::abs,
-                                      Op::minimum,
-                                      Op::maximum,
-                                      Op::where,
-                                      Op::determinant,
-                                      Op::inverse,
-                                      Op::real_power,
-                                      Op::log,
-                                      Op::sqrt,
-                                      Op::atan2,
-                                      Op::norm,
-                                      Op::pseudo_inverse,
-                                      Op::singular_values,
-                                      Op::range_basis,
-                                      Op::kernel_basis,
-                                      Op::complement_basis,
-                                      Op::project_polytope,
-                                      Op::project_ellipsoid,
-                                      Op::project_affine,
-                                      Op::project_convex,
-                                      Op::flow_map,
-                                      Op::extremum,
-                                      Op::eigenvalues,
-                                      Op::continuous_riccati,
-                                      Op::discrete_riccati,
-                                      Op::sign,
-                                      Op::floor,
-                                      Op::mod,
-                                      Op::sin,
-                                      Op::tanh,
-                                      Op::exp,
-                                      Op::cos,
-                                      Op::matrix_exponential,
+  constexpr std::array kOperations = {Op::abs,     Op::minimum,
+                                      Op::maximum, Op::where,
+                                      Op::sign,    Op::determinant,
+                                      Op::inverse, Op::floor,
+                                      Op::mod,     Op::sin,
+                                      Op::tanh,    Op::exp,
+                                      Op::cos,     Op::matrix_exponential,
                                       Op::constant};
-  return std::find(kOperations.begin(), kOperations.end(), op) != kOperations.end();
+  return op != Op::jacobian &&
+         (numbers::is_irrational(op) ||
+          std::find(kOperations.begin(), kOperations.end(), op) != kOperations.end());
 }
 
 struct Rules : numbers::RingRules<Polynomial> {

@@ -15,6 +15,9 @@ std::optional<std::vector<Rational>> decimals_of(const Program& program, const P
   return decimals_near(u, conditions_on_unknowns(program));
 }
 
+/// Of a solution that lies a little above a minimum.
+constexpr double kTight = 1e-12;
+
 class Deciding {
  public:
   Deciding(Program program, const sdp::Options& options, const std::optional<Equation>& level)
@@ -23,9 +26,11 @@ class Deciding {
   }
 
   Decision take() {
-    if (!level_) result_.contradiction = reduce(result_.program);
-    if (result_.contradiction) {
-      result_.excluded = true;
+    if (level_) {
+      sdp::Options narrow = options_;
+      narrow.precision = "double";
+      narrow.tolerance = kTight;
+      if (const auto point = solve(true, narrow)) is_shown(*point);
       return std::move(result_);
     }
     constexpr int kMostFaces = 5;
@@ -36,6 +41,7 @@ class Deciding {
       if (!next) next = restricted_in_more_digits();
       if (!next) break;
       result_.program = std::move(*next);
+      result_.on_face = true;
     }
     return std::move(result_);
   }

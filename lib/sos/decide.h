@@ -17,6 +17,7 @@ struct Decision {
   /// Of a no: an equation, or else moments.
   std::optional<Contradiction> contradiction;
   bool excluded = false;
+  bool on_face = false;  ///< the bases are those of a face
 
   std::vector<double>
       inside;              ///< multipliers of the equations of the whole program, without u and t
@@ -24,9 +25,9 @@ struct Decision {
   int iterations = 0;      ///< of the solver, in all
 };
 
-/// `level`: an equation that a solution should nearly satisfy. The solver is asked for a point far
-/// from singular; where all are singular, on their face again, in more digits where its fractions
-/// are long.
+/// Of a program after reduce(). The solver is asked for a point far from singular; where all are
+/// singular, on their face again, in more digits where its fractions are long. `level`: an equation
+/// that a solution should nearly satisfy, which leaves points inside.
 Decision decide(Program program, const sdp::Options& options,
                 const std::optional<Equation>& level = std::nullopt);
 

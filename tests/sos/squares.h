@@ -28,7 +28,9 @@ inline bool holds(const sos::Program& program, const sos::Identity& identity) {
 }
 
 inline Answer ask(const sos::Statement& statement) {
-  const sos::Decision decision = sos::decide(sos::pose({statement}, 0), {});
+  sos::Program program = sos::pose({statement}, 0);
+  if (sos::reduce(program)) return Answer::no;
+  const sos::Decision decision = sos::decide(program, {});
   if (decision.excluded) return Answer::no;
   if (!decision.u) return Answer::open;
   return holds(decision.program, decision.identity) ? Answer::yes : Answer::open;
