@@ -9,6 +9,7 @@
 #include "base/number.h"
 #include "design/sos_statements.h"
 #include "numbers/definite.h"
+#include "sos/counterexample.h"
 #include "sos/decide.h"
 #include "sos/moments.h"
 #include "verdict/rational_blocks.h"
@@ -238,12 +239,36 @@ class Solving {
     gains_.verdict = model::Verdict::no;
     gains_.solver.status = "infeasible";
     gains_.certificate = model::CertificateRecord{true, 0, 0, {}, "sums of squares"};
-    gains_.solver.add_message(
-        contradiction
-            ? "no sums of squares of these degrees: " + place_of(contradiction->key) + " " +
-                  contradiction->why
-            : std::string("no sums of squares of these degrees, by moments in fractions; a higher "
-                          "'degree' may have some"));
+    const std::string none = "no sums of squares of these degrees";
+    if (const auto text = counterexample(); !text.empty())
+      gains_.solver.add_message(none + ": " + text);
+    else if (contradiction)
+      gains_.solver.add_message(none + ": " + place_of(contradiction->key) + " " +
+                                contradiction->why);
+    else
+      gains_.solver.add_message(none +
+                                ", by moments in fractions; a higher 'degree' may have some");
+  }
+
+  /// Where an inequality is false itself; empty where no such point is found.
+  std::string counterexample() const {
+    for (std::size_t s = 0; s < stated_.statements.size(); ++s) {
+      const auto found = find_counterexample(stated_.statements[s]);
+      if (!found) continue;
+      std::string point;
+      for (std::size_t i = 0; i < found->x.size(); ++i)
+        point += (i == 0 ? "" : ", ") + stated_.variables[s][i] + " = " + exact_text(found->x[i]);
+      std::string form = "its sides differ by ";
+      if (found->v.size() > 1) {
+        std::string v;
+        for (const Rational& value : found->v) v += (v.empty() ? "" : "; ") + exact_text(value);
+        form = "the difference M of its sides has v'*M*v = ";
+        point += ", v = [" + v + "]";
+      }
+      return "'" + stated_.statements[s].name + "' is false at " + point + ": " + form +
+             brief(nearest_double(found->value));
+    }
+    return "";
   }
 
   void note_open() {

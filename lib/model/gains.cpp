@@ -62,6 +62,7 @@ std::string to_string(const AlgebraicRecord& algebraic) {
 
 std::string limits_of(const CertificateRecord& certificate) {
   if (certificate.is_about_problem()) return "";
+  if (certificate.is_about_squares()) return " as " + subject_of(certificate);
   return " for " + subject_of(certificate) + " only";
 }
 

@@ -167,7 +167,14 @@ void PolynomialNumbers::apply(const expr::Instruction& instruction, expr::Operan
   std::vector<const numbers::RationalMatrix*> pointers;
   for (const numbers::RationalMatrix& value : values) pointers.push_back(&value);
   numbers::RationalMatrix result;
-  numbers::RationalNumbers{}.apply(instruction, pointers, result);
+  try {
+    numbers::RationalNumbers{}.apply(instruction, pointers, result);
+  } catch (const expr::EvaluationError& error) {
+    if (!error.message().ends_with("no exact fraction")) throw;
+    throw expr::EvaluationError(error.message() +
+                                ", and sums of squares take no other numbers: give its decimals as "
+                                "a datum");
+  }
   out = polynomial_matrix(result);
 }
 

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "sos/counterexample.h"
 #include "sos/squares.h"
 
 namespace gainsmith::sos {
@@ -93,6 +94,21 @@ TEST(SumsOfSquares, WithoutVariablesAreDefiniteMatrices) {
 
 TEST(SumsOfSquares, TooManyMonomialsAreRefused) {
   EXPECT_THROW((void)pose({scalar(power(variable(11), 12))}, 0), std::length_error);
+}
+
+TEST(Counterexamples, AreFoundInFractions) {
+  const auto found = find_counterexample(scalar(power(x, 4) - Polynomial(3) * x * y + power(y, 4)));
+  ASSERT_TRUE(found);
+  EXPECT_LT(found->value, 0);
+  EXPECT_FALSE(find_counterexample(scalar(motzkin)));
+  Statement inside = scalar(Polynomial(Rational(1, 2)) - x);
+  inside.nonnegative = {Polynomial(1) - x * x - y * y};
+  const auto near_edge = find_counterexample(inside);
+  ASSERT_TRUE(near_edge);
+  EXPECT_GT(near_edge->x[0], Rational(1, 2));
+  PolynomialMatrix M(2, 2);
+  M << Polynomial(1) + x * x, x, x, Polynomial(Rational(1, 2));
+  EXPECT_TRUE(find_counterexample({"M", M, false}));
 }
 
 TEST(Conditions, AreMetByDecimals) {
