@@ -85,6 +85,19 @@ std::vector<model::SumOfSquaresRecord> records(const sos::Program& program,
   return result;
 }
 
+std::vector<std::vector<model::MomentRecord>> moment_records(
+    const std::map<sos::Key, Rational>& moments, const SosStatements& stated) {
+  if (moments.empty()) return {};
+  std::vector<std::vector<model::MomentRecord>> result(stated.statements.size());
+  for (const auto& [key, value] : moments) {
+    std::vector<int> exponents;
+    for (std::size_t i = 0; i < stated.variables[key.statement].size(); ++i)
+      exponents.push_back(key.monomial.exponent(i));
+    result[key.statement].push_back({key.row, key.column, std::move(exponents), exact_text(value)});
+  }
+  return result;
+}
+
 class Solving {
  public:
   Solving(const lmi::Inequalities& inequalities, const sdp::Options& options, SosStatements stated,
@@ -100,10 +113,10 @@ class Solving {
     gains_.solver.status = "undecided";
     gains_.solver.cause = model::kNothingToSolve;
     gains_.solver.precision = "double";
-    if (const auto contradiction = sos::reduce(program_)) return exclude(contradiction);
+    if (const auto contradiction = sos::reduce(program_)) return exclude(contradiction, {});
     if (stated_.objective && minimise(program_)) return;
     const sos::Decision decision = decided(program_, std::nullopt);
-    if (decision.excluded) return exclude(decision.contradiction);
+    if (decision.excluded) return exclude(decision.contradiction, decision.moments);
     if (!decision.u) return note_open();
     accept(decision);
     if (!stated_.objective) return;
@@ -235,10 +248,12 @@ class Solving {
     return text;
   }
 
-  void exclude(const std::optional<sos::Contradiction>& contradiction) {
+  void exclude(const std::optional<sos::Contradiction>& contradiction,
+               const std::map<sos::Key, Rational>& moments) {
     gains_.verdict = model::Verdict::no;
     gains_.solver.status = "infeasible";
     gains_.certificate = model::CertificateRecord{true, 0, 0, {}, "sums of squares"};
+    gains_.certificate->moments = moment_records(moments, stated_);
     const std::string none = "no sums of squares of these degrees";
     if (const auto text = counterexample(); !text.empty())
       gains_.solver.add_message(none + ": " + text);

@@ -63,7 +63,8 @@ constexpr std::array kKeysOfCertificate = {
     Key{"backward_error", "number", "", kRequired},
     Key{"digits", "whole", "", kRequired},
     Key{"multipliers", "{rows}", "", kRequired},
-    Key{"algebraic", "algebraic", "exact multipliers, at an eigenvalue or rational ones"}};
+    Key{"algebraic", "algebraic", "exact multipliers, at an eigenvalue or rational ones"},
+    Key{"moments", "[[moment]]", "of each inequality, where it is about sums of squares"}};
 
 constexpr std::array kKeysOfAlgebraic = {
     Key{"of", "text", "the matrix whose eigenvalue l is"},
@@ -96,6 +97,11 @@ constexpr std::array kKeysOfFreeTerm = {
     Key{"c", "text", "a fraction", kRequired}, Key{"row", "whole", "from 0", kRequired},
     Key{"column", "whole", "from 0", kRequired},
     Key{"exponents", "[whole]", "of the variables", kRequired}};
+
+constexpr std::array kKeysOfMoment = {Key{"row", "whole", "from 0", kRequired},
+                                      Key{"column", "whole", "from 0", kRequired},
+                                      Key{"exponents", "[whole]", "of the variables", kRequired},
+                                      Key{"value", "text", "a fraction", kRequired}};
 
 constexpr std::array kKeysOfRefinement = {
     Key{"before", "number", "", kRequired}, Key{"after", "number | nothing", "", kRequired},
@@ -155,6 +161,7 @@ const Level kSquareLevel = {"square", "Squares with one multiplier", kKeysOfSqua
 const Level kSummandLevel = {"summand", "A term of a polynomial", kKeysOfSummand};
 const Level kFreeTermLevel = {"free term", "A term of the multiplier of an equation",
                               kKeysOfFreeTerm};
+const Level kMomentLevel = {"moment", "A number for a coefficient", kKeysOfMoment};
 const Level kRefinementLevel = {"refinement", "Scalars and unknowns moved together",
                                 kKeysOfRefinement};
 const Level kSearchLevel = {"search", "How a search ended", kKeysOfSearch};
@@ -171,7 +178,7 @@ std::span<const Level* const> gain_file_levels() {
                                          &kSearchLevel,   &kSolverLevel,       &kStatementLevel,
                                          &kProofLevel,    &kFileLevel,         &kAlgebraicLevel,
                                          &kTermLevel,     &kSumOfSquaresLevel, &kSquareLevel,
-                                         &kSummandLevel,  &kFreeTermLevel};
+                                         &kSummandLevel,  &kFreeTermLevel,     &kMomentLevel};
   return kLevels;
 }
 

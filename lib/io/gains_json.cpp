@@ -112,6 +112,7 @@ Json certificate_json(const model::Gains& gains, const std::string& key,
       {"digits", certificate.digits},
       {"multipliers", matrices_json(gains, key + ".multipliers", certificate.multipliers)}};
   if (certificate.algebraic) result["algebraic"] = algebraic_json(*certificate.algebraic);
+  if (!certificate.moments.empty()) result["moments"] = moments_json(certificate.moments);
   return result;
 }
 
@@ -259,6 +260,7 @@ model::CertificateRecord certificate_of(const JsonReader& reader, model::Gains& 
                                   matrices_of(reader.at("multipliers"), gains),
                                   reader.has("about") ? reader.at("about").text() : "problem"};
   if (reader.has("algebraic")) result.algebraic = algebraic_of(reader.at("algebraic"));
+  if (reader.has("moments")) result.moments = moments_of(reader.at("moments"));
   return result;
 }
 

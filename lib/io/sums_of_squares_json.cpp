@@ -71,4 +71,29 @@ Record sum_of_squares_of(const JsonReader& reader) {
   return record;
 }
 
+Json moments_json(const std::vector<std::vector<model::MomentRecord>>& moments) {
+  Json result = Json::array();
+  for (const auto& list : moments) {
+    Json items = Json::array();
+    for (const model::MomentRecord& one : list)
+      items.push_back({{"row", one.row},
+                       {"column", one.column},
+                       {"exponents", one.exponents},
+                       {"value", one.value}});
+    result.push_back(std::move(items));
+  }
+  return result;
+}
+
+std::vector<std::vector<model::MomentRecord>> moments_of(const JsonReader& reader) {
+  std::vector<std::vector<model::MomentRecord>> result;
+  for (const JsonReader& list : reader.items()) {
+    auto& moments = result.emplace_back();
+    for (const JsonReader& item : list.items())
+      moments.push_back({item.at("row").whole(), item.at("column").whole(),
+                         exponents_of(item.at("exponents")), item.at("value").text()});
+  }
+  return result;
+}
+
 }  // namespace gainsmith::io

@@ -64,6 +64,14 @@ struct AlgebraicRecord {
   int steps() const;
 };
 
+/// A number for the coefficient of x^exponents v_row v_column of an inequality (sos/moments.h).
+struct MomentRecord {
+  int row = 0;
+  int column = 0;
+  std::vector<int> exponents;
+  std::string value;  ///< a fraction
+};
+
 /// The certificate of a no, as it was checked on the decimals of the file (verdict/refutation.h),
 /// or of what is only sufficient for the inequalities.
 struct CertificateRecord {
@@ -79,6 +87,8 @@ struct CertificateRecord {
   /// (docs/gain-file.md).
   std::string about = "problem";
   std::optional<AlgebraicRecord> algebraic{};
+  /// Of sums of squares: one list for each inequality, and each element of the sets of its variables.
+  std::vector<std::vector<MomentRecord>> moments{};
 
   bool is_about_problem() const { return about == "problem"; }
   bool is_about_squares() const { return about == "sums of squares"; }

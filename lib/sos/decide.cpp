@@ -69,8 +69,11 @@ class Deciding {
     if (is_whole && !level_) {
       result_.inside = x;
       const bool may_exclude = is_out || margin_of(result_.solution) < 0;
-      result_.excluded =
-          may_exclude && excluding_moments(result_.program, eliminated, posed, x).has_value();
+      if (const auto y = may_exclude ? excluding_moments(result_.program, eliminated, posed, x)
+                                     : std::nullopt) {
+        result_.excluded = true;
+        result_.moments = of_monomials(equations_of(result_.program), eliminated, posed, *y);
+      }
     }
     if (is_out || result_.excluded) return std::nullopt;
     return point_of(result_.program, eliminated, posed, result_.solution);

@@ -1,6 +1,7 @@
 // Whether a program has a solution: an identity in fractions, or what excludes all.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -14,8 +15,9 @@ struct Decision {
   Program program;                         ///< with the bases of the identity
   std::optional<std::vector<Rational>> u;  ///< of a yes, in decimals
   Identity identity;
-  /// Of a no: an equation, or else moments.
+  /// Of a no: an equation, or else moments of its equations.
   std::optional<Contradiction> contradiction;
+  std::map<Key, Rational> moments;
   bool excluded = false;
   bool on_face = false;  ///< the bases are those of a face
 

@@ -64,6 +64,17 @@ Rational value_of(const Eliminated& eliminated, const Semidefinite& posed, const
 
 }  // namespace
 
+std::map<Key, Rational> of_monomials(const std::vector<Equation>& equations,
+                                     const Eliminated& eliminated, const Semidefinite& posed,
+                                     const Moments& y) {
+  std::map<Key, Rational> result;
+  for (std::size_t i = 0; i < y.size(); ++i)
+    for (const auto& [at, c] : eliminated.equations[posed.equations[i]].from)
+      result[equations[at].key] += y[i] * c;
+  std::erase_if(result, [](const auto& one) { return one.second == 0; });
+  return result;
+}
+
 std::optional<Moments> excluding_moments(const Program& program, const Eliminated& eliminated,
                                          const Semidefinite& posed, const std::vector<double>& x) {
   for (const int digits : {3, 6, 12, 18}) {

@@ -15,6 +15,11 @@ namespace gainsmith::sos {
 /// A multiplier for each equation of a semidefinite program, in its order.
 using Moments = std::vector<Rational>;
 
+/// The same of the equations of the program, before unknowns were eliminated, without zeros.
+std::map<Key, Rational> of_monomials(const std::vector<Equation>& equations,
+                                     const Eliminated& eliminated, const Semidefinite& posed,
+                                     const Moments& y);
+
 /// Those near x, where they show that there are no solutions.
 std::optional<Moments> excluding_moments(const Program& program, const Eliminated& eliminated,
                                          const Semidefinite& posed, const std::vector<double>& x);

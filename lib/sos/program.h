@@ -125,6 +125,8 @@ struct Equation {
   Key key;
   std::map<int, Rational> terms;
   Rational value = 0;
+  /// Of a combination of equations: the factor of each.
+  std::map<std::size_t, Rational> from{};
 };
 
 /// With full bases: monomials of half the degree, within the bounds that the powers of the single

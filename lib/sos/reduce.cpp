@@ -141,6 +141,7 @@ void substitute(const Eliminated::Pivot& pivot, Equation& equation) {
     if (term->second == 0) equation.terms.erase(term);
   }
   equation.value -= factor * pivot.equation.value;
+  for (const auto& [at, c] : pivot.equation.from) equation.from[at] -= factor * c;
 }
 
 }  // namespace
@@ -155,6 +156,7 @@ std::optional<Equation> Eliminated::without_free(Equation sum) const {
 Eliminated eliminate(const Program& program, std::vector<Equation> equations) {
   const Columns columns(program);
   Eliminated result;
+  for (std::size_t at = 0; at < equations.size(); ++at) equations[at].from = {{at, 1}};
   std::vector<bool> used(equations.size(), false);
   std::vector<std::set<std::size_t>> users(static_cast<std::size_t>(columns.frees()));
   const auto note = [&](std::size_t row) {
