@@ -141,7 +141,7 @@ void substitute(const Eliminated::Pivot& pivot, Equation& equation) {
     if (term->second == 0) equation.terms.erase(term);
   }
   equation.value -= factor * pivot.equation.value;
-  for (const auto& [at, c] : pivot.equation.from) equation.from[at] -= factor * c;
+  for (const auto& [row, c] : pivot.equation.from) equation.from[row] -= factor * c;
 }
 
 }  // namespace
