@@ -203,6 +203,13 @@ bool hold_at_zero(const SosStatements& stated) {
   });
 }
 
-SosStatements sos_statements(const lmi::Inequalities& of) { return Statements(of).take(); }
+SosStatements sos_statements(const lmi::Inequalities& of) {
+  if (const auto& quotient = of.design().quotient)
+    throw InputError(
+        quotient->place,
+        "minimize: " + quotient->text +
+            " beside sums of squares: name a scalar l, require M <= l*N and search it");
+  return Statements(of).take();
+}
 
 }  // namespace gainsmith::design

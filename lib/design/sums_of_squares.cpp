@@ -1,8 +1,8 @@
 #include "design/sums_of_squares.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -113,18 +113,20 @@ class Solving {
     gains_.solver.status = "undecided";
     gains_.solver.cause = model::kNothingToSolve;
     gains_.solver.precision = "double";
+    if (inequalities_.design().synthesis.gain_bound_stated)
+      gains_.solver.add_message("synthesis.gain_bound is not imposed beside sums of squares");
     if (const auto contradiction = sos::reduce(program_)) return exclude(contradiction, {});
     if (stated_.objective && minimise(program_)) return;
     const sos::Decision decision = decided(program_, std::nullopt);
     if (decision.excluded) return exclude(decision.contradiction, decision.moments);
     if (!decision.u) return note_open();
     accept(decision);
-    if (!stated_.objective) return;
-    if (gains_.solver.unbounded)
-      gains_.solver.add_message(
-          "the objective is that of a point inside: the solver finds it unbounded below");
-    else if (decision.on_face)
-      minimise(decision.program);
+    if (!stated_.objective || (decision.on_face && minimise(decision.program))) return;
+    gains_.solver.add_message(
+        gains_.solver.unbounded
+            ? "the objective is that of a point inside: the solver finds it unbounded below"
+            : "the objective is that of a point inside, not its minimum: the minimum was not "
+              "found");
   }
 
  private:
@@ -151,8 +153,8 @@ class Solving {
     const sos::Eliminated eliminated = eliminate(program, equations_of(program));
     if (eliminated.contradiction) return false;
     const auto sum = eliminated.without_free(cost);
-    gains_.solver.unbounded = !sum || eliminated.equations.empty();
-    if (gains_.solver.unbounded) return false;
+    gains_.solver.unbounded = !sum;
+    if (!sum || eliminated.equations.empty()) return false;
     const sos::Semidefinite posed = semidefinite_program(program, eliminated, sum);
     const sdp::Solution least = sdp::solve(posed.problem, options_);
     note(least, least.iterations);
@@ -165,8 +167,8 @@ class Solving {
       const sos::Decision near = decided(program, level);
       if (!near.u) continue;
       accept(near);
-      gains_.solver.status = "optimal";
       if (&program == &program_) add_lower_bound(eliminated, posed, *sum, least);
+      note_bracket();
       return true;
     }
     return false;
@@ -178,7 +180,24 @@ class Solving {
     if (!bound)
       bound = lower_bound(program_, eliminated, posed, sum, least.x,
                           decided(program_, std::nullopt).inside);
-    if (bound) gains_.objective_lower_bound = std::min(*gains_.objective, nearest_double(*bound));
+    if (!bound) return;
+    const double below =
+        std::nextafter(nearest_double(*bound), -std::numeric_limits<double>::infinity());
+    gains_.objective_lower_bound = std::min(*gains_.objective, below);
+  }
+
+  /// A minimum is one that a bound brackets to 1e-6 of its size.
+  void note_bracket() {
+    constexpr double kNear = 1e-6;
+    const auto& least = gains_.objective_lower_bound;
+    if (least && *gains_.objective - *least <= kNear * std::abs(*gains_.objective)) {
+      gains_.solver.status = "optimal";
+      return;
+    }
+    gains_.solver.add_message(
+        least ? "the optimum is between the lower bound " + brief_below(*least, 10) +
+                    " and the objective"
+              : std::string("how near the objective is to the optimum is not shown"));
   }
 
   void accept(const sos::Decision& decision) {

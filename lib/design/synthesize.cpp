@@ -323,7 +323,15 @@ model::Gains by_sums_of_squares(const model::Instance& instance, const sdp::Opti
   const auto start = Clock::now();
   const lmi::Inequalities inequalities(instance);
   model::Gains gains = stated(instance);
-  solve_sums_of_squares(inequalities, options, gains);
+  bool stopped = false;
+  try {
+    solve_sums_of_squares(inequalities, options, gains);
+  } catch (const Stopped&) {
+    stopped = true;
+  }
+  const Concluding concluding;
+  if (stopped && (gains.verdict == model::Verdict::undecided || gains.solver.status == "feasible"))
+    note_stop("sums of squares", gains.solver.iterations, gains);
   add_gains(inequalities, gains);
   gains.timings = {{"total", seconds_since(start)}};
   return gains;
@@ -344,8 +352,8 @@ model::Gains evaluated(const model::Instance& instance) {
 model::Gains synthesize(const model::Instance& instance, const sdp::Options& options, Depth depth) {
   const model::Design& design = *instance.design;
   if (design.inequalities.empty() && design.unknowns.empty()) return evaluated(instance);
-  if (has_sums_of_squares(design)) return by_sums_of_squares(instance, options);
   require_convex(instance);
+  if (has_sums_of_squares(design)) return by_sums_of_squares(instance, options);
   if (instance.design->quotient) return smallest_quotient(instance, options, depth);
   return Synthesis(instance, options, depth).run();
 }

@@ -30,6 +30,12 @@ std::string proof_of_yes(const model::Gains& gains) {
       gains.solution_within
           ? "a solution within " + brief(*gains.solution_within, 2) + " of the unknowns"
           : "the decimals of the unknowns";
+  if (!gains.sums_of_squares.empty())
+    return "This yes is a proof for " + about +
+           " in the gain file. Every inequality is a sum of squares: an identity in fractions, "
+           "which "
+           "the gain file has, and which anybody can expand. So it does not trust the solver. The "
+           "page shows what the gain file says; it proves nothing again.";
   return "This yes is a proof for " + about +
          " in the gain file; the gains are computed from the unknowns. Every inequality was "
          "evaluated again from its text, with bounds for the "
@@ -48,6 +54,10 @@ std::string proof_of_no(const model::Gains& gains) {
   if (!certificate.is_about_problem())
     text = "This no is about a condition that is only sufficient for the inequalities, " +
            subject_of(certificate) + ": the inequalities themselves may have a solution. ";
+  if (certificate.is_about_squares())
+    return text + "It rests on " +
+           (certificate.moments.empty() ? "one coefficient of an inequality" : "moments") +
+           ", in fractions of the decimals of the problem file, without the solver.";
   text += certificate.algebraic
               ? "It rests on " + to_string(*certificate.algebraic) +
                     ", checked in fractions on the decimals of the problem file."

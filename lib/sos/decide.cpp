@@ -82,9 +82,8 @@ class Deciding {
   bool is_shown(const Point& point) {
     const auto u = decimals_of(result_.program, point);
     if (!u) return false;
-    auto found = identity_near(result_.program, point, *u);
-    auto* identity = std::get_if<Identity>(&found);
-    if (identity == nullptr) return false;
+    auto identity = identity_near(result_.program, point, *u);
+    if (!identity) return false;
     result_.u = *u;
     result_.identity = std::move(*identity);
     return true;

@@ -86,12 +86,14 @@ class Rounding {
       for (const auto& [column, c] : equation.terms) ++uses_[static_cast<std::size_t>(column)];
   }
 
-  std::variant<Identity, NoIdentity> take() {
+  std::optional<Identity> take() {
     std::vector<std::size_t> bound;  // equations that share all their columns with others
     for (std::size_t i = 0; i < equations_.size(); ++i)
       if (!has_own(equations_[i])) bound.push_back(i);
-    if (const auto at = solve(bound)) return NoIdentity{NoIdentity::Cause::unknowns, *at};
+    if (!solve(bound)) return std::nullopt;
     for (const Equation& equation : equations_) place(equation);
+    for (const Equation& equation : equations_)
+      if (residual(equation) != 0) return std::nullopt;
     Identity result;
     for (int k = 0; k < columns_.frees(); ++k) result.free.push_back(value(k));
     for (std::size_t g = 0; g < program_.grams.size(); ++g) {
@@ -101,7 +103,7 @@ class Rounding {
       for (int c = 0; c < n; ++c)
         for (int r = 0; r <= c; ++r) Q(r, c) = Q(c, r) = value(columns_.element(g, r, c));
       if (!is_shown_definite(Q) || !keeps_constants(program_, program_.grams[g]))
-        return NoIdentity{NoIdentity::Cause::definite, g};
+        return std::nullopt;
       result.grams.push_back(std::move(Q));
     }
     return result;
@@ -153,10 +155,10 @@ class Rounding {
   }
 
   /// z += W A' lambda with A W A' lambda = what is left, A over t and the elements of Gram matrices
-  /// that these equations have: the least change, off-diagonal elements counting twice. An equation
-  /// that has no solution, if there is one.
-  std::optional<std::size_t> solve(const std::vector<std::size_t>& bound) {
-    if (bound.empty()) return std::nullopt;
+  /// that these equations have: the least change, off-diagonal elements counting twice. Whether they
+  /// have a solution.
+  bool solve(const std::vector<std::size_t>& bound) {
+    if (bound.empty()) return true;
     const auto weight = [&](int column) -> Rational {
       if (!columns_.is_element(column)) return 1;
       const Columns::Place place = columns_.place(column);
@@ -176,14 +178,10 @@ class Rounding {
       for (const auto& [i, c] : terms)
         for (const auto& [j, d] : terms) G(i, j) += weight(column) * c * d;
     const auto lambda = numbers::rational_solution(G, rest);
-    if (!lambda) {
-      for (Index i = 0; i < m; ++i)
-        if (rest(i) != 0) return bound[static_cast<std::size_t>(i)];
-      return bound.front();
-    }
+    if (!lambda) return false;
     for (const auto& [column, terms] : by_column)
       for (const auto& [i, c] : terms) value(column) += weight(column) * c * (*lambda)(i);
-    return std::nullopt;
+    return true;
   }
 
   const Program& program_;
@@ -196,8 +194,8 @@ class Rounding {
 
 }  // namespace
 
-std::variant<Identity, NoIdentity> identity_near(const Program& program, const Point& point,
-                                                 const std::vector<Rational>& u) {
+std::optional<Identity> identity_near(const Program& program, const Point& point,
+                                      const std::vector<Rational>& u) {
   return Rounding(program, point, u).take();
 }
 

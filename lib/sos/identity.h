@@ -3,7 +3,6 @@
 
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "numbers/rational.h"
@@ -17,20 +16,12 @@ struct Identity {
   std::vector<Rational> free;  ///< u, then t
 };
 
-/// Why there is none near a point.
-struct NoIdentity {
-  enum class Cause {
-    unknowns,  ///< the equations leave no Gram matrices for these u
-    definite   ///< a Gram matrix is not positive definite
-  };
-  Cause cause = Cause::definite;
-  std::size_t at = 0;  ///< of an equation, of a Gram matrix
-};
-
-/// With the decimals u. All else is rounded to some 13 digits; what an equation is off by then goes
-/// evenly to the elements that no other equation has, and otherwise by the least change.
-std::variant<Identity, NoIdentity> identity_near(const Program& program, const Point& point,
-                                                 const std::vector<Rational>& u);
+/// With the decimals u; none where the equations leave no Gram matrices for them, or none near the
+/// point that are shown to be positive definite. All else is rounded to some 13 digits; what an
+/// equation is off by then goes evenly to the elements that no other equation has, and otherwise by
+/// the least change.
+std::optional<Identity> identity_near(const Program& program, const Point& point,
+                                      const std::vector<Rational>& u);
 
 /// Equations that u alone must satisfy so that the others have a solution: where bases are those of a
 /// face, the values at its zeros, say.

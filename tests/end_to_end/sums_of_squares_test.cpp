@@ -156,6 +156,33 @@ TEST(SumsOfSquares, WhatIsNoPolynomialIsRefusedAtItsPlace) {
                   "a polynomial needs its degree"));
 }
 
+/// What no equation of a monomial bounds has a minimum nevertheless, and lambda_max is refused.
+TEST(SumsOfSquares, ObjectivesAreNotCalledUnbounded) {
+  const nlohmann::json gains =
+      gains_of(stating("  unknowns: {a: scalar}\n"
+                       "  require: {least: a >= 1, p: {forall: x in R, that: x^2 + a >= 0}}\n"
+                       "  minimize: a\n"));
+  EXPECT_EQ(gains["verdict"], "yes");
+  EXPECT_GE(gains["objective"].get<double>(), 1);
+  EXPECT_FALSE(has(gains["solver"]["message"], "unbounded"));
+  EXPECT_TRUE(has(error_of(stating("  unknowns: {P: symmetric 2}\n"
+                                   "  require: {p: {forall: x in R, that: \"P >= x^2*eye(2)\"}}\n"
+                                   "  minimize: \"lambda_max(P, eye(2))\"\n")),
+                  "beside sums of squares"));
+}
+
+TEST(SumsOfSquares, ALimitOfTimeLeavesAFile) {
+  const Folder folder;
+  const std::string text = stating(
+      "  unknowns: {g: scalar}\n"
+      "  require: {p: {forall: x in R^8, that: \"(x'*x)^3 + x(1)^5 - x(2)^3*x(4) >= g\"}}\n"
+      "  minimize: -g\n");
+  const Outcome outcome = gainsmith(
+      {"synth", folder.file("p.yaml", text), "--time", "0.5", "-o", folder.path("g.json")});
+  EXPECT_EQ(outcome.exit, 3) << outcome.err;
+  EXPECT_EQ(nlohmann::json::parse(text_of(folder.path("g.json")))["verdict"], "undecided");
+}
+
 TEST(SumsOfSquares, AGainFileIsCheckedAtItsUnknowns) {
   const Folder folder;
   const std::string text = stating(
