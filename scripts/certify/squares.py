@@ -18,8 +18,8 @@ def squares_of(gain, label):
         if re.fullmatch(re.escape(label) + r"( at .*)?(\(\d+\))?", name, re.S):
             groups.setdefault(re.sub(r"\(\d+\)$", "", name), []).append(record)
     return list(groups.values())
-def prove_squares(comparison, domain, records):
-    """None, or why the identities do not show the comparison."""
+def polynomials_of(comparison, domain):
+    """(M, (polynomials >= 0, polynomials = 0), the polynomial 0) of one comparison."""
     count = len(domain.intervals)
     zero = Taylor({}, 0, (count, ORDER))
     x = [zero.like({tuple(int(i == j) for j in range(count)): Fraction(1)}) for i in range(count)]
@@ -32,7 +32,10 @@ def prove_squares(comparison, domain, records):
             sets[relation == "=="].extend(p for p in (terms_of(f, zero) for f in found) if p)
     for i, t in zip(domain.intervals, x):
         if i.low is not None: sets[0].append(terms_of((t - i.low) * (i.high - t), zero))
-    m = inequality(comparison, scope)
+    return inequality(comparison, scope), sets, zero
+def prove_squares(comparison, domain, records):
+    """None, or why the identities do not show the comparison."""
+    m, sets, zero = polynomials_of(comparison, domain)
     parts = [Matrix([[m[i, i]]]) for i in range(m.rows)] if len(records) > 1 else [m]
     if len(parts) != len(records): return "another number of identities"
     strict = comparison.sign in ("<", ">")
