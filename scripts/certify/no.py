@@ -20,6 +20,7 @@ from arithmetic import (Ball, Undecided, Unsupported, affine_terms, ball, functi
                         middle, sum_of_balls, upper)
 from language import decimal, matrix, parse
 from matrices import filled, least, pivots_of
+from moments import prove_no_squares
 from statement import NOT_EVALUATED, Statement, Symbols, expect, inequality, matrix_of_json, refuse
 from yes import Claim, is_outside, outward, reason, scope_at, ten_digits
 # One inequality at one point: its matrix as {i: {(row, column): coefficient of x_i}}, x_0 = 1, its
@@ -35,6 +36,8 @@ def prove_no(gain, certificate, name="no solution"):
     """The claim that the inequalities of the file have no solution."""
     try:
         statement = Statement(gain, Symbols())
+        if certificate.get("about") == "sums of squares":
+            return prove_no_squares(statement, certificate.get("moments"), name)
         if given := certificate.get("algebraic"):
             why = prove_algebraic(given, lambda label: blocks_of(statement, {label: None})[0])
             how = "an eigenvalue of %(of)s, exactly" if "of" in given else "exact multipliers"

@@ -3,7 +3,7 @@
 The file is read with all numbers as the decimals that stand there. Keys that the checker does not
 use (campaigns, plants, reports, margins) are not looked at.
 """
-import hashlib, json, os, re
+import hashlib, json, math, os, re
 from collections import namedtuple
 from fractions import Fraction
 from functools import reduce
@@ -162,8 +162,9 @@ def declarations(mapping, key, short="shape"):
 # index: the element of a column, or None; title: the name with it, such as x_1
 Interval = namedtuple("Interval", "name index low high title")
 Domain = namedtuple("Domain", "scope intervals choices hulls")
-Comparison = namedtuple("Comparison", "left sign right domains")
+Comparison = namedtuple("Comparison", "left sign right domains entry squares", defaults=({}, ()))
 SHAPE = re.compile(r"\s*(?:(symmetric|diagonal)\s+)?(.+?)(?:\s+x\s+(.+))?\s*", re.S)
+REALS = re.compile(r"R\s*(?:\^\s*(.+))?", re.S)
 HEAD = re.compile(r"\s*(\w+)\s*\((.*)\)\s*", re.S)
 
 class Statement:
@@ -323,6 +324,7 @@ class Statement:
         kind = SHAPE.fullmatch(declared["shape"]).group(1) or "full"
         rows, cols = self.shape(declared["shape"])
         if "of" not in declared: return self.unknown_value(name, rows, cols, kind)
+        if isinstance(declared["of"], dict): return self.polynomial(name, declared, rows, cols, kind)
         way = section(self.problem, "synthesis").get("forall")
         if "vertex_gains" in (way, way.get("way") if isinstance(way, dict) else ""):
             return self.vertex_function(name, rows, cols, kind)
@@ -333,6 +335,20 @@ class Statement:
         span = declared.get("in")
         if isinstance(span, str): span = span.strip()[1:-1].split(",")
         return polynomial(parts, span and [matrix(parse(x), self.scope).number() for x in span])
+    def polynomial(self, name, declared, rows, cols, kind):
+        """The sum of V_e1_e2_... x(1)^e1 x(2)^e2 ..., in the elements of all arguments."""
+        n = sum(self.shape(s)[0] for s in declared["of"].values())
+        span = [matrix(parse(d), self.scope).whole() for d in listed(declared["degree"])]
+        low, high = span if len(span) > 1 else (0, span[0])
+        terms = {e: self.unknown_value("_".join(map(str, (name, *e))), rows, cols, kind)
+                 for e in product(range(high + 1), repeat=n) if low <= sum(e) <= high}
+        self.scope.names.update({"_".join(map(str, (name, *e))): c for e, c in terms.items()})
+        def value(*columns):
+            x = [y for c in columns for y in flat(c)]
+            return reduce(add, [c * number(math.prod(
+                [power for y, k in zip(x, e) for power in [y] * k], start=Fraction(1)))
+                for e, c in terms.items()])
+        return Function(value)
     def vertex_function(self, name, rows, cols, kind):
         """An unknown with a matrix for each vertex: the file has its formula. This is one of many
         functions, so it proves no *no*."""
@@ -362,7 +378,7 @@ class Statement:
                 continue
             for k, comparison in enumerate(found):
                 yield ("%s.%d" % (name, k + 1) if len(found) > 1 else name,
-                       Comparison(*comparison, domains))
+                       Comparison(*comparison, domains, entry))
     def domains(self, texts):
         """The finite choices of `forall`, each with the intervals that remain. An interval has no
         value, and a vertex stands for a whole polytope: no later entry may depend on them."""
@@ -377,7 +393,7 @@ class Statement:
             if name in hidden or any(name == n for d in found for n, _, _ in d.choices):
                 raise Unsupported("a variable that occurs twice")
             found = [new for d in found for new in choices(d, Scope(d.scope, hidden), name, where)]
-            if where.startswith(("[", "conv")): hidden[name] = later
+            if where.startswith(("[", "conv")) or REALS.fullmatch(where): hidden[name] = later
         return found
 def named_blocks(entry):
     """The comparison of a matrix that is given by named block rows and columns."""
@@ -403,6 +419,11 @@ def choices(domain, scope, name, where):
              for i in range(shape.rows)]
         empty = {name: shape} if shape.rows == 0 else {}
         return [Domain(Scope(domain.scope, empty), domain.intervals + tuple(new), *domain[2:])]
+    reals = REALS.fullmatch(where)
+    if reals and (reals[1] or scope.find("R") is None):
+        n = matrix(parse(reals[1]), scope).whole() if reals[1] else 1
+        new = [Interval(name, None if n == 1 else i, None, None, name) for i in range(n)]
+        return [Domain(domain.scope, domain.intervals + tuple(new), *domain[2:])]
     if "{" in where:
         values = where[where.index("{") + 1:where.rindex("}")]
         values = [matrix(x, scope) for x in parse("[%s]" % values)[1][0]]

@@ -11,6 +11,7 @@ from arithmetic import (Affine, Ball, Taylor, Undecided, Unsupported, ball, is_z
 from language import Scope, decimal, matrix, parse
 from matrices import (POSITIVE, SEMIDEFINITE, classify, column, exactly, filled, flat, is_positive,
                       is_positive_on_box, number, witness)
+from squares import prove_squares, squares_of
 from statement import (NOT_EVALUATED, Comparison, Statement, checked, inequality, matrix_of_json,
                        refuse, section, values_of_file)
 # result: proved, refuted or open. `how` says by what it was proved, or why it is open.
@@ -23,7 +24,10 @@ def ten_digits(x, rounding):
 def cases(statement):
     """(name, comparison, domain) of each comparison and each finite choice of its forall."""
     for label, comparison in statement.comparisons():
-        for domain in [None] if isinstance(comparison, Exception) else comparison.domains:
+        squares = squares_of(statement.gain, label)
+        for k, domain in enumerate([None] if isinstance(comparison, Exception)
+                                   else comparison.domains):
+            if k < len(squares): comparison = comparison._replace(squares=squares[k])
             yield label + label_of(domain.choices if domain else ()), comparison, domain
 def prove_requirements(statement, hull, at_both):
     """A claim for each case. Those over intervals are tried with the unknowns of `hull` first, with
@@ -46,6 +50,10 @@ def short(x): return "%.6g" % float(middle(x)) if upper(x) < 10 ** 300 else "a l
 def prove(name, comparison, domain, near, only_ordinary=False):
     try:
         if isinstance(comparison, Exception): raise comparison
+        if domain.intervals and comparison.squares:
+            fault = prove_squares(comparison, domain, comparison.squares)
+            return Claim(name, "open" if fault else "proved", fault or "squares")
+        if any(i.low is None for i in domain.intervals): refuse("an inequality without squares")
         if domain.hulls: check_affine(comparison, domain)
         if comparison.sign == "==": return prove_equation(name, comparison, domain, near)
         if domain.intervals: return prove_for_all(name, comparison, domain, only_ordinary)
