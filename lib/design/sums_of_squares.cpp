@@ -7,10 +7,9 @@
 #include <utility>
 
 #include "base/number.h"
-#include "design/sos_statements.h"
+#include "design/sos_records.h"
 #include "numbers/definite.h"
 #include "sos/counterexample.h"
-#include "sos/decide.h"
 #include "sos/moments.h"
 #include "verdict/rational_blocks.h"
 
@@ -38,64 +37,6 @@ sos::Program posed(const lmi::Inequalities& inequalities, const SosStatements& s
     throw InputError(inequalities.statements.front().stated->place,
                      "the inequalities have more than 20,000 monomials of their degree");
   }
-}
-
-model::SumOfSquaresRecord::Summand summand_of(const sos::Element& element, const Rational& c,
-                                              std::size_t variables) {
-  std::vector<int> exponents;
-  for (std::size_t i = 0; i < variables; ++i) exponents.push_back(element.monomial.exponent(i));
-  return {exact_text(c), element.row, std::move(exponents)};
-}
-
-model::SumOfSquaresRecord::Square square_of(const sos::Gram& gram, const numbers::RationalMatrix& Q,
-                                            std::size_t variables) {
-  model::SumOfSquaresRecord::Square square{static_cast<int>(gram.multiplier), {}, {}};
-  for (const sos::BasisPolynomial& basis : gram.basis) {
-    auto& texts = square.basis.emplace_back();
-    for (const auto& [element, c] : basis) texts.push_back(summand_of(element, c, variables));
-  }
-  for (Eigen::Index r = 0; r < Q.rows(); ++r) {
-    auto& row = square.gram.emplace_back();
-    for (Eigen::Index c = 0; c <= r; ++c) row.push_back(exact_text(Q(r, c)));
-  }
-  return square;
-}
-
-/// What a gain file keeps of an identity, one for each statement.
-std::vector<model::SumOfSquaresRecord> records(const sos::Program& program,
-                                               const sos::Identity& identity,
-                                               const SosStatements& stated) {
-  std::vector<model::SumOfSquaresRecord> result;
-  for (std::size_t s = 0; s < program.statements.size(); ++s)
-    result.push_back({program.statements[s].name, stated.variables[s], {}, {}});
-  for (std::size_t g = 0; g < program.grams.size(); ++g) {
-    const sos::Gram& gram = program.grams[g];
-    if (gram.size() == 0) continue;
-    model::SumOfSquaresRecord& record = result[gram.statement];
-    record.squares.push_back(square_of(gram, identity.grams[g], record.variables.size()));
-  }
-  for (std::size_t k = 0; k < program.free.size(); ++k) {
-    const sos::FreeTerm& free = program.free[k];
-    const Rational& c = identity.free[static_cast<std::size_t>(program.unknowns) + k];
-    if (c == 0) continue;
-    model::SumOfSquaresRecord& record = result[free.statement];
-    record.free.push_back({static_cast<int>(free.equation) + 1, free.column,
-                           summand_of({free.row, free.monomial}, c, record.variables.size())});
-  }
-  return result;
-}
-
-std::vector<std::vector<model::MomentRecord>> moment_records(
-    const std::map<sos::Key, Rational>& moments, const SosStatements& stated) {
-  if (moments.empty()) return {};
-  std::vector<std::vector<model::MomentRecord>> result(stated.statements.size());
-  for (const auto& [key, value] : moments) {
-    std::vector<int> exponents;
-    for (std::size_t i = 0; i < stated.variables[key.statement].size(); ++i)
-      exponents.push_back(key.monomial.exponent(i));
-    result[key.statement].push_back({key.row, key.column, std::move(exponents), exact_text(value)});
-  }
-  return result;
 }
 
 class Solving {
@@ -212,7 +153,7 @@ class Solving {
       gains_.unknowns.emplace_back(unknown.name, values.at(unknown.name));
       keep_decimals(unknown, u);
     }
-    gains_.sums_of_squares = records(decision.program, decision.identity, stated_);
+    gains_.sums_of_squares = identity_records(decision, stated_);
     if (stated_.objective) {
       Rational value = 0;
       for (const auto& [term, c] : stated_.objective->terms())

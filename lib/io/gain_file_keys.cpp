@@ -64,7 +64,7 @@ constexpr std::array kKeysOfCertificate = {
     Key{"digits", "whole", "", kRequired},
     Key{"multipliers", "{rows}", "", kRequired},
     Key{"algebraic", "algebraic", "exact multipliers, at an eigenvalue or rational ones"},
-    Key{"moments", "[[moment]]", "of each inequality, where it is about sums of squares"}};
+    Key{"moments", "[{text}]", "of each inequality, where it is about sums of squares"}};
 
 constexpr std::array kKeysOfAlgebraic = {
     Key{"of", "text", "the matrix whose eigenvalue l is"},
@@ -85,23 +85,12 @@ constexpr std::array kKeysOfSumOfSquares = {
 
 constexpr std::array kKeysOfSquare = {
     Key{"times", "whole", "0: 1; k: the k-th polynomial that is >= 0", kRequired},
-    Key{"basis", "[[summand]]", "z, polynomials times rows of the inequality", kRequired},
+    Key{"basis", "[text]", "z, polynomials times rows of the inequality", kRequired},
     Key{"gram", "[[text]]", "Q, fractions: the lower triangle", kRequired}};
-
-constexpr std::array kKeysOfSummand = {Key{"c", "text", "a fraction", kRequired},
-                                       Key{"row", "whole", "from 0", kRequired},
-                                       Key{"exponents", "[whole]", "of the variables", kRequired}};
 
 constexpr std::array kKeysOfFreeTerm = {
     Key{"times", "whole", "k: the k-th polynomial that is 0", kRequired},
-    Key{"c", "text", "a fraction", kRequired}, Key{"row", "whole", "from 0", kRequired},
-    Key{"column", "whole", "from 0", kRequired},
-    Key{"exponents", "[whole]", "of the variables", kRequired}};
-
-constexpr std::array kKeysOfMoment = {Key{"row", "whole", "from 0", kRequired},
-                                      Key{"column", "whole", "from 0", kRequired},
-                                      Key{"exponents", "[whole]", "of the variables", kRequired},
-                                      Key{"value", "text", "a fraction", kRequired}};
+    Key{"polynomial", "text", "", kRequired}};
 
 constexpr std::array kKeysOfRefinement = {
     Key{"before", "number", "", kRequired}, Key{"after", "number | nothing", "", kRequired},
@@ -158,10 +147,8 @@ const Level kTermLevel = {"algebraic term", "A part of a multiplier", kKeysOfTer
 const Level kSumOfSquaresLevel = {"sum of squares", "An inequality as a sum of squares",
                                   kKeysOfSumOfSquares};
 const Level kSquareLevel = {"square", "Squares with one multiplier", kKeysOfSquare};
-const Level kSummandLevel = {"summand", "A term of a polynomial", kKeysOfSummand};
 const Level kFreeTermLevel = {"free term", "A term of the multiplier of an equation",
                               kKeysOfFreeTerm};
-const Level kMomentLevel = {"moment", "A number for a coefficient", kKeysOfMoment};
 const Level kRefinementLevel = {"refinement", "Scalars and unknowns moved together",
                                 kKeysOfRefinement};
 const Level kSearchLevel = {"search", "How a search ended", kKeysOfSearch};
@@ -173,12 +160,11 @@ const Level kFileLevel = {"file", "A file that was read", kKeysOfFile};
 }  // namespace
 
 std::span<const Level* const> gain_file_levels() {
-  static constexpr std::array kLevels = {&kDocumentLevel, &kGainFunctionLevel, &kMarginLevel,
-                                         &kBoundLevel,    &kCertificateLevel,  &kRefinementLevel,
-                                         &kSearchLevel,   &kSolverLevel,       &kStatementLevel,
-                                         &kProofLevel,    &kFileLevel,         &kAlgebraicLevel,
-                                         &kTermLevel,     &kSumOfSquaresLevel, &kSquareLevel,
-                                         &kSummandLevel,  &kFreeTermLevel,     &kMomentLevel};
+  static constexpr std::array kLevels = {
+      &kDocumentLevel,    &kGainFunctionLevel, &kMarginLevel, &kBoundLevel,
+      &kCertificateLevel, &kRefinementLevel,   &kSearchLevel, &kSolverLevel,
+      &kStatementLevel,   &kProofLevel,        &kFileLevel,   &kAlgebraicLevel,
+      &kTermLevel,        &kSumOfSquaresLevel, &kSquareLevel, &kFreeTermLevel};
   return kLevels;
 }
 

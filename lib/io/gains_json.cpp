@@ -112,7 +112,7 @@ Json certificate_json(const model::Gains& gains, const std::string& key,
       {"digits", certificate.digits},
       {"multipliers", matrices_json(gains, key + ".multipliers", certificate.multipliers)}};
   if (certificate.algebraic) result["algebraic"] = algebraic_json(*certificate.algebraic);
-  if (!certificate.moments.empty()) result["moments"] = moments_json(certificate.moments);
+  if (!certificate.moments.empty()) result["moments"] = certificate.moments;
   return result;
 }
 
@@ -260,7 +260,11 @@ model::CertificateRecord certificate_of(const JsonReader& reader, model::Gains& 
                                   matrices_of(reader.at("multipliers"), gains),
                                   reader.has("about") ? reader.at("about").text() : "problem"};
   if (reader.has("algebraic")) result.algebraic = algebraic_of(reader.at("algebraic"));
-  if (reader.has("moments")) result.moments = moments_of(reader.at("moments"));
+  if (reader.has("moments"))
+    for (const JsonReader& list : reader.at("moments").items())
+      for (auto& moments = result.moments.emplace_back();
+           const auto& [monomial, value] : list.members())
+        moments[monomial] = value.text("");
   return result;
 }
 

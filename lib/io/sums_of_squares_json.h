@@ -8,7 +8,4 @@ namespace gainsmith::io {
 Json sum_of_squares_json(const model::SumOfSquaresRecord& record);
 model::SumOfSquaresRecord sum_of_squares_of(const JsonReader& reader);
 
-Json moments_json(const std::vector<std::vector<model::MomentRecord>>& moments);
-std::vector<std::vector<model::MomentRecord>> moments_of(const JsonReader& reader);
-
 }  // namespace gainsmith::io

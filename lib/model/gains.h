@@ -64,14 +64,6 @@ struct AlgebraicRecord {
   int steps() const;
 };
 
-/// A number for the coefficient of x^exponents v_row v_column of an inequality (sos/moments.h).
-struct MomentRecord {
-  int row = 0;
-  int column = 0;
-  std::vector<int> exponents;
-  std::string value;  ///< a fraction
-};
-
 /// The certificate of a no, as it was checked on the decimals of the file (verdict/refutation.h),
 /// or of what is only sufficient for the inequalities.
 struct CertificateRecord {
@@ -87,8 +79,9 @@ struct CertificateRecord {
   /// (docs/gain-file.md).
   std::string about = "problem";
   std::optional<AlgebraicRecord> algebraic{};
-  /// Of sums of squares: one list for each inequality, and each element of the sets of its variables.
-  std::vector<std::vector<MomentRecord>> moments{};
+  /// Of sums of squares (sos/moments.h): a fraction for each monomial, "row(1)*row(2)*x(1)", of each
+  /// inequality and each element of the sets of its variables.
+  std::vector<std::map<std::string, std::string>> moments{};
 
   bool is_about_problem() const { return about == "problem"; }
   bool is_about_squares() const { return about == "sums of squares"; }
@@ -109,23 +102,16 @@ std::string limits_of(const CertificateRecord& certificate);
 
 /// An inequality as a sum of squares (sos/program.h), in fractions: with z the basis and Q the Gram
 /// matrix of each of the squares,
-///   v'M(x)v = sum of times(x) z'Qz + sum of times(x) c x^exponents v_row v_column.
+///   row'M(x) row = sum of times(x) z'Qz + sum of times(x) times the free polynomials.
 struct SumOfSquaresRecord {
-  /// c x^exponents v_row, rows from 0.
-  struct Summand {
-    std::string c;
-    int row = 0;
-    std::vector<int> exponents;
-  };
   struct Square {
-    int times = 0;  ///< 0: 1; k: the k-th of the polynomials that are >= 0
-    std::vector<std::vector<Summand>> basis;
+    int times = 0;                   ///< 0: 1; k: the k-th of the polynomials that are >= 0
+    std::vector<std::string> basis;  ///< "x(1)^2", "row(1)*x(2) - 1/3*row(2)"
     std::vector<std::vector<std::string>> gram;  ///< the lower triangle, row by row
   };
   struct Free {
     int times = 0;  ///< k: the k-th of the polynomials that are 0
-    int column = 0;
-    Summand summand;
+    std::string polynomial;
   };
   std::string name;                    ///< of the comparison
   std::vector<std::string> variables;  ///< "x(1)"

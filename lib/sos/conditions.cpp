@@ -4,6 +4,7 @@
 #include <map>
 
 #include "numbers/rational_algebra.h"
+#include "numerics/lattice.h"
 #include "sos/identity.h"
 
 namespace gainsmith::sos {
@@ -51,53 +52,30 @@ std::vector<Equation> conditions_on_unknowns(const Program& program) {
   return result;
 }
 
-namespace {
-
-/// The part of n that no power of ten is a multiple of.
-Integer without_tens(Integer n) {
-  for (const int prime : {2, 5})
-    while (n % prime == 0) n /= prime;
-  return n;
-}
-
-}  // namespace
-
 std::optional<std::vector<Rational>> decimals_near(const std::vector<double>& u,
                                                    const std::vector<Equation>& conditions) {
-  const auto n = static_cast<Index>(u.size());
-  RationalMatrix M = RationalMatrix::Zero(static_cast<Index>(conditions.size()), n + 1);
-  for (Index i = 0; i < M.rows(); ++i) {
-    const Equation& condition = conditions[static_cast<std::size_t>(i)];
-    for (const auto& [column, c] : condition.terms) M(i, column) = c;
-    M(i, n) = condition.value;
-  }
-  const auto [rows, pivots] = numbers::reduced_echelon(M);
-  // Multiples of what stands below the fractions leave decimals.
-  Integer multiple = 1;
-  for (Index i = 0; i < rows.rows(); ++i) {
-    if (pivots[static_cast<std::size_t>(i)] == n) return std::nullopt;
-    if (without_tens(Integer(denominator(rows(i, n)))) != 1) return std::nullopt;
-    for (Index j = 0; j < n; ++j)
-      multiple = lcm(multiple, without_tens(Integer(denominator(rows(i, j)))));
-  }
   double largest = 0;
-  for (const double value : u) largest = std::max(largest, std::abs(value));
+  for (const double value : u) {
+    if (!std::isfinite(value)) return std::nullopt;
+    largest = std::max(largest, std::abs(value));
+  }
   constexpr int kDigits = 14;
   const int decimals =
       largest > 0 ? kDigits - static_cast<int>(std::ceil(std::log10(largest))) : kDigits;
+  const Rational unit = power_of_ten(decimals);
+  const auto rows = static_cast<Index>(conditions.size());
+  RationalMatrix A = RationalMatrix::Zero(rows, std::ssize(u)), b(rows, 1);
+  for (Index i = 0; i < rows; ++i) {
+    const Equation& condition = conditions[static_cast<std::size_t>(i)];
+    for (const auto& [column, c] : condition.terms) A(i, column) = c;
+    b(i) = condition.value * unit;
+  }
+  std::vector<Rational> near;
+  for (const double value : u) near.push_back(Rational(value) * unit);
+  const auto whole = numerics::whole_solution(A, b, near);
+  if (!whole) return std::nullopt;
   std::vector<Rational> result;
-  for (const double value : u) {
-    if (!std::isfinite(value)) return std::nullopt;
-    result.push_back(rounded_to(Rational(Rational(value) / multiple), decimals) * multiple);
-  }
-  for (Index i = 0; i < rows.rows(); ++i) {
-    const auto pivot = static_cast<std::size_t>(pivots[static_cast<std::size_t>(i)]);
-    Rational value = rows(i, n);
-    for (Index j = 0; j < n; ++j)
-      if (static_cast<std::size_t>(j) != pivot)
-        value -= rows(i, j) * result[static_cast<std::size_t>(j)];
-    result[pivot] = value;
-  }
+  for (const Integer& value : *whole) result.push_back(Rational(value) / unit);
   return result;
 }
 

@@ -1,7 +1,9 @@
 #include "sos/decide.h"
 
+#include <cmath>
 #include <utility>
 
+#include "base/number.h"
 #include "sos/face.h"
 #include "sos/moments.h"
 
@@ -12,7 +14,14 @@ namespace {
 /// The decimals of u that a gain file prints.
 std::optional<std::vector<Rational>> decimals_of(const Program& program, const Point& point) {
   const std::vector<double> u(point.free.begin(), point.free.begin() + program.unknowns);
-  return decimals_near(u, conditions_on_unknowns(program));
+  const auto conditions = conditions_on_unknowns(program);
+  if (!conditions.empty()) return decimals_near(u, conditions);
+  std::vector<Rational> result;
+  for (const double value : u) {
+    if (!std::isfinite(value)) return std::nullopt;
+    result.push_back(*parse_rational(shortest(value)));
+  }
+  return result;
 }
 
 /// Of a solution that lies a little above a minimum.

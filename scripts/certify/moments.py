@@ -1,6 +1,6 @@
 """That no unknowns make inequalities sums of squares of their degrees.
 
-    v'M(x; u)v = sum of g(x) z'Qz + sum of h(x) t(x, v),   Q >= 0, t any,   z: all monomials
+    row'M(x; u) row = sum of g(x) z'Qz + sum of h(x) t(x, row),   Q >= 0, t any,   z: all monomials
 
 gives an equation for each monomial. Where it says that positive multiples of diagonal elements of the
 Q add up to 0, these elements are 0 in every solution, and so are their rows; what adds up to less is a
@@ -11,29 +11,36 @@ contradiction. For the rows that are left, the file gives a number L for each eq
 Then the same sum of the constants, which is that of the Q, cannot be below 0."""
 from collections import namedtuple
 from fractions import Fraction
-from itertools import combinations_with_replacement, product
-from operator import add
-from arithmetic import Unsupported, affine_terms
+from itertools import combinations_with_replacement
+from arithmetic import affine_terms
 from matrices import NEGATIVE, Matrix, classify, filled
-from squares import polynomials_of, terms_of
+from squares import parts
 from yes import Claim, cases
-# Terms of an equation: ("u", k), ("t", ...), or ("q", gram, a, b) with a <= b.
-Gram = namedtuple("Gram", "basis entries")
+# Terms of an equation: ("u", k), ("t", ...), or ("q", gram, a, b) with a <= b. An equation has its
+# terms and its constant, by (part, exponents).
+class Equations(dict):
+    def __init__(self):
+        super().__init__()
+        self.bases = []     # of the Gram matrices: lists of exponents
+    def put(self, key, term, c):
+        terms = self.setdefault(key, ({}, Fraction(0)))[0]
+        terms[term] = terms.get(term, 0) + c
+    def add_constant(self, key, c):
+        terms, constant = self.get(key, ({}, Fraction(0)))
+        self[key] = terms, constant + c
 def prove_no_squares(statement, given, name):
-    equations, grams = {}, []
-    for at, (label, comparison, domain) in enumerate(cases(statement)):
+    equations, posed = Equations(), []
+    for _, comparison, domain in cases(statement):
         if isinstance(comparison, Exception): raise comparison
-        m, sets, zero = polynomials_of(comparison, domain)
-        pose(at, m, sets, zero, comparison, equations, grams)
-    dead = plain_steps(equations, grams)
+        for part in parts(comparison, domain):
+            pose(len(posed), part, comparison.entry, equations)
+            posed.append(part)
+    dead = plain_steps(equations)
     if dead is None: return Claim(name, "proved", "a coefficient")
-    values = {}
-    for at, record in enumerate(given or []):
-        for y in record:
-            key = (at, int(y["row"]), int(y["column"]), tuple(map(int, y["exponents"])))
-            values[key] = Fraction(y["value"])
-    sums, matrices = {}, [filled(len(g.basis), len(g.basis), lambda i, j: Fraction(0)) for g in grams]
-    total = Fraction(0)
+    values = {(at, e): Fraction(y) for at, moments in enumerate(given or [])
+              for text, y in moments.items() for e in part_terms(posed[at], text)}
+    sums, total = {}, Fraction(0)
+    matrices = [filled(len(b), len(b), lambda i, j: Fraction(0)) for b in equations.bases]
     for key, (terms, constant) in equations.items():
         y = values.get(key, 0)
         total += y * constant
@@ -51,48 +58,41 @@ def prove_no_squares(statement, given, name):
                 == NEGATIVE: return Claim(name, "open", "moments that are not those of squares")
     return Claim(name, "proved", "moments") if total < 0 else \
         Claim(name, "open", "moments that exclude nothing")
-def monomials(count, degree):
-    found = set()
-    for chosen in combinations_with_replacement(range(count + 1), degree):
-        found.add(tuple(chosen.count(i) for i in range(count)))
-    return sorted(found, key=lambda e: (sum(e), e))
-def degree_of(p): return max(map(sum, p), default=0)
-def pose(at, m, sets, zero, comparison, equations, grams):
-    count, rows = zero.space[0], m.rows
-    parts = {}          # of u: polynomials by row, column
-    for i in range(rows):
-        for j in range(i, rows):
-            for k, f in affine_terms(m[i, j]).items():
-                parts.setdefault(k, {})[i, j] = terms_of(f, zero)
-    degree = max([degree_of(p) for part in parts.values() for p in part.values()] + [0])
-    asked = str(comparison.entry.get("degree", "+0"))
+def part_terms(part, text): return part.ring.terms(part.ring.read(text))
+def plus(*exponents): return tuple(map(sum, zip(*exponents)))
+def pose(at, part, entry, equations):
+    ring, count = part.ring, part.ring.count
+    rows = ring.units[count:] or [ring.nothing.origin()]
+    def degree_of(p): return max((sum(e[:count]) for e in p), default=0)
+    def monomials(degree):
+        found = set()
+        for chosen in combinations_with_replacement(range(count + 1), degree):
+            found.add(plus(ring.nothing.origin(), *(ring.units[i] for i in chosen if i < count)))
+        return sorted(found, key=lambda e: (sum(e), e))
+    polynomials = {k: ring.terms(f) for k, f in affine_terms(part.p).items()}
+    sets = [[ring.terms(f) for f in side] for side in (part.nonnegative, part.zero)]
+    degree = max(map(degree_of, polynomials.values()), default=0)
+    asked = str(entry.get("degree", "+0"))
     degree = degree + int(asked) if asked.startswith("+") else max(degree, int(asked))
     degree = max([degree] + [degree_of(p) for s in sets for p in s])
     degree += degree % 2
-    def put(i, j, e, term, c):
-        terms = equations.setdefault((at, min(i, j), max(i, j), e), ({}, Fraction(0)))[0]
-        terms[term] = terms.get(term, 0) + c
-    for k, part in parts.items():
-        for (i, j), p in part.items():
-            for e, c in p.items():
-                c = c * (1 if i == j else 2)
-                if k: put(i, j, e, ("u", k), -c)
-                else:
-                    terms, constant = equations.setdefault((at, i, j, e), ({}, Fraction(0)))
-                    equations[at, i, j, e] = terms, constant + c
-    for g in [{zero.origin(): Fraction(1)}] + sets[0]:
-        basis = [(r, e) for r in range(rows) for e in monomials(count, (degree - degree_of(g)) // 2)]
-        for b, (j, f) in enumerate(basis):
-            for a, (i, e) in enumerate(basis[:b + 1]):
+    for k, p in polynomials.items():
+        for e, c in p.items():
+            if k: equations.put((at, e), ("u", k), -c)
+            else: equations.add_constant((at, e), c)
+    for g in [{ring.nothing.origin(): Fraction(1)}] + sets[0]:
+        basis = [plus(r, e) for r in rows for e in monomials((degree - degree_of(g)) // 2)]
+        for b, f in enumerate(basis):
+            for a, e in enumerate(basis[:b + 1]):
                 for h, c in g.items():
-                    put(i, j, tuple(map(add, map(add, e, f), h)), ("q", len(grams), a, b),
-                        c * (1 if a == b else 2))
-        grams.append(Gram(basis, None))
+                    equations.put((at, plus(e, f, h)), ("q", len(equations.bases), a, b),
+                                  c * (1 if a == b else 2))
+        equations.bases.append(basis)
     for k, h in enumerate(sets[1]):
-        for i, j in product(range(rows), repeat=2):
-            for e in monomials(count, degree - degree_of(h)) if i <= j else ():
-                for f, c in h.items(): put(i, j, tuple(map(add, e, f)), ("t", at, k, i, j, e), c)
-def plain_steps(equations, grams):
+        for e in {plus(r, s, e) for r in rows for s in rows
+                  for e in monomials(degree - degree_of(h))}:
+            for f, c in h.items(): equations.put((at, plus(e, f)), ("t", at, k, e), c)
+def plain_steps(equations):
     """The rows (gram, a) that are 0 in every solution; None for a contradiction."""
     dead, fixed, goes_on = set(), {}, True
     while goes_on:

@@ -1,14 +1,59 @@
 """Inequalities for all x, as sums of squares. The file gives polynomials z and Gram matrices Q >= 0
-with  v'M(x)v = sum of g(x) z'Qz + sum of h(x) t(x, v),  where g >= 0 and h = 0 by `where`. Both sides
-are expanded, coefficient by coefficient, in fractions."""
+with  M = sum of g(x) z'Qz + sum of h(x) t(x),  where g >= 0 and h = 0 by `where`. Of a matrix M the
+identity is that of row'M(x) row. Both sides are expanded, coefficient by coefficient, in fractions."""
 import re
+from collections import namedtuple
 from fractions import Fraction
-from operator import add
-from arithmetic import Taylor, Unsupported, is_exact
-from language import Scope, parse
+from arithmetic import Taylor, Unsupported, affine_terms, is_exact
+from language import Scope, matrix, parse
 from matrices import POSITIVE, SEMIDEFINITE, Matrix, classify, column, flat, number
 from statement import Comparison, chain_parts, expect, inequality, listed
 ORDER = 400         # of polynomials: beyond it a Taylor model has a rest, and is refused
+# p = row'M(x) row, or M itself where it is a number, on the set g(x) >= 0, h(x) = 0.
+Posed = namedtuple("Posed", "p nonnegative zero ring")
+
+class Polynomials:
+    """Polynomials with fractions in the variables of a domain, and in a column `row`."""
+    def __init__(self, domain, rows=0):
+        n = len(domain.intervals)
+        self.nothing = Taylor({}, 0, (n + rows, ORDER))
+        self.units = [tuple(int(i == j) for j in range(n + rows)) for i in range(n + rows)]
+        x = [self.nothing.like({unit: Fraction(1)}) for unit in self.units]
+        names = {"row": column(x[n:])} if rows else {}
+        for i, t in zip(domain.intervals, x):
+            names[i.name] = number(t) if i.index is None else column(
+                (flat(names[i.name]) if i.index else []) + [t])
+        self.count, self.variables, self.rows = n, x[:n], x[n:]
+        self.scope = Scope(domain.scope, names)
+    def terms(self, f):
+        """{exponents: fraction} of a value; Unsupported where it is no polynomial."""
+        f = f if isinstance(f, Taylor) else self.nothing.lift(f)
+        if f.rest or not all(map(is_exact, f.terms.values())):
+            raise Unsupported("what is no polynomial with fractions")
+        return {e: c for e, c in f.terms.items() if c}
+    def read(self, text): return matrix(parse(text), self.scope).number()
+    def is_zero(self, f): return not any(self.terms(c) for c in affine_terms(f).values())
+    def constants(self):        # the exponents of what is not 0 at x = 0
+        return set(self.units[self.count:]) or {self.nothing.origin()}
+def parts(comparison, domain):
+    """One part, but of a diagonal matrix one for each element."""
+    ring = Polynomials(domain)
+    m = inequality(comparison, ring.scope)
+    pairs = [(i, j) for i in range(m.rows) for j in range(m.rows)]
+    if all(i == j or ring.is_zero(m[i, j]) for i, j in pairs): found = [m[i, i] for i in range(m.rows)]
+    else:
+        ring = Polynomials(domain, m.rows)
+        m = inequality(comparison, ring.scope)
+        found = [sum((ring.rows[i] * ring.rows[j] * m[i, j] for i, j in pairs), Fraction(0))]
+    sets = [], []
+    for text in listed(comparison.entry.get("where", [])):
+        for left, relation, right in chain_parts(parse(text)):
+            d = inequality(Comparison(left, relation, right, [], {}), ring.scope)
+            values = flat(d.transposed()) if relation == "==" else [d[i, i] for i in range(d.rows)]
+            sets[relation == "=="].extend(f for f in values if ring.terms(f))
+    for i, t in zip(domain.intervals, ring.variables):
+        if i.low is not None: sets[0].append((t - i.low) * (i.high - t))
+    return [Posed(p, *sets, ring) for p in found]
 def squares_of(gain, label):
     """The records of one comparison in the order of the finite choices of its forall, those of the
     elements of a column together."""
@@ -18,78 +63,31 @@ def squares_of(gain, label):
         if re.fullmatch(re.escape(label) + r"( at .*)?(\(\d+\))?", name, re.S):
             groups.setdefault(re.sub(r"\(\d+\)$", "", name), []).append(record)
     return list(groups.values())
-def polynomials_of(comparison, domain):
-    """(M, (polynomials >= 0, polynomials = 0), the polynomial 0) of one comparison."""
-    count = len(domain.intervals)
-    zero = Taylor({}, 0, (count, ORDER))
-    x = [zero.like({tuple(int(i == j) for j in range(count)): Fraction(1)}) for i in range(count)]
-    scope, sets = scope_of(domain, x), ([], [])
-    for text in listed(comparison.entry.get("where", [])):
-        for left, relation, right in chain_parts(parse(text)):
-            found = inequality(Comparison(left, relation, right, [], {}), scope)
-            found = flat(found.transposed()) if relation == "==" else \
-                [found[i, i] for i in range(found.rows)]
-            sets[relation == "=="].extend(p for p in (terms_of(f, zero) for f in found) if p)
-    for i, t in zip(domain.intervals, x):
-        if i.low is not None: sets[0].append(terms_of((t - i.low) * (i.high - t), zero))
-    return inequality(comparison, scope), sets, zero
 def prove_squares(comparison, domain, records):
     """None, or why the identities do not show the comparison."""
-    m, sets, zero = polynomials_of(comparison, domain)
-    parts = [Matrix([[m[i, i]]]) for i in range(m.rows)] if len(records) > 1 else [m]
-    if len(parts) != len(records): return "another number of identities"
+    found = parts(comparison, domain)
+    if len(found) != len(records): return "another number of identities"
     strict = comparison.sign in ("<", ">")
-    return next(filter(None, (fault_of(a, r, sets, zero, strict)
-                              for a, r in zip(parts, records))), None)
-def scope_of(domain, x):
-    names = {}
-    for i, t in zip(domain.intervals, x):
-        names[i.name] = number(t) if i.index is None else column(
-            (flat(names[i.name]) if i.index else []) + [t])
-    return Scope(domain.scope, names)
-def terms_of(f, zero):
-    """{exponents: fraction} of a polynomial; Unsupported for anything else."""
-    f = f if isinstance(f, Taylor) else zero.lift(f)
-    if f.rest or not all(map(is_exact, f.terms.values())):
-        raise Unsupported("what is no polynomial with fractions")
-    return {e: c for e, c in f.terms.items() if c}
-def fault_of(m, record, sets, zero, strict):
-    left, origin = {}, zero.origin()        # {(row, column, exponents): coefficient}
-    def put(i, j, e, c):
-        key = (min(i, j), max(i, j), e)
-        left[key] = left.get(key, 0) + c
-    for i in range(m.rows):
-        for j in range(m.cols):
-            for e, c in terms_of(m[i, j], zero).items(): put(i, j, e, c)
-    constants = set()
+    return next(filter(None, (fault_of(p, r, strict) for p, r in zip(found, records))), None)
+def fault_of(posed, record, strict):
+    left, ring, constants = posed.p, posed.ring, set()
     for square in record["squares"]:
-        times = factor(square["times"], sets[0], origin)
-        basis = [[summand(s) for s in z] for z in square["basis"]]
+        k, z = int(square["times"]), [ring.read(text) for text in square["basis"]]
         rows = [[Fraction(c) for c in row] for row in square["gram"]]
-        expect([len(row) for row in rows] == list(range(1, len(basis) + 1)), "a lower triangle")
-        gram = Matrix([[rows[max(a, b)][min(a, b)] for b in range(len(rows))]
-                       for a in range(len(rows))])
+        expect([len(row) for row in rows] == list(range(1, len(z) + 1)), "a lower triangle")
+        gram = Matrix([[rows[max(a, b)][min(a, b)] for b in range(len(z))] for a in range(len(z))])
         found = classify(gram)
         if found not in (POSITIVE, SEMIDEFINITE): return "a Gram matrix that is not semidefinite"
-        if found == POSITIVE and int(square["times"]) == 0:
-            constants |= {z[0][1] for z in basis if len(z) == 1 and z[0][2] == origin}
-        for a, first in enumerate(basis):
-            for b, second in enumerate(basis):
-                for c, i, e in first:
-                    for d, j, f in second:
-                        weight, both = gram[a, b] * c * d, tuple(map(add, e, f))
-                        for g, t in times.items() if weight else ():
-                            put(i, j, tuple(map(add, both, g)), -weight * t)
+        if found == POSITIVE and k == 0:
+            constants.update(*(e for e in map(ring.terms, z) if len(e) == 1))
+        for a, first in enumerate(z):
+            inner = sum((gram[a, b] * second for b, second in enumerate(z)), Fraction(0))
+            left = left - factor(k, posed.nonnegative) * (first * inner)
     for free in record.get("free", []):
-        c, i, e = summand(free)
         expect(int(free["times"]) > 0, "times: an equation under where")
-        for g, t in factor(free["times"], sets[1], origin).items():
-            put(i, int(free["column"]), tuple(map(add, e, g)), -c * t)
-    if any(left.values()): return "an identity that does not hold"
-    if strict and constants < set(range(m.rows)): return "squares that may all be 0"
-    return None
-def factor(times, polynomials, origin):
-    k = int(times)
+        left = left - factor(int(free["times"]), posed.zero) * ring.read(free["polynomial"])
+    if not ring.is_zero(left): return "an identity that does not hold"
+    return "squares that may all be 0" if strict and not ring.constants() <= constants else None
+def factor(k, polynomials):
     expect(0 <= k <= len(polynomials), "times: a polynomial under where")
-    return polynomials[k - 1] if k else {origin: Fraction(1)}
-def summand(s): return Fraction(s["c"]), int(s["row"]), tuple(int(e) for e in s["exponents"])
+    return polynomials[k - 1] if k else Fraction(1)
