@@ -79,6 +79,19 @@ std::string functions_text(const model::Gains& gains) {
   return text;
 }
 
+/// The unknown functions, where the method asks for no gains.
+std::string unknown_functions_text(const model::Gains& gains) {
+  constexpr std::size_t kMostCharacters = 500;
+  if (!gains.gains.empty() || !gains.gain_functions.empty() || gains.unknowns.empty()) return "";
+  std::string text;
+  for (const model::StatedFunction& function : gains.functions)
+    if (const auto value = with_values(function, gains))
+      text +=
+          fmt::format("{:<12}{} = {}\n", text.empty() ? "unknowns" : "", function.signature,
+                      value->size() <= kMostCharacters ? *value : "a long sum: see the gain file");
+  return text;
+}
+
 std::string margins_text(const model::Gains& gains) {
   if (gains.margins.empty()) return "";
   std::size_t width = 10;
@@ -261,7 +274,8 @@ std::string synthesis_summary(const model::Gains& gains) {
                   gains.statement.method_name, to_string(gains.verdict), solver_line(gains));
   text += message_lines(gains);
   text += objective_text(gains) + solution_line(gains) +
-          named_matrices("gains", gains.gains, gains) + functions_text(gains) + report_text(gains) +
+          named_matrices("gains", gains.gains, gains) + functions_text(gains) +
+          unknown_functions_text(gains) + report_text(gains) +
           named_matrices("parameters", gains.parameters, gains) + searched_text(gains) +
           search_text(gains);
   text += bounds_text(gains) + certificate_text(gains) + margins_text(gains) + margins_note(gains);
