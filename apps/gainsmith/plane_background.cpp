@@ -148,7 +148,8 @@ class Background {
     for (const claims::Claim& claim : texts_.setup().claims)
       if (texts_.has_levels(claim) && claim.bound && texts_.reads_states_alone(*claim.bound)) {
         const double bound = texts_.value(*claim.bound).number(origin_);
-        add_level(claim, bound, kBlack, claim.name + ": " + brief(bound));
+        add_level(claim, bound, kBlack + static_cast<int>(levels_.size()),
+                  claim.name + ": " + brief(bound));
       }
     if (!levels_.empty()) return;
     for (const claims::Claim& claim : texts_.setup().claims)
