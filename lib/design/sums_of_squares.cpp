@@ -9,6 +9,7 @@
 #include "base/number.h"
 #include "design/sos_records.h"
 #include "numbers/definite.h"
+#include "numbers/dense.h"
 #include "sos/counterexample.h"
 #include "sos/moments.h"
 #include "verdict/rational_blocks.h"
