@@ -1,6 +1,7 @@
 // Monomials x_1^e_1 ... x_n^e_n.
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -22,14 +23,13 @@ class Monomial {
   /// One more than the last variable that occurs.
   std::size_t variables() const { return exponents_.size(); }
   int degree() const { return degree_; }
-  const std::vector<int>& exponents() const { return exponents_; }
   /// With e_i = 0.
   Monomial without(std::size_t variable) const;
 
   friend Monomial operator*(const Monomial& a, const Monomial& b);
   bool operator==(const Monomial&) const = default;
   /// By degree, and then the higher powers of the first variables first: 1, x, y, x^2, x*y, y^2.
-  friend bool operator<(const Monomial& a, const Monomial& b);
+  friend std::strong_ordering operator<=>(const Monomial& a, const Monomial& b);
 
  private:
   void trim();
