@@ -125,9 +125,9 @@ Columns::Place Columns::place(int column) const {
   const auto after = std::upper_bound(first_.begin(), first_.end(), column);
   Place place;
   place.gram = static_cast<std::size_t>(after - first_.begin()) - 1;
-  int rest = column - first_[place.gram];
-  while (rest > place.column) rest -= ++place.column;
-  place.row = rest;
+  const int rest = column - first_[place.gram];
+  place.column = static_cast<int>((std::sqrt(8.0 * rest + 1) - 1) / 2);
+  place.row = rest - place.column * (place.column + 1) / 2;
   return place;
 }
 
