@@ -47,6 +47,13 @@ std::string to_string(const Monomial& monomial, const std::vector<std::string>& 
   return text.empty() ? "1" : text;
 }
 
+double count_of_monomials(std::size_t n, int degree) {
+  double count = 1;
+  for (std::size_t i = 1; i <= n; ++i)
+    count *= (degree + static_cast<double>(i)) / static_cast<double>(i);
+  return count;
+}
+
 std::vector<Monomial> monomials(std::size_t n, int low, int high) {
   std::vector<Monomial> result, of_degree = {Monomial()};
   for (int degree = 0; degree <= high; ++degree) {

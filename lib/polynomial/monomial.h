@@ -41,6 +41,9 @@ class Monomial {
 /// "x_1^2*x_2"; "1" without variables.
 std::string to_string(const Monomial& monomial, const std::vector<std::string>& names);
 
+/// How many monomials in n variables have at most a degree: C(n + degree, n).
+double count_of_monomials(std::size_t n, int degree);
+
 /// All monomials in n variables of a degree from `low` to `high`, in their order.
 std::vector<Monomial> monomials(std::size_t n, int low, int high);
 

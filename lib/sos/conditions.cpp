@@ -4,6 +4,7 @@
 #include <map>
 
 #include "base/stop.h"
+#include "numbers/matrix.h"
 #include "numerics/lattice.h"
 #include "sos/identity.h"
 #include "sos/reduce.h"
@@ -31,15 +32,10 @@ std::vector<Equation> conditions_on_unknowns(const Program& program) {
 
 std::optional<std::vector<Rational>> decimals_near(const std::vector<double>& u,
                                                    const std::vector<Equation>& conditions) {
-  double largest = 0;
-  for (const double value : u) {
-    if (!std::isfinite(value)) return std::nullopt;
-    largest = std::max(largest, std::abs(value));
-  }
+  const auto all = numbers::Vector::Map(u.data(), std::ssize(u));
+  if (!all.allFinite()) return std::nullopt;
   constexpr int kDigits = 14;
-  const int decimals =
-      largest > 0 ? kDigits - static_cast<int>(std::ceil(std::log10(largest))) : kDigits;
-  const Rational unit = power_of_ten(decimals);
+  const Rational unit = power_of_ten(decimals_for(all.lpNorm<Eigen::Infinity>(), kDigits));
   const auto rows = static_cast<Index>(conditions.size());
   RationalMatrix A = RationalMatrix::Zero(rows, std::ssize(u)), b(rows, 1);
   for (Index i = 0; i < rows; ++i) {

@@ -74,14 +74,6 @@ class Units {
   numbers::Vector exponents_;
 };
 
-/// C(n + degree, n).
-double count_of(std::size_t n, int degree) {
-  double count = 1;
-  for (std::size_t i = 1; i <= n; ++i)
-    count *= (degree + static_cast<double>(i)) / static_cast<double>(i);
-  return count;
-}
-
 /// Adds the unknowns of a statement.
 void pose(Program& program, std::size_t at) {
   const Statement& statement = program.statements[at];
@@ -89,7 +81,8 @@ void pose(Program& program, std::size_t at) {
   const int degree = degree_of(statement);
   const auto rows = static_cast<int>(statement.matrix.rows());
   constexpr double kMost = 20000;
-  if (count_of(n, degree) > kMost) throw std::length_error("too many monomials");
+  if (polynomial::count_of_monomials(n, degree) > kMost)
+    throw std::length_error("too many monomials");
   const Units units(statement, n);
   const auto add = [&](std::size_t multiplier, const Polynomial& times) {
     Gram& gram = program.grams.emplace_back(Gram{at, multiplier, times, {}});
