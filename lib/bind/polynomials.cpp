@@ -54,9 +54,7 @@ void add_polynomial(Binding& binding, const model::UnknownDeclaration& unknown,
                     const model::Design::Unknown& like) {
   constexpr std::size_t kMostTerms = 5000;
   const std::vector<std::string> variables = variables_of(binding, unknown);
-  double count = 1;
-  for (std::size_t i = 1; i <= variables.size(); ++i)
-    count *= static_cast<double>(like.degree + static_cast<int>(i)) / static_cast<double>(i);
+  const double count = polynomial::count_of_monomials(variables.size(), like.degree);
   if (count > kMostTerms)
     throw InputError(unknown.place, unknown.name + " has " + brief(count) +
                                         " terms; at most 5000 are computed with");

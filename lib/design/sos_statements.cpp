@@ -152,9 +152,7 @@ class Statements {
   /// Of a diagonal matrix its elements one by one.
   void add_parts(std::size_t at, sos::Statement statement, const Domain& domain) {
     const PolynomialMatrix M = statement.matrix;
-    bool is_diagonal = M.rows() > 1;
-    for (Eigen::Index c = 0; c < M.cols(); ++c)
-      for (Eigen::Index r = 0; r < c; ++r) is_diagonal = is_diagonal && M(r, c).terms().empty();
+    const bool is_diagonal = M.rows() > 1 && M == PolynomialMatrix(M.diagonal().asDiagonal());
     const Eigen::Index parts = is_diagonal ? M.rows() : 1;
     for (Eigen::Index k = 0; k < parts; ++k) {
       sos::Statement part = statement;
@@ -194,11 +192,11 @@ class Statements {
 }  // namespace
 
 bool hold_at_zero(const SosStatements& stated) {
-  return std::ranges::all_of(stated.statements, [](const sos::Statement& statement) {
-    return !statement.strict &&
-           std::ranges::all_of(statement.matrix.reshaped(), [](const Polynomial& p) {
-             return std::ranges::all_of(p.terms(),
-                                        [](const auto& term) { return term.first.unknown != 0; });
+  const std::vector<Rational> zeros(stated.unknowns.size());
+  return std::ranges::none_of(stated.statements, [&](const sos::Statement& statement) {
+    return statement.strict ||
+           std::ranges::any_of(statement.matrix.reshaped(), [&](const Polynomial& p) {
+             return with_unknowns(p, zeros) != Polynomial();
            });
   });
 }

@@ -9,6 +9,7 @@
 #include "base/number.h"
 #include "design/sos_records.h"
 #include "numbers/definite.h"
+#include "numbers/dense.h"
 #include "sos/counterexample.h"
 #include "sos/moments.h"
 #include "verdict/rational_blocks.h"
@@ -154,13 +155,8 @@ class Solving {
       keep_decimals(unknown, u);
     }
     gains_.sums_of_squares = identity_records(decision, stated_);
-    if (stated_.objective) {
-      Rational value = 0;
-      for (const auto& [term, c] : stated_.objective->terms())
-        value +=
-            term.unknown == 0 ? c : Rational(c * u[static_cast<std::size_t>(term.unknown) - 1]);
-      gains_.objective = nearest_double(value);
-    }
+    if (stated_.objective)
+      gains_.objective = nearest_double(with_unknowns(*stated_.objective, u).number());
     add_margins(decision);
   }
 

@@ -26,17 +26,15 @@ Monomial Monomial::without(std::size_t variable) const {
 }
 
 Monomial operator*(const Monomial& a, const Monomial& b) {
-  const bool is_longer = a.variables() >= b.variables();
-  Monomial result = is_longer ? a : b;
-  const Monomial& other = is_longer ? b : a;
-  for (std::size_t i = 0; i < other.variables(); ++i) result.exponents_[i] += other.exponents_[i];
-  result.degree_ += other.degree_;
+  if (a.variables() < b.variables()) return b * a;
+  Monomial result = a;
+  for (std::size_t i = 0; i < b.variables(); ++i) result.exponents_[i] += b.exponents_[i];
+  result.degree_ += b.degree_;
   return result;
 }
 
-bool operator<(const Monomial& a, const Monomial& b) {
-  if (a.degree_ != b.degree_) return a.degree_ < b.degree_;
-  return b.exponents_ < a.exponents_;
+std::strong_ordering operator<=>(const Monomial& a, const Monomial& b) {
+  return a.degree_ != b.degree_ ? a.degree_ <=> b.degree_ : b.exponents_ <=> a.exponents_;
 }
 
 std::string to_string(const Monomial& monomial, const std::vector<std::string>& names) {
@@ -49,32 +47,23 @@ std::string to_string(const Monomial& monomial, const std::vector<std::string>& 
   return text.empty() ? "1" : text;
 }
 
-namespace {
-
-/// Those of one degree whose first exponents are given, by falling powers of the next variable.
-void add_of_degree(std::size_t n, int degree, std::vector<int>& exponents,
-                   std::vector<Monomial>& out) {
-  if (exponents.size() + 1 >= n) {
-    if (n == 0 && degree > 0) return;
-    if (n > 0) exponents.push_back(degree);
-    out.emplace_back(exponents);
-    if (n > 0) exponents.pop_back();
-    return;
-  }
-  for (int e = degree; e >= 0; --e) {
-    exponents.push_back(e);
-    add_of_degree(n, degree - e, exponents, out);
-    exponents.pop_back();
-  }
+double count_of_monomials(std::size_t n, int degree) {
+  double count = 1;
+  for (std::size_t i = 1; i <= n; ++i)
+    count *= (degree + static_cast<double>(i)) / static_cast<double>(i);
+  return count;
 }
 
-}  // namespace
-
 std::vector<Monomial> monomials(std::size_t n, int low, int high) {
-  std::vector<Monomial> result;
-  std::vector<int> exponents;
-  for (int degree = std::max(low, 0); degree <= high; ++degree)
-    add_of_degree(n, degree, exponents, result);
+  std::vector<Monomial> result, of_degree = {Monomial()};
+  for (int degree = 0; degree <= high; ++degree) {
+    if (degree >= low) result.insert(result.end(), of_degree.begin(), of_degree.end());
+    std::vector<Monomial> next;
+    for (const Monomial& m : of_degree)
+      for (std::size_t i = std::max<std::size_t>(m.variables(), 1) - 1; i < n; ++i)
+        next.push_back(m * Monomial(i));
+    of_degree = std::move(next);
+  }
   return result;
 }
 

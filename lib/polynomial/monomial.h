@@ -1,6 +1,7 @@
 // Monomials x_1^e_1 ... x_n^e_n.
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -22,14 +23,13 @@ class Monomial {
   /// One more than the last variable that occurs.
   std::size_t variables() const { return exponents_.size(); }
   int degree() const { return degree_; }
-  const std::vector<int>& exponents() const { return exponents_; }
   /// With e_i = 0.
   Monomial without(std::size_t variable) const;
 
   friend Monomial operator*(const Monomial& a, const Monomial& b);
   bool operator==(const Monomial&) const = default;
   /// By degree, and then the higher powers of the first variables first: 1, x, y, x^2, x*y, y^2.
-  friend bool operator<(const Monomial& a, const Monomial& b);
+  friend std::strong_ordering operator<=>(const Monomial& a, const Monomial& b);
 
  private:
   void trim();
@@ -40,6 +40,9 @@ class Monomial {
 
 /// "x_1^2*x_2"; "1" without variables.
 std::string to_string(const Monomial& monomial, const std::vector<std::string>& names);
+
+/// How many monomials in n variables have at most a degree: C(n + degree, n).
+double count_of_monomials(std::size_t n, int degree);
 
 /// All monomials in n variables of a degree from `low` to `high`, in their order.
 std::vector<Monomial> monomials(std::size_t n, int low, int high);

@@ -1,7 +1,6 @@
 #include "polynomial/polynomial.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "base/stop.h"
 
@@ -35,17 +34,8 @@ void Polynomial::add(const Term& term, const Rational& coefficient) {
   if (at->second == 0) terms_.erase(at);
 }
 
-void Polynomial::add(const Polynomial& other, const Rational& factor) {
+Polynomial& Polynomial::add(const Polynomial& other, const Rational& factor) {
   for (const auto& [term, c] : other.terms_) add(term, Rational(c * factor));
-}
-
-Polynomial& Polynomial::operator+=(const Polynomial& b) {
-  for (const auto& [term, c] : b.terms_) add(term, c);
-  return *this;
-}
-
-Polynomial& Polynomial::operator-=(const Polynomial& b) {
-  for (const auto& [term, c] : b.terms_) add(term, Rational(-c));
   return *this;
 }
 
@@ -60,8 +50,7 @@ Polynomial operator*(const Polynomial& a, const Polynomial& b) {
   Polynomial result;
   for (const auto& [s, c] : a.terms_)
     for (const auto& [t, d] : b.terms_) {
-      if (s.unknown != 0 && t.unknown != 0)
-        throw std::logic_error("a product of two unknowns is no polynomial of this kind");
+      if (s.unknown != 0 && t.unknown != 0) throw ProductOfUnknowns(s.unknown, t.unknown);
       result.add({s.monomial * t.monomial, s.unknown + t.unknown}, Rational(c * d));
     }
   return result;

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <map>
+#include <stdexcept>
 
 #include "base/rational.h"
 #include "polynomial/monomial.h"
@@ -16,11 +17,13 @@ struct Term {
   Monomial monomial;
   int unknown = 0;
 
-  friend bool operator<(const Term& a, const Term& b) {
-    if (a.monomial == b.monomial) return a.unknown < b.unknown;
-    return a.monomial < b.monomial;
-  }
-  bool operator==(const Term&) const = default;
+  auto operator<=>(const Term&) const = default;
+};
+
+/// It is no polynomial of this kind.
+struct ProductOfUnknowns : std::logic_error {
+  ProductOfUnknowns(int a, int b) : logic_error("a product of unknowns"), first(a), second(b) {}
+  int first, second;
 };
 
 class Polynomial {
@@ -46,15 +49,15 @@ class Polynomial {
   std::size_t variables() const;
 
   void add(const Term& term, const Rational& coefficient);
-  void add(const Polynomial& other, const Rational& factor);
+  Polynomial& add(const Polynomial& other, const Rational& factor);
 
-  Polynomial& operator+=(const Polynomial& b);
-  Polynomial& operator-=(const Polynomial& b);
+  Polynomial& operator+=(const Polynomial& b) { return add(b, 1); }
+  Polynomial& operator-=(const Polynomial& b) { return add(b, -1); }
   Polynomial& operator*=(const Rational& factor);
   friend Polynomial operator+(Polynomial a, const Polynomial& b) { return a += b; }
   friend Polynomial operator-(Polynomial a, const Polynomial& b) { return a -= b; }
   friend Polynomial operator-(Polynomial a) { return a *= Rational(-1); }
-  /// std::logic_error where both have an unknown.
+  /// ProductOfUnknowns where both have an unknown.
   friend Polynomial operator*(const Polynomial& a, const Polynomial& b);
   Polynomial& operator*=(const Polynomial& b) { return *this = *this * b; }
   bool operator==(const Polynomial&) const = default;

@@ -44,12 +44,6 @@ bool is_number(const PolynomialMatrix& x) {
   return std::ranges::all_of(x.reshaped(), [](const Polynomial& p) { return p.is_number(); });
 }
 
-int unknown_of(const PolynomialMatrix& x) {
-  for (const Polynomial& p : x.reshaped())
-    if (const int found = p.unknown(); found != 0) return found;
-  return 0;
-}
-
 /// Operations that a polynomial has no value of.
 constexpr bool leaves_polynomials(Op op) {
   constexpr std::array kOperations = {Op::abs,     Op::minimum,
@@ -71,29 +65,14 @@ struct Rules : numbers::RingRules<Polynomial> {
 
   explicit Rules(const PolynomialNumbers& of) : type(of) {}
 
-  /// EvaluationError where both have unknowns.
-  void check_product(const Value& a, const Value& b) const {
-    const int first = unknown_of(a), second = unknown_of(b);
-    if (first == 0 || second == 0) return;
-    const auto name = [&](int unknown) {
-      return (*type.unknowns)[static_cast<std::size_t>(unknown) - 1];
-    };
-    throw expr::EvaluationError(
-        "not affine in the unknowns: a product of " + name(first) + " and " + name(second) +
-        "; fix one of them as a datum, or solve for one and then, with its values, for the other");
-  }
-
   void operator()(Is<Op::multiply>, const At& at, Value& out) const {
-    check_product(at[0], at[1]);
     out = at[0].lazyProduct(at[1]);
     if (at[0].cols() == 0) out.setConstant(Polynomial());
   }
   void operator()(Is<Op::scale>, const At& at, Value& out) const {
-    check_product(at[0], at[1]);
     out = at[1].unaryExpr([&](const Polynomial& p) { return at[0](0, 0) * p; });
   }
   void operator()(Is<Op::elementwise_product>, const At& at, Value& out) const {
-    check_product(at[0], at[1]);
     out = at[0].cwiseProduct(at[1]);
   }
   void operator()(Is<Op::divide>, const At& at, Value& out) const {
@@ -117,7 +96,6 @@ struct Rules : numbers::RingRules<Polynomial> {
     constexpr int kMost = 100;
     const int exponent = at.attribute(0);
     if (exponent > kMost) throw expr::EvaluationError("a power above 100 has too many terms");
-    if (exponent > 1) check_product(at[0], at[0]);
     const bool is_matrix = op == Op::power;
     if (is_matrix)
       out = Value::Identity(at[0].rows(), at[0].cols());
@@ -158,7 +136,15 @@ void PolynomialNumbers::apply(const expr::Instruction& instruction, expr::Operan
   const bool is_of_numbers =
       std::ranges::all_of(operands, [](const Value* x) { return is_number(*x); });
   if (!is_of_numbers || instruction.op == Op::jacobian) {
-    expr::dispatch(Rules(*this), instruction, operands, out);
+    try {
+      expr::dispatch(Rules(*this), instruction, operands, out);
+    } catch (const ProductOfUnknowns& product) {
+      const auto name = [&](int k) { return (*unknowns)[static_cast<std::size_t>(k) - 1]; };
+      throw expr::EvaluationError("not affine in the unknowns: a product of " +
+                                  name(product.first) + " and " + name(product.second) +
+                                  "; fix one of them as a datum, or solve for one and then, with "
+                                  "its values, for the other");
+    }
     return;
   }
   std::vector<numbers::RationalMatrix> values;

@@ -1,12 +1,10 @@
 #include "sos/face.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <numeric>
 
 #include "base/eigen_scalars.h"
-#include "numbers/factor.h"
 #include "numbers/rational_algebra.h"
 #include "numerics/lattice.h"
 
@@ -25,63 +23,30 @@ struct Dependence {
   Wide N;
 };
 
-/// M^-1 B, M positive definite.
-Wide solution_of(Wide M, Wide B) {
-  numbers::factor_in_place<DoubleDouble>(M);
-  const Index n = M.rows();
-  for (Index i = 0; i < n; ++i)
-    for (Index j = 0; j < B.cols(); ++j) {
-      for (Index k = 0; k < i; ++k) B(i, j) -= M(i, k) * B(k, j);
-      B(i, j) /= M(i, i);
-    }
-  for (Index i = n; i-- > 0;)
-    for (Index j = 0; j < B.cols(); ++j) {
-      for (Index k = i + 1; k < n; ++k) B(i, j) -= M(k, i) * B(k, j);
-      B(i, j) /= M(i, i);
-    }
-  return B;
-}
-
-/// By Cholesky's factorisation with the largest pivots, of Q in the units of its diagonal.
+/// By Gauss and Jordan's elimination with the largest pivots of the diagonal, in the units of that of
+/// Q.
 Dependence dependence_of(const Wide& Q) {
   constexpr double kNothing = 1e-5, kNoRow = 1e-6;
-  const Index n = Q.rows();
-  Wide M = Q;
-  std::vector<DoubleDouble> diagonal;
-  double largest = 0;
-  for (Index i = 0; i < n; ++i) {
-    diagonal.push_back(Q(i, i));
-    largest = std::max(largest, Q(i, i).hi());
-  }
-  std::vector<bool> taken(static_cast<std::size_t>(n), false);
   Dependence result;
-  for (Index step = 0; step < n; ++step) {
-    Index best = -1;
-    double most = kNothing;
-    for (Index i = 0; i < n; ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      if (taken[at] || !(diagonal[at].hi() > kNoRow * largest)) continue;
-      const double share = M(i, i).hi() / diagonal[at].hi();
-      if (share > most) {
-        best = i;
-        most = share;
-      }
-    }
-    if (best < 0) break;
-    taken[static_cast<std::size_t>(best)] = true;
-    result.independent.push_back(best);
-    const Wide column = M.col(best);
-    const DoubleDouble pivot = M(best, best);
-    for (Index j = 0; j < n; ++j) {
-      const DoubleDouble factor = column(j) / pivot;
-      for (Index i = 0; i < n; ++i) M(i, j) -= column(i) * factor;
-    }
+  result.dependent.resize(static_cast<std::size_t>(Q.rows()));
+  std::iota(result.dependent.begin(), result.dependent.end(), Index(0));
+  double largest = 0;
+  for (const DoubleDouble& x : Q.diagonal()) largest = std::max(largest, x.hi());
+  Wide M = Q;
+  const auto share = [&](Index i) {
+    return Q(i, i).hi() > kNoRow * largest ? M(i, i).hi() / Q(i, i).hi() : 0.0;
+  };
+  while (!result.dependent.empty()) {
+    const auto best = std::ranges::max_element(result.dependent, {}, share);
+    const Index k = *best;
+    if (!(share(k) > kNothing)) break;
+    result.dependent.erase(best);
+    result.independent.push_back(k);
+    M.row(k) /= DoubleDouble(M(k, k));
+    for (Index i = 0; i < M.rows(); ++i)
+      if (i != k) M.row(i) -= DoubleDouble(M(i, k)) * M.row(k);
   }
-  for (Index i = 0; i < n; ++i)
-    if (!taken[static_cast<std::size_t>(i)]) result.dependent.push_back(i);
-  result.N = solution_of(Q(result.independent, result.independent),
-                         Q(result.independent, result.dependent))
-                 .transpose();
+  result.N = M(result.independent, result.dependent).transpose();
   return result;
 }
 
@@ -104,7 +69,7 @@ std::vector<BasisPolynomial> combined(const std::vector<BasisPolynomial>& basis,
 
 /// Whole vectors v, short, that are nearly in the kernel: v_i + sum_d N_di v_d = 0 for each
 /// independent row i, by a reduced basis of the vectors (v, K times what is left of that). As many as
-/// rows are dependent; none where others are as short.
+/// rows are dependent, which are the first columns; none where others are as short.
 std::optional<RationalMatrix> whole_kernel(const Dependence& rows, const std::vector<double>& scale,
                                            int digits) {
   const std::size_t r = rows.independent.size(), k = rows.dependent.size(), n = r + k;
@@ -122,65 +87,53 @@ std::optional<RationalMatrix> whole_kernel(const Dependence& rows, const std::ve
     }
   }
   basis = numerics::reduced_basis(std::move(basis));
-  std::vector<double> lengths;
-  for (const auto& vector : basis) {
-    double sum = 0;
-    for (const Integer& x : vector) sum += std::pow(nearest_double(Rational(x)), 2);
-    lengths.push_back(std::sqrt(sum));
-  }
-  constexpr double kShorter = 10;
-  std::vector<std::size_t> order(n);
-  std::iota(order.begin(), order.end(), 0U);
-  std::ranges::stable_sort(order, {}, [&](std::size_t at) { return lengths[at]; });
-  if (r > 0 && lengths[order[k - 1]] * kShorter > lengths[order[k]]) return std::nullopt;
+  const auto square = [](const numerics::IntegerVector& v) {
+    return std::inner_product(v.begin(), v.end(), v.begin(), Integer(0));
+  };
+  std::ranges::stable_sort(basis, {}, square);
+  constexpr int kShorter = 10;
+  if (r > 0 && square(basis[k - 1]) * (kShorter * kShorter) > square(basis[k])) return std::nullopt;
   RationalMatrix result(static_cast<Index>(k), static_cast<Index>(n));
-  for (std::size_t v = 0; v < k; ++v)
-    for (std::size_t j = 0; j < n; ++j)
-      result(static_cast<Index>(v), static_cast<Index>(j)) = basis[order[v]][j];
+  for (Index v = 0; v < result.rows(); ++v)
+    for (std::size_t j = 0; j < n; ++j) {
+      const Index row = j < k ? rows.dependent[j] : rows.independent[j - k];
+      result(v, static_cast<Index>(j)) =
+          basis[static_cast<std::size_t>(v)][static_cast<std::size_t>(row)];
+    }
   return result;
 }
 
-/// [I; N] over the independent and the dependent rows, for the kernel [-N', I] in fractions.
-std::optional<RationalMatrix> spanning(const Dependence& rows, const RationalMatrix& kernel) {
-  const RationalMatrix all = kernel(Eigen::all, rows.dependent);
-  const auto inverse = numbers::rational_inverse(all);
-  if (!inverse) return std::nullopt;
-  const RationalMatrix along = kernel(Eigen::all, rows.independent);
-  const RationalMatrix N = -numbers::rational_product(*inverse, along);
-  RationalMatrix W = RationalMatrix::Zero(kernel.cols(), N.cols());
-  for (Index j = 0; j < N.cols(); ++j) {
-    W(rows.independent[static_cast<std::size_t>(j)], j) = 1;
-    for (Index i = 0; i < N.rows(); ++i)
-      W(rows.dependent[static_cast<std::size_t>(i)], j) = N(i, j);
+/// On the face of the kernel, in fractions of so many digits.
+std::optional<Gram> restricted(const Gram& gram, const Dependence& rows, int digits) {
+  if (rows.dependent.empty()) return gram;
+  const auto kernel = whole_kernel(rows, gram.scale, digits);
+  if (!kernel) return std::nullopt;
+  Gram result = gram;
+  std::vector<BasisPolynomial> ordered;
+  result.scale.clear();
+  for (const Index i : rows.dependent) ordered.push_back(gram.basis[static_cast<std::size_t>(i)]);
+  for (const Index i : rows.independent) {
+    ordered.push_back(gram.basis[static_cast<std::size_t>(i)]);
+    result.scale.push_back(gram.scale[static_cast<std::size_t>(i)]);
   }
-  return W;
+  result.basis = combined(ordered, numbers::rational_kernel(*kernel));
+  return result;
 }
 
 }  // namespace
 
 std::optional<Program> restricted_to_faces(const Program& program, const Point& point) {
   std::vector<Dependence> rows;
-  bool some = false;
-  for (const auto& Q : point.balanced) {
-    rows.push_back(dependence_of(Q));
-    some = some || !rows.back().dependent.empty();
-  }
-  if (!some) return std::nullopt;
+  for (const auto& Q : point.balanced) rows.push_back(dependence_of(Q));
+  if (std::ranges::all_of(rows, [](const auto& one) { return one.dependent.empty(); }))
+    return std::nullopt;
   for (const int digits : {4, 7, 11, 16, 21}) {
     Program result = program;
     bool is_found = true;
     for (std::size_t g = 0; g < rows.size() && is_found; ++g) {
-      if (rows[g].dependent.empty()) continue;
-      Gram& gram = result.grams[g];
-      const auto kernel = whole_kernel(rows[g], gram.scale, digits);
-      const auto W = kernel ? spanning(rows[g], *kernel) : std::nullopt;
-      is_found = W.has_value();
-      if (!is_found) break;
-      gram.basis = combined(gram.basis, *W);
-      std::vector<double> scale;
-      for (const Index i : rows[g].independent)
-        scale.push_back(gram.scale[static_cast<std::size_t>(i)]);
-      gram.scale = std::move(scale);
+      auto gram = restricted(program.grams[g], rows[g], digits);
+      is_found = gram.has_value();
+      if (gram) result.grams[g] = std::move(*gram);
     }
     if (is_found && agree(eliminate(result, equations_of(result)))) return result;
   }

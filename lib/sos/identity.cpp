@@ -18,6 +18,11 @@ Rational rounded_to(const Rational& x, int decimals) {
   return Rational(nearest_integer(Rational(x * unit))) / unit;
 }
 
+int decimals_for(double largest, int digits) {
+  const bool has_size = largest > 0 && std::isfinite(largest);
+  return digits - (has_size ? static_cast<int>(std::ceil(std::log10(largest))) : 0);
+}
+
 bool is_shown_definite(const RationalMatrix& Q) {
   numbers::Enclosed<DoubleDouble> enclosed;
   enclosed.resize(Q.rows(), Q.cols());
@@ -35,34 +40,21 @@ namespace {
 bool keeps_constants(const Program& program, const Gram& gram) {
   const Statement& statement = program.statements[gram.statement];
   if (gram.multiplier != 0 || !statement.strict) return true;
-  const auto is_constant = [](const BasisPolynomial& one) {
-    return one.size() == 1 && one.front().first.monomial.degree() == 0;
-  };
-  if (std::ranges::count_if(gram.basis, is_constant) == statement.matrix.rows()) return true;
   std::map<Element, Index> places;
+  for (int r = 0; r < statement.matrix.rows(); ++r) places[{r, {}}] = r;
   for (const BasisPolynomial& polynomial : gram.basis)
     for (const auto& [element, c] : polynomial) places.try_emplace(element, std::ssize(places));
   RationalMatrix basis = RationalMatrix::Zero(std::ssize(places), gram.size());
   for (Index k = 0; k < gram.size(); ++k)
     for (const auto& [element, c] : gram.basis[static_cast<std::size_t>(k)])
       basis(places.at(element), k) = c;
-  RationalMatrix constants = RationalMatrix::Zero(basis.rows(), statement.matrix.rows());
-  for (int r = 0; r < statement.matrix.rows(); ++r) {
-    const auto place = places.find({r, {}});
-    if (place == places.end()) return false;
-    constants(place->second, r) = 1;
-  }
+  const RationalMatrix constants = RationalMatrix::Identity(basis.rows(), statement.matrix.rows());
   return numbers::rational_solution(basis, constants).has_value();
 }
 
-/// So many that the largest has 13 digits.
-int decimals_for(double largest) {
-  constexpr int kDigits = 13, kMost = 60;
-  if (!(largest > 0) || !std::isfinite(largest)) return kDigits;
-  return std::clamp(kDigits - static_cast<int>(std::ceil(std::log10(largest))), 0, kMost);
-}
-
 class Rounding {
+  static constexpr int kDigits = 13;
+
  public:
   Rounding(const Program& program, const Point& point, const std::vector<Rational>& u)
       : program_(program),
@@ -74,11 +66,11 @@ class Rounding {
     for (int k = 0; k < columns_.unknowns(); ++k) value(k) = u[static_cast<std::size_t>(k)];
     for (int k = columns_.unknowns(); k < columns_.frees(); ++k) {
       const double x = point.free[static_cast<std::size_t>(k)];
-      set(k, x, decimals_for(std::max(std::abs(x), 1.0)));
+      set(k, x, decimals_for(std::max(std::abs(x), 1.0), kDigits));
     }
     for (std::size_t g = 0; g < program.grams.size(); ++g) {
       const numbers::Matrix& Q = point.grams[g];
-      const int decimals = decimals_for(Q.size() == 0 ? 0 : Q.cwiseAbs().maxCoeff());
+      const int decimals = decimals_for(Q.lpNorm<Eigen::Infinity>(), kDigits);
       for (int c = 0; c < Q.cols(); ++c)
         for (int r = 0; r <= c; ++r) set(columns_.element(g, r, c), Q(r, c), decimals);
     }

@@ -31,6 +31,9 @@ std::vector<Equation> conditions_on_unknowns(const Program& program);
 std::optional<std::vector<Rational>> decimals_near(const std::vector<double>& u,
                                                    const std::vector<Equation>& conditions);
 
+/// With these many decimals a number of that size has so many digits.
+int decimals_for(double largest, int digits);
+
 /// x with so many decimals.
 Rational rounded_to(const Rational& x, int decimals);
 

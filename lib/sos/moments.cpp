@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/stop.h"
+#include "numbers/matrix.h"
 #include "numbers/rational_algebra.h"
 #include "sos/identity.h"
 
@@ -44,12 +45,15 @@ bool are_semidefinite(const std::vector<RationalMatrix>& X) {
   });
 }
 
+double size_of(const std::vector<double>& x) {
+  return numbers::Vector::Map(x.data(), std::ssize(x)).lpNorm<Eigen::Infinity>();
+}
+
 /// With so many digits of the largest.
 Moments rounded(const std::vector<double>& x, int digits) {
-  double largest = 0;
-  for (const double value : x) largest = std::max(largest, std::abs(value));
-  if (!(largest > 0) || !std::isfinite(largest)) return Moments(x.size(), Rational(0));
-  const int decimals = digits - static_cast<int>(std::ceil(std::log10(largest)));
+  const double largest = size_of(x);
+  if (!std::isfinite(largest)) return Moments(x.size(), Rational(0));
+  const int decimals = decimals_for(largest, digits);
   Moments result;
   for (const double value : x) result.push_back(rounded_to(Rational(value), decimals));
   return result;
@@ -101,17 +105,15 @@ std::optional<Rational> lower_bound(const Program& program, const Eliminated& el
                                     const std::vector<double>& x,
                                     const std::vector<double>& inside) {
   constexpr int kDigits = 18;
-  double size = 0, own = 0;
-  for (const double value : x) own = std::max(own, std::abs(value));
-  for (const double value : inside) size = std::max(size, std::abs(value));
+  const double unit = std::max(size_of(x), 1.0) / size_of(inside);
   for (const double share : {0.0, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5}) {
     std::vector<double> both = x;
-    if (share > 0 && size > 0)
-      for (std::size_t i = 0; i < both.size() && i < inside.size(); ++i)
-        both[i] += share * std::max(own, 1.0) / size * inside[i];
+    for (std::size_t i = 0; i < both.size() && i < inside.size(); ++i)
+      both[i] += share * unit * inside[i];
     const Moments y = rounded(both, kDigits);
     if (are_semidefinite(matrices(program, eliminated, posed, y, &objective)))
       return Rational(-value_of(eliminated, posed, y) - objective.value);
+    if (inside.empty()) break;
   }
   return std::nullopt;
 }

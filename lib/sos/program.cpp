@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <set>
 #include <stdexcept>
 
 #include "base/stop.h"
@@ -13,65 +11,19 @@ namespace gainsmith::sos {
 
 namespace {
 
-/// The variables of a statement, up to the last that occurs.
-std::size_t variables_of(const Statement& statement) {
-  std::size_t n = 0;
-  for (const Polynomial& p : statement.matrix.reshaped()) n = std::max(n, p.variables());
-  for (const auto* list : {&statement.nonnegative, &statement.zero})
-    for (const Polynomial& p : *list) n = std::max(n, p.variables());
-  return n;
-}
-
-constexpr int even_above(int degree) { return degree + degree % 2; }
-
-/// The degree of all terms: of M, of what was asked for, at least of each g_j and h_l.
-int degree_of(const Statement& statement) {
+int degree_of(const auto& polynomials) {
   int degree = 0;
-  for (const Polynomial& p : statement.matrix.reshaped()) degree = std::max(degree, p.degree());
-  degree = statement.degree ? std::max(*statement.degree, degree) : degree + statement.more;
-  for (const auto* list : {&statement.nonnegative, &statement.zero})
-    for (const Polynomial& p : *list) degree = std::max(degree, p.degree());
-  return even_above(degree);
+  for (const Polynomial& p : polynomials) degree = std::max(degree, p.degree());
+  return degree;
 }
 
-/// The least and the largest of some exponents, and of the degree.
-class Extent {
- public:
-  explicit Extent(std::size_t n) : least_(n + 1, kNone), most_(n + 1, -1) {}
-
-  /// m^power.
-  void add(const Monomial& m, int power = 1) {
-    for (std::size_t i = 0; i + 1 < least_.size(); ++i) add(i, power * m.exponent(i));
-    add(least_.size() - 1, power * m.degree());
-  }
-  void add_products(const Extent& other, const Polynomial& p, int power) {
-    if (other.least_.back() == kNone) return;
-    for (const auto& [term, c] : p.terms())
-      for (std::size_t i = 0; i < least_.size(); ++i) {
-        const int own = i + 1 < least_.size() ? term.monomial.exponent(i) : term.monomial.degree();
-        add(i, own + power * other.least_[i]);
-        add(i, own + power * other.most_[i]);
-      }
-  }
-  /// Whether m^2 lies within.
-  bool has_square(const Monomial& m) const {
-    for (std::size_t i = 0; i < least_.size(); ++i) {
-      const int e = 2 * (i + 1 < least_.size() ? m.exponent(i) : m.degree());
-      if (e < least_[i] || e > most_[i]) return false;
-    }
-    return true;
-  }
-
- private:
-  static constexpr int kNone = std::numeric_limits<int>::max();
-
-  void add(std::size_t i, int e) {
-    least_[i] = std::min(least_[i], e);
-    most_[i] = std::max(most_[i], e);
-  }
-
-  std::vector<int> least_, most_;
-};
+/// The degree of all terms, even: of M, of what was asked for, at least of each g_j and h_l.
+int degree_of(const Statement& statement) {
+  const int own = degree_of(statement.matrix.reshaped());
+  const int asked = statement.degree ? std::max(*statement.degree, own) : own + statement.more;
+  const int degree = std::max({asked, degree_of(statement.nonnegative), degree_of(statement.zero)});
+  return degree + degree % 2;
+}
 
 /// Units of the variables, and of the inequality, in which its numbers are near 1:
 ///   log2 |c_m| ~ s_0 + sum_i s_i e_i   of the coefficients without unknowns, by least squares.
@@ -122,158 +74,36 @@ class Units {
   numbers::Vector exponents_;
 };
 
-/// C(n + degree, n).
-double count_of(std::size_t n, int degree) {
-  double count = 1;
-  for (std::size_t i = 1; i <= n; ++i)
-    count *= (degree + static_cast<double>(i)) / static_cast<double>(i);
-  return count;
-}
-
-class Posing {
- public:
-  Posing(Program& program, std::size_t statement)
-      : program_(program),
-        at_(statement),
-        statement_(program.statements[statement]),
-        n_(variables_of(statement_)),
-        degree_(degree_of(statement_)),
-        units_(statement_, n_) {
-    constexpr double kMost = 20000;
-    if (count_of(n_, degree_) > kMost) throw std::length_error("too many monomials");
-  }
-
-  void add() {
-    const auto rows = static_cast<int>(statement_.matrix.rows());
-    std::vector<Extent> extents;
-    for (int r = 0; r < rows; ++r) extents.push_back(own_extent(r));
-    add_multipliers(rows, extents);
-    add_free_terms(rows, extents);
-    Gram main{at_, 0, Polynomial(1), {}};
-    const std::vector<Monomial> all = polynomial::monomials(n_, 0, degree_ / 2);
+/// Adds the unknowns of a statement.
+void pose(Program& program, std::size_t at) {
+  const Statement& statement = program.statements[at];
+  const std::size_t n = variables_of(statement);
+  const int degree = degree_of(statement);
+  const auto rows = static_cast<int>(statement.matrix.rows());
+  constexpr double kMost = 20000;
+  if (polynomial::count_of_monomials(n, degree) > kMost)
+    throw std::length_error("too many monomials");
+  const Units units(statement, n);
+  const auto add = [&](std::size_t multiplier, const Polynomial& times) {
+    Gram& gram = program.grams.emplace_back(Gram{at, multiplier, times, {}});
+    const double size = units.size_of(times);
+    const auto half = polynomial::monomials(n, 0, (degree - times.degree()) / 2);
     for (int r = 0; r < rows; ++r)
-      for (const Monomial& m : all)
-        if (extents[static_cast<std::size_t>(r)].has_square(m))
-          main.basis.push_back({{{r, m}, Rational(1)}});
-    add(std::move(main));
-  }
-
- private:
-  void add(Gram gram) {
-    const double size = units_.size_of(gram.times);
-    for (const BasisPolynomial& basis : gram.basis)
-      gram.scale.push_back(units_.scale_of(basis.front().first.monomial, size));
-    program_.grams.push_back(std::move(gram));
-  }
-
-  Extent own_extent(int row) const {
-    Extent extent(n_);
-    for (const auto& [term, c] : statement_.matrix(row, row).terms()) extent.add(term.monomial);
-    return extent;
-  }
-
-  void add_multipliers(int rows, std::vector<Extent>& extents) {
-    for (std::size_t j = 0; j < statement_.nonnegative.size(); ++j) {
-      const Polynomial& g = statement_.nonnegative[j];
-      Gram gram{at_, j + 1, g, {}};
-      Extent squares(n_);
-      for (const Monomial& m : polynomial::monomials(n_, 0, (degree_ - g.degree()) / 2)) {
-        squares.add(m);
-        for (int r = 0; r < rows; ++r) gram.basis.push_back({{{r, m}, Rational(1)}});
+      for (const Monomial& m : half) {
+        gram.basis.push_back({{{r, m}, Rational(1)}});
+        gram.scale.push_back(units.scale_of(m, size));
       }
-      for (Extent& extent : extents) extent.add_products(squares, g, 2);
-      add(std::move(gram));
-    }
+  };
+  for (std::size_t j = 0; j < statement.nonnegative.size(); ++j)
+    add(j + 1, statement.nonnegative[j]);
+  add(0, Polynomial(1));
+  for (std::size_t l = 0; l < statement.zero.size(); ++l) {
+    const Polynomial& h = statement.zero[l];
+    for (const Monomial& m : polynomial::monomials(n, 0, degree - h.degree()))
+      for (int c = 0; c < rows; ++c)
+        for (int r = 0; r <= c; ++r) program.free.push_back({at, l, h, r, c, m});
   }
-
-  void add_free_terms(int rows, std::vector<Extent>& extents) {
-    for (std::size_t l = 0; l < statement_.zero.size(); ++l) {
-      const Polynomial& h = statement_.zero[l];
-      Extent all(n_);
-      for (const Monomial& m : polynomial::monomials(n_, 0, degree_ - h.degree())) {
-        all.add(m);
-        for (int c = 0; c < rows; ++c)
-          for (int r = 0; r <= c; ++r) program_.free.push_back({at_, l, h, r, c, m});
-      }
-      for (Extent& extent : extents) extent.add_products(all, h, 1);
-    }
-  }
-
-  Program& program_;
-  std::size_t at_;
-  const Statement& statement_;
-  std::size_t n_;
-  int degree_;
-  Units units_;
-};
-
-/// The equations by their keys.
-class Assembly {
- public:
-  explicit Assembly(const Program& program) : program_(program), columns_(program) {}
-
-  std::vector<Equation> take() {
-    for (std::size_t s = 0; s < program_.statements.size(); ++s) add_statement(s);
-    for (std::size_t g = 0; g < program_.grams.size(); ++g) add_gram(g);
-    for (std::size_t k = 0; k < program_.free.size(); ++k) {
-      const FreeTerm& free = program_.free[k];
-      for (const auto& [term, c] : free.times.terms())
-        add({free.statement, free.row, free.column, free.monomial * term.monomial},
-            columns_.free(k), c);
-    }
-    std::vector<Equation> result;
-    for (auto& [key, equation] : equations_) {
-      equation.key = key;
-      result.push_back(std::move(equation));
-    }
-    return result;
-  }
-
- private:
-  void add(const Key& key, int column, const Rational& coefficient) {
-    Rational& sum = equations_[key].terms[column];
-    sum += coefficient;
-  }
-
-  void add_statement(std::size_t s) {
-    const polynomial::PolynomialMatrix& M = program_.statements[s].matrix;
-    for (int c = 0; c < M.cols(); ++c)
-      for (int r = 0; r <= c; ++r)
-        for (const auto& [term, coefficient] : M(r, c).terms()) {
-          const Rational value = coefficient * (r == c ? 1 : 2);
-          const Key key{s, r, c, term.monomial};
-          if (term.unknown == 0)
-            equations_[key].value += value;
-          else
-            add(key, columns_.unknown(term.unknown), Rational(-value));
-        }
-  }
-
-  void add_gram(std::size_t g) {
-    const Gram& gram = program_.grams[g];
-    for (int b = 0; b < gram.size(); ++b) {
-      check_stop();
-      for (int a = 0; a <= b; ++a) add_element(g, a, b);
-    }
-  }
-
-  void add_element(std::size_t g, int a, int b) {
-    const Gram& gram = program_.grams[g];
-    const int column = columns_.element(g, a, b);
-    for (const auto& [left, c] : gram.basis[static_cast<std::size_t>(a)])
-      for (const auto& [right, d] : gram.basis[static_cast<std::size_t>(b)]) {
-        const Rational weight = c * d * (a == b ? 1 : 2);
-        const Monomial both = left.monomial * right.monomial;
-        const auto [low, high] = std::minmax(left.row, right.row);
-        for (const auto& [term, t] : gram.times.terms())
-          add({gram.statement, low, high, both * term.monomial}, column, Rational(weight * t));
-      }
-  }
-
-  const Program& program_;
-  const Columns columns_;
-  std::map<Key, Equation> equations_;
-};
+}
 
 }  // namespace
 
@@ -288,23 +118,71 @@ Columns::Place Columns::place(int column) const {
   const auto after = std::upper_bound(first_.begin(), first_.end(), column);
   Place place;
   place.gram = static_cast<std::size_t>(after - first_.begin()) - 1;
-  int rest = column - first_[place.gram];
-  while (rest > place.column) rest -= ++place.column;
-  place.row = rest;
+  const int rest = column - first_[place.gram];
+  place.column = static_cast<int>((std::sqrt(8.0 * rest + 1) - 1) / 2);
+  place.row = rest - place.column * (place.column + 1) / 2;
   return place;
+}
+
+std::size_t variables_of(const Statement& statement) {
+  std::size_t n = 0;
+  for (const Polynomial& p : statement.matrix.reshaped()) n = std::max(n, p.variables());
+  for (const auto* list : {&statement.nonnegative, &statement.zero})
+    for (const Polynomial& p : *list) n = std::max(n, p.variables());
+  return n;
 }
 
 Program pose(std::vector<Statement> statements, int unknowns) {
   Program program{std::move(statements), unknowns, {}, {}};
-  for (std::size_t s = 0; s < program.statements.size(); ++s) Posing(program, s).add();
+  for (std::size_t s = 0; s < program.statements.size(); ++s) pose(program, s);
   return program;
 }
 
 std::vector<Equation> equations_of(const Program& program) {
-  std::vector<Equation> equations = Assembly(program).take();
-  for (Equation& equation : equations)
-    std::erase_if(equation.terms, [](const auto& term) { return term.second == 0; });
-  return equations;
+  const Columns columns(program);
+  std::map<Key, Equation> sums;
+  for (std::size_t s = 0; s < program.statements.size(); ++s) {
+    const polynomial::PolynomialMatrix& M = program.statements[s].matrix;
+    for (int c = 0; c < M.cols(); ++c)
+      for (int r = 0; r <= c; ++r)
+        for (const auto& [term, coefficient] : M(r, c).terms()) {
+          const Rational value = coefficient * (r == c ? 1 : 2);
+          Equation& sum = sums[{s, r, c, term.monomial}];
+          if (term.unknown == 0)
+            sum.value += value;
+          else
+            sum.terms[columns.unknown(term.unknown)] -= value;
+        }
+  }
+  for (std::size_t g = 0; g < program.grams.size(); ++g) {
+    const Gram& gram = program.grams[g];
+    for (int b = 0; b < gram.size(); ++b) {
+      check_stop();
+      for (int a = 0; a <= b; ++a)
+        for (const auto& [left, c] : gram.basis[static_cast<std::size_t>(a)])
+          for (const auto& [right, d] : gram.basis[static_cast<std::size_t>(b)]) {
+            const Rational weight = c * d * (a == b ? 1 : 2);
+            const Monomial both = left.monomial * right.monomial;
+            const auto [low, high] = std::minmax(left.row, right.row);
+            for (const auto& [term, t] : gram.times.terms())
+              sums[{gram.statement, low, high, both * term.monomial}]
+                  .terms[columns.element(g, a, b)] += weight * t;
+          }
+    }
+  }
+  for (std::size_t k = 0; k < program.free.size(); ++k) {
+    const FreeTerm& free = program.free[k];
+    for (const auto& [term, c] : free.times.terms())
+      sums[{free.statement, free.row, free.column, free.monomial * term.monomial}]
+          .terms[columns.free(k)] += c;
+  }
+  std::vector<Equation> result;
+  for (auto& [key, sum] : sums) {
+    std::erase_if(sum.terms, [](const auto& term) { return term.second == 0; });
+    sum.key = key;
+    result.push_back(std::move(sum));
+  }
+  return result;
 }
 
 }  // namespace gainsmith::sos

@@ -39,9 +39,7 @@ struct Element {
   int row = 0;
   Monomial monomial;
 
-  friend bool operator<(const Element& a, const Element& b) {
-    return a.row != b.row ? a.row < b.row : a.monomial < b.monomial;
-  }
+  auto operator<=>(const Element&) const = default;
 };
 
 /// sum of c times elements; of the first program one element.
@@ -83,12 +81,7 @@ struct Key {
   int column = 0;
   Monomial monomial;
 
-  friend bool operator<(const Key& a, const Key& b) {
-    if (a.statement != b.statement) return a.statement < b.statement;
-    if (a.row != b.row) return a.row < b.row;
-    if (a.column != b.column) return a.column < b.column;
-    return a.monomial < b.monomial;
-  }
+  auto operator<=>(const Key&) const = default;
 };
 
 /// Numbers the unknowns of a program: u, then the coefficients of t, then the elements of the upper
@@ -129,9 +122,12 @@ struct Equation {
   std::map<std::size_t, Rational> from{};
 };
 
-/// With full bases: monomials of half the degree, within the bounds that the powers of the single
-/// variables and the degree give (half the Newton polytope, by its extent along these). InputError's
-/// text for more than 20,000 monomials is left to the caller: it throws std::length_error.
+/// The variables of a statement, up to the last that occurs.
+std::size_t variables_of(const Statement& statement);
+
+/// With full bases: all monomials of half the degree. reduce() leaves those of half the Newton
+/// polytope. InputError's text for more than 20,000 monomials is left to the caller: it throws
+/// std::length_error.
 Program pose(std::vector<Statement> statements, int unknowns);
 
 /// One for each monomial, in the order of keys.

@@ -22,14 +22,19 @@ struct Contradiction {
 /// Removes the rows that are 0 in every solution.
 std::optional<Contradiction> reduce(Program& program);
 
+/// An equation that says what one of its unknowns is.
+struct Pivot {
+  int column = 0;
+  Equation equation;
+
+  /// Removes the column from another.
+  void put_into(Equation& other) const;
+};
+
 /// The equations without u and t, each of which has been put into the others by one that has it.
 struct Eliminated {
   std::vector<Equation> equations;  ///< of elements of Gram matrices alone, none empty
   /// Each has its column and elements, and columns that later pivots have.
-  struct Pivot {
-    int column = 0;
-    Equation equation;
-  };
   std::vector<Pivot> pivots;
   std::vector<int> left;  ///< columns that nothing determines: 0
   std::optional<Contradiction> contradiction;

@@ -1,5 +1,6 @@
 #include "sos/solve.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -11,23 +12,24 @@ namespace gainsmith::sos {
 
 namespace {
 
-/// Which equations are independent of those before them. With `valued` the value counts as one more
-/// column.
-std::vector<bool> independent(const std::vector<Equation>& equations, bool valued = false) {
+/// Behind all columns: the value, and nothing.
+constexpr int kNothing = std::numeric_limits<int>::max(), kValue = kNothing - 1;
+
+/// The first column of what those before it leave of each equation, by their images modulo a prime.
+std::vector<int> leads_of(const std::vector<Equation>& equations) {
   using numbers::kPrime;
   using Row = std::map<int, std::uint64_t>;
   std::map<int, Row> pivots;  // by the column where a row has 1 and those before it 0
-  std::vector<bool> result;
+  std::vector<int> result;
   for (const Equation& equation : equations) {
     check_stop();
     Row row;
-    for (const auto& [column, c] : equation.terms)
+    const auto add = [&](int column, const Rational& c) {
       if (const auto residue = numbers::residue_of(c); residue && *residue != 0)
         row[column] = *residue;
-    constexpr int kValue = std::numeric_limits<int>::max();
-    if (valued)
-      if (const auto residue = numbers::residue_of(equation.value); residue && *residue != 0)
-        row[kValue] = *residue;
+    };
+    for (const auto& [column, c] : equation.terms) add(column, c);
+    add(kValue, equation.value);
     while (!row.empty()) {
       const auto [column, factor] = *row.begin();
       const auto pivot = pivots.find(column);
@@ -38,27 +40,13 @@ std::vector<bool> independent(const std::vector<Equation>& equations, bool value
         if (left == 0) row.erase(k);
       }
     }
-    result.push_back(!row.empty());
+    result.push_back(row.empty() ? kNothing : row.begin()->first);
     if (row.empty()) continue;
     const std::uint64_t inverse = numbers::inverse_modulo(row.begin()->second);
     for (auto& [k, value] : row) value = value * inverse % kPrime;
-    const int column = row.begin()->first;
-    pivots.emplace(column, std::move(row));
+    pivots[result.back()] = std::move(row);
   }
   return result;
-}
-
-/// Whether each column occurs in one equation at most: then all are independent.
-bool have_own_columns(const std::vector<Equation>& equations) {
-  std::map<int, int> uses;
-  for (const Equation& equation : equations)
-    for (const auto& [column, c] : equation.terms) ++uses[column];
-  for (const Equation& equation : equations) {
-    bool has_own = false;
-    for (const auto& [column, c] : equation.terms) has_own = has_own || uses[column] == 1;
-    if (!has_own) return false;
-  }
-  return true;
 }
 
 /// The place of each Gram matrix among the blocks; -1 of one without rows.
@@ -130,10 +118,9 @@ Semidefinite semidefinite_program(const Program& program, const Eliminated& elim
     if (gram.size() > 0) problem.blocks.push_back({gram.size(), false});
   problem.f.emplace_back();
   if (objective) problem.f.front() = entries_of(program, columns, blocks, objective->terms, -1);
-  const bool all = have_own_columns(eliminated.equations);
-  const std::vector<bool> kept = all ? std::vector<bool>() : independent(eliminated.equations);
+  const std::vector<int> leads = leads_of(eliminated.equations);
   for (std::size_t i = 0; i < eliminated.equations.size(); ++i) {
-    if (!all && !kept[i]) continue;
+    if (leads[i] >= kValue) continue;
     const Equation& equation = eliminated.equations[i];
     const DoubleDouble value = nearest_double_double(equation.value);
     problem.c.push_back(value.hi());
@@ -147,8 +134,8 @@ Semidefinite semidefinite_program(const Program& program, const Eliminated& elim
 }
 
 bool agree(const Eliminated& eliminated) {
-  if (eliminated.contradiction) return false;
-  return independent(eliminated.equations) == independent(eliminated.equations, true);
+  return !eliminated.contradiction &&
+         std::ranges::count(leads_of(eliminated.equations), kValue) == 0;
 }
 
 namespace {
