@@ -128,9 +128,9 @@ class Solving {
     gains_.objective_lower_bound = std::min(*gains_.objective, below);
   }
 
-  /// A minimum is one that a bound brackets to 1e-6 of its size.
+  /// A minimum is one that a bound brackets to 1e-5 of its size.
   void note_bracket() {
-    constexpr double kNear = 1e-6;
+    constexpr double kNear = 1e-5;
     const auto& least = gains_.objective_lower_bound;
     if (least && *gains_.objective - *least <= kNear * std::abs(*gains_.objective)) {
       gains_.solver.status = "optimal";

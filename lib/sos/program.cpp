@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "base/stop.h"
 #include "numbers/dense.h"
@@ -25,27 +26,11 @@ int degree_of(const Statement& statement) {
   return degree + degree % 2;
 }
 
-/// Units of the variables, and of the inequality, in which its numbers are near 1:
-///   log2 |c_m| ~ s_0 + sum_i s_i e_i   of the coefficients without unknowns, by least squares.
+/// Units of the variables of an inequality, and of itself, in which its numbers are near 1.
 class Units {
  public:
-  Units(const Statement& statement, std::size_t n) {
-    const auto size = static_cast<Eigen::Index>(n) + 1;
-    constexpr double kNear0 = 1e-2;  // for what no coefficient says
-    numbers::Matrix normal = kNear0 * numbers::Matrix::Identity(size, size);
-    numbers::Vector right = numbers::Vector::Zero(size);
-    for (const Polynomial& p : statement.matrix.reshaped())
-      for (const auto& [term, c] : p.terms()) {
-        if (term.unknown != 0) continue;
-        numbers::Vector row = numbers::Vector::Zero(size);
-        row(0) = 1;
-        for (Eigen::Index i = 1; i < size; ++i)
-          row(i) = term.monomial.exponent(static_cast<std::size_t>(i) - 1);
-        normal += row * row.transpose();
-        right += std::log2(std::abs(nearest_double(c))) * row;
-      }
-    exponents_ = numbers::Cholesky(normal).solve(right);
-  }
+  /// s_0, then s_i of each variable: see units_of().
+  explicit Units(numbers::Vector exponents) : exponents_(std::move(exponents)) {}
 
   /// The largest term of a polynomial in these units, where the variables are near 1.
   double size_of(const Polynomial& p) const {
@@ -74,8 +59,39 @@ class Units {
   numbers::Vector exponents_;
 };
 
+/// Those of all inequalities, by least squares:
+///   log2 |c_m| + w ~ s_0 + sum_i s_i e_i,
+/// where w, the size of all unknowns, is 0 for coefficients of none.
+std::vector<Units> units_of(const std::vector<Statement>& statements) {
+  constexpr double kOfVariables = 1e-2, kOfSizes = 1e-6;  // for what no coefficient says
+  std::vector<Eigen::Index> first = {1};                  // of each inequality; w is at 0
+  for (const Statement& one : statements)
+    first.push_back(first.back() + 1 + static_cast<Eigen::Index>(variables_of(one)));
+  numbers::Matrix normal = kOfVariables * numbers::Matrix::Identity(first.back(), first.back());
+  numbers::Vector right = numbers::Vector::Zero(first.back());
+  normal(0, 0) = kOfSizes;
+  for (std::size_t s = 0; s < statements.size(); ++s) {
+    normal(first[s], first[s]) = kOfSizes;
+    for (const Polynomial& p : statements[s].matrix.reshaped())
+      for (const auto& [term, c] : p.terms()) {
+        numbers::Vector row = numbers::Vector::Zero(first.back());
+        row(0) = term.unknown == 0 ? 0 : -1;
+        row(first[s]) = 1;
+        for (std::size_t i = 0; i < term.monomial.variables(); ++i)
+          row(first[s] + 1 + static_cast<Eigen::Index>(i)) = term.monomial.exponent(i);
+        normal += row * row.transpose();
+        right += std::log2(std::abs(nearest_double(c))) * row;
+      }
+  }
+  const numbers::Vector exponents = numbers::Cholesky(normal).solve(right);
+  std::vector<Units> units;
+  for (std::size_t s = 0; s < statements.size(); ++s)
+    units.emplace_back(exponents.segment(first[s], first[s + 1] - first[s]));
+  return units;
+}
+
 /// Adds the unknowns of a statement.
-void pose(Program& program, std::size_t at) {
+void pose(Program& program, std::size_t at, const Units& units) {
   const Statement& statement = program.statements[at];
   const std::size_t n = variables_of(statement);
   const int degree = degree_of(statement);
@@ -83,7 +99,6 @@ void pose(Program& program, std::size_t at) {
   constexpr double kMost = 20000;
   if (polynomial::count_of_monomials(n, degree) > kMost)
     throw std::length_error("too many monomials");
-  const Units units(statement, n);
   const auto add = [&](std::size_t multiplier, const Polynomial& times) {
     Gram& gram = program.grams.emplace_back(Gram{at, multiplier, times, {}});
     const double size = units.size_of(times);
@@ -134,7 +149,8 @@ std::size_t variables_of(const Statement& statement) {
 
 Program pose(std::vector<Statement> statements, int unknowns) {
   Program program{std::move(statements), unknowns, {}, {}};
-  for (std::size_t s = 0; s < program.statements.size(); ++s) pose(program, s);
+  const std::vector<Units> units = units_of(program.statements);
+  for (std::size_t s = 0; s < program.statements.size(); ++s) pose(program, s, units[s]);
   return program;
 }
 

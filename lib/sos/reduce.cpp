@@ -153,19 +153,18 @@ Eliminated eliminate(const Program& program, std::vector<Equation> equations) {
   for (int column = 0; column < columns.frees(); ++column) {
     check_stop();
     std::vector<Equation*> users;  // columns before are gone
-    Rational largest = 0;
-    for (Equation& equation : equations) {
-      if (equation.terms.empty() || equation.terms.begin()->first != column) continue;
-      users.push_back(&equation);
-      largest = std::max<Rational>(largest, abs(equation.terms.begin()->second));
-    }
+    for (Equation& equation : equations)
+      if (!equation.terms.empty() && equation.terms.begin()->first == column)
+        users.push_back(&equation);
     if (users.empty()) {
       result.left.push_back(column);
       continue;
     }
-    // Of large coefficients, of an equation of u and t alone if there is one, the shortest.
+    // Of those where its coefficient is large, one of u and t alone if there is one, the shortest.
     const auto rank = [&](const Equation* equation) {
       const auto& terms = equation->terms;
+      Rational largest = 0;
+      for (const auto& [k, c] : terms) largest = std::max<Rational>(largest, abs(c));
       return std::tuple(abs(terms.begin()->second) * 10 < largest,
                         columns.is_element(terms.rbegin()->first), terms.size());
     };
