@@ -15,14 +15,24 @@ namespace {
 /// Behind all columns: the value, and nothing.
 constexpr int kNothing = std::numeric_limits<int>::max(), kValue = kNothing - 1;
 
-/// The first column of what those before it leave of each equation, by their images modulo a prime.
+/// A column of each equation that the others leave, by their images modulo a prime: one that no other
+/// has, or else the first of what those before it leave.
 std::vector<int> leads_of(const std::vector<Equation>& equations) {
   using numbers::kPrime;
   using Row = std::map<int, std::uint64_t>;
+  std::map<int, int> uses;
+  for (const Equation& equation : equations)
+    for (const auto& [column, c] : equation.terms) ++uses[column];
   std::map<int, Row> pivots;  // by the column where a row has 1 and those before it 0
   std::vector<int> result;
   for (const Equation& equation : equations) {
     check_stop();
+    const auto own = std::ranges::find_if(
+        equation.terms, [&](const auto& term) { return uses.at(term.first) == 1; });
+    if (own != equation.terms.end()) {
+      result.push_back(own->first);
+      continue;
+    }
     Row row;
     const auto add = [&](int column, const Rational& c) {
       if (const auto residue = numbers::residue_of(c); residue && *residue != 0)
