@@ -28,6 +28,12 @@ PolynomialMatrix unknown_matrix(const lmi::Unknown& unknown) {
   return result;
 }
 
+int degree_of(const PolynomialMatrix& M) {
+  int degree = 0;
+  for (const Polynomial& p : M.reshaped()) degree = std::max(degree, p.degree());
+  return degree;
+}
+
 /// What the variables of one inequality are, at one element of each set.
 struct Domain {
   PolynomialValues values;
@@ -143,6 +149,11 @@ class Statements {
         statement.more = *inequality.sos->degree;
       else
         statement.degree = inequality.sos->degree;
+      if (const int own = degree_of(M); statement.degree && *statement.degree < own)
+        throw InputError(inequality.place,
+                         "the degree of '" + comparison.name + "' is " + std::to_string(own) +
+                             ", and 'degree: " + std::to_string(*statement.degree) +
+                             "' is that of all its terms: give at least " + std::to_string(own));
     }
     statement.nonnegative.insert(statement.nonnegative.end(), domain.within.begin(),
                                  domain.within.end());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <stdexcept>
 #include <utility>
 
@@ -204,6 +205,20 @@ class Solving {
     return text;
   }
 
+  /// "'decrease' leaves one value of V_2_0; then ".
+  std::string told_by_others(const sos::Contradiction& contradiction) const {
+    std::map<std::string, std::string> names;  // of unknowns, by the inequality that tells them
+    for (const auto& [k, key] : contradiction.told)
+      if (key.statement != contradiction.key.statement)
+        (names[stated_.statements[key.statement].name] += ", ") +=
+            stated_.unknowns[static_cast<std::size_t>(k)];
+    std::string text;
+    for (const auto& [inequality, list] : names)
+      text +=
+          (text.empty() ? "'" : " and '") + inequality + "' leaves one value of " + list.substr(2);
+    return text.empty() ? "" : text + "; then ";
+  }
+
   void exclude(const std::optional<sos::Contradiction>& contradiction,
                const std::map<sos::Key, Rational>& moments) {
     gains_.verdict = model::Verdict::no;
@@ -214,8 +229,8 @@ class Solving {
     if (const auto text = counterexample(); !text.empty())
       gains_.solver.add_message(none + ": " + text);
     else if (contradiction)
-      gains_.solver.add_message(none + ": " + place_of(contradiction->key) + " " +
-                                contradiction->why);
+      gains_.solver.add_message(none + ": " + told_by_others(*contradiction) +
+                                place_of(contradiction->key) + " " + contradiction->why);
     else
       gains_.solver.add_message(none +
                                 ", by moments in fractions; a higher 'degree' may have some");

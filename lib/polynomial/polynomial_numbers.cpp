@@ -54,7 +54,7 @@ constexpr bool leaves_polynomials(Op op) {
                                       Op::tanh,    Op::exp,
                                       Op::cos,     Op::matrix_exponential,
                                       Op::constant};
-  return op != Op::jacobian &&
+  return op != Op::jacobian && op != Op::real_power &&
          (numbers::is_irrational(op) ||
           std::find(kOperations.begin(), kOperations.end(), op) != kOperations.end());
 }
@@ -91,10 +91,18 @@ struct Rules : numbers::RingRules<Polynomial> {
     map(quotient, at, out);
   }
   template <Op op>
-  requires expr::OneOf<op, Op::power, Op::elementwise_power>
+  requires expr::OneOf<op, Op::power, Op::elementwise_power, Op::real_power>
   void operator()(Is<op>, const At& at, Value& out) const {
     constexpr int kMost = 100;
-    const int exponent = at.attribute(0);
+    int exponent = 0;
+    if constexpr (op == Op::real_power) {
+      const Polynomial& of = at[1](0, 0);
+      const bool is_whole = at[1].size() == 1 && of.is_number() && denominator(of.number()) == 1;
+      if (!is_whole || of.number() < 0) refuse(op);
+      exponent = of.number() > kMost ? kMost + 1 : numerator(of.number()).convert_to<int>();
+    } else {
+      exponent = at.attribute(0);
+    }
     if (exponent > kMost) throw expr::EvaluationError("a power above 100 has too many terms");
     const bool is_matrix = op == Op::power;
     if (is_matrix)

@@ -26,7 +26,7 @@ class Reduction {
         if (equation.terms.empty() && equation.value == 0) continue;
         drop_known(equation);
         if (const std::string why = contradiction_of(equation); !why.empty())
-          return Contradiction{equation.key, why};
+          return Contradiction{equation.key, why, told_[equation.key]};
         if (!learn(equation)) continue;
         equation = {equation.key, {}, 0};
         goes_on = true;
@@ -41,7 +41,7 @@ class Reduction {
     return dead_[gram][static_cast<std::size_t>(row)];
   }
 
-  void drop_known(Equation& equation) const {
+  void drop_known(Equation& equation) {
     std::erase_if(equation.terms, [&](const auto& term) {
       if (columns_.is_element(term.first)) {
         const Columns::Place place = columns_.place(term.first);
@@ -49,7 +49,9 @@ class Reduction {
       }
       const auto value = fixed_.find(term.first);
       if (value == fixed_.end()) return false;
-      equation.value -= term.second * value->second;
+      equation.value -= term.second * value->second.first;
+      if (term.first < columns_.unknowns())
+        told_[equation.key].try_emplace(term.first, value->second.second);
       return true;
     });
   }
@@ -85,7 +87,7 @@ class Reduction {
     }
     const auto& [first, coefficient] = *equation.terms.begin();
     if (equation.terms.size() != 1 || columns_.is_element(first)) return false;
-    fixed_[first] = equation.value / coefficient;
+    fixed_.try_emplace(first, equation.value / coefficient, equation.key);
     return true;
   }
 
@@ -121,8 +123,9 @@ class Reduction {
   Program& program_;
   const Columns columns_;
   std::vector<Equation> equations_;
-  std::vector<std::vector<bool>> dead_;  ///< rows of each Gram matrix
-  std::map<int, Rational> fixed_;
+  std::vector<std::vector<bool>> dead_;            ///< rows of each Gram matrix
+  std::map<int, std::pair<Rational, Key>> fixed_;  ///< by column, and what told it
+  std::map<Key, std::map<int, Key>> told_;         ///< of equations: the unknowns put into them
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 // sum is to be negative, there is no solution. This is what makes bases that are written by hand work.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +18,7 @@ namespace gainsmith::sos {
 struct Contradiction {
   Key key;
   std::string why;  ///< "is -3, and a sum of squares has none below 0 there"
+  std::map<int, Key> told{};  ///< unknowns whose values other equations had told
 };
 
 /// Removes the rows that are 0 in every solution.
