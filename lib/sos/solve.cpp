@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
+#include <functional>
 #include <map>
 
 #include "base/stop.h"
@@ -12,14 +12,15 @@ namespace gainsmith::sos {
 
 namespace {
 
-/// Behind all columns: the value, and nothing.
-constexpr int kNothing = std::numeric_limits<int>::max(), kValue = kNothing - 1;
+/// Before all columns: the value, and nothing.
+constexpr int kValue = -1, kNothing = -2;
 
-/// The first column of what those before it leave of each equation, by their images modulo a prime.
+/// The last column of what those before it leave of each equation, by their images modulo a prime. The
+/// last ones are of main Gram matrices, and often in no other equation.
 std::vector<int> leads_of(const std::vector<Equation>& equations) {
   using numbers::kPrime;
-  using Row = std::map<int, std::uint64_t>;
-  std::map<int, Row> pivots;  // by the column where a row has 1 and those before it 0
+  using Row = std::map<int, std::uint64_t, std::greater<>>;
+  std::map<int, Row> pivots;  // by the column where a row has 1 and those behind it 0
   std::vector<int> result;
   for (const Equation& equation : equations) {
     check_stop();
@@ -120,7 +121,7 @@ Semidefinite semidefinite_program(const Program& program, const Eliminated& elim
   if (objective) problem.f.front() = entries_of(program, columns, blocks, objective->terms, -1);
   const std::vector<int> leads = leads_of(eliminated.equations);
   for (std::size_t i = 0; i < eliminated.equations.size(); ++i) {
-    if (leads[i] >= kValue) continue;
+    if (leads[i] < 0) continue;
     const Equation& equation = eliminated.equations[i];
     const DoubleDouble value = nearest_double_double(equation.value);
     problem.c.push_back(value.hi());
