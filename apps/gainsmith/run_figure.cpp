@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "claims/run_values.h"
+#include "gainsmith/plane_background.h"
 #include "gainsmith/run_panels.h"
 #include "model/problem.h"
 
@@ -248,16 +249,18 @@ report::Panel panel_of(const PlannedPanel& planned, const std::vector<DrawnRun>&
   return panel;
 }
 
-std::string run_figure(const std::string& title, const std::vector<DrawnRun>& runs,
-                       const RunView& view) {
+std::string run_figure(const std::string& title, const claims::RunSetup& setup,
+                       const std::vector<DrawnRun>& runs, RunView view) {
   report::Figure figure;
   figure.title = title;
   const Replay& first = runs.front().replay;
   const std::string unit = unit_of(view, first.columns.front());
   figure.axis = unit.empty() ? "t" : "t [" + unit + "]";
   std::vector<PlannedPanel> planned;
+  const bool usual = view.planes.empty() && view.panels.empty();
   // Planes alone, where no panels are asked for beside them.
   if (view.planes.empty() || !view.panels.empty()) planned = planned_panels(first, view);
+  if (const auto plane = usual_plane(setup, first); usual && plane) view.planes.push_back(*plane);
   for (PlannedPanel& plane : planned_planes(first, view)) planned.push_back(std::move(plane));
   for (const PlannedPanel& panel : planned) {
     for (report::Panel& claims : claim_panels(panel.claims, runs, view))
@@ -267,6 +270,9 @@ std::string run_figure(const std::string& title, const std::vector<DrawnRun>& ru
       figure.panels.push_back(panel_of(with_measurements(panel, runs.front()), runs));
     else
       for (const PlannedPanel& part : parted(panel)) figure.panels.push_back(panel_of(part, runs));
+    if (panel.across)
+      add_background(setup, runs, *panel.lines.front().across, panel.lines.front().columns.front(),
+                     figure.panels.back());
   }
   if (runs.size() == 1) add_marks(first, figure);
   return report::svg(figure);

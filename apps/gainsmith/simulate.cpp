@@ -151,7 +151,7 @@ void draw(const SimulateOptions& options, const model::Design& design, const ver
   for (std::size_t k = 0; k < replays.size(); ++k)
     drawn.push_back(drawn_run(setup, runs[k], replays[k].run, options.step));
   write_picture(options.picture.file,
-                run_figure(design.name, drawn, view_of(options.picture, design)));
+                run_figure(design.name, *setup.events, drawn, view_of(options.picture, design)));
 }
 
 /// What has no effect, or none together.

@@ -13,9 +13,10 @@ namespace gainsmith::app {
 
 namespace {
 
+constexpr std::size_t kWide = 120;  // columns
+
 /// "[1, 2; 3, 4]", or a row on each line where it is wide, the first in the column `at`.
 std::string rows_text(const numbers::Matrix& matrix, std::size_t at) {
-  constexpr std::size_t kWide = 120;
   std::string text = matrix_text(matrix);
   if (at + text.size() <= kWide) return text;
   const std::string between = ";\n" + std::string(at + 1, ' ');
@@ -76,6 +77,36 @@ std::string functions_text(const model::Gains& gains) {
                         gain.name, gain.variable, polynomial ? polynomial_text(gain) : gain.formula,
                         polynomial ? "" : ", with the unknowns of the gain file");
   }
+  return text;
+}
+
+/// A sum over several lines where one is too short.
+std::string wrapped(const std::string& sum, std::size_t at) {
+  std::string text, line;
+  for (std::size_t from = 0; from < sum.size();) {
+    const std::size_t end =
+        std::min({sum.find(" + ", from + 1), sum.find(" - ", from + 1), sum.size()});
+    const std::string term = sum.substr(from, end - from);
+    if (!line.empty() && at + line.size() + term.size() > kWide) {
+      text += line + "\n" + std::string(at, ' ');
+      line.clear();
+    }
+    line += term;
+    from = end;
+  }
+  return text + line;
+}
+
+/// The unknown functions, where the method asks for no gains.
+std::string unknown_functions_text(const model::Gains& gains) {
+  if (!gains.gains.empty() || !gains.gain_functions.empty() || gains.unknowns.empty()) return "";
+  std::string text;
+  for (const model::StatedFunction& function : gains.functions)
+    if (const auto sum = with_values(function, gains)) {
+      const std::string head =
+          fmt::format("{:<12}{} = ", text.empty() ? "unknowns" : "", function.signature);
+      text += head + wrapped(*sum, head.size()) + "\n";
+    }
   return text;
 }
 
@@ -261,7 +292,8 @@ std::string synthesis_summary(const model::Gains& gains) {
                   gains.statement.method_name, to_string(gains.verdict), solver_line(gains));
   text += message_lines(gains);
   text += objective_text(gains) + solution_line(gains) +
-          named_matrices("gains", gains.gains, gains) + functions_text(gains) + report_text(gains) +
+          named_matrices("gains", gains.gains, gains) + functions_text(gains) +
+          unknown_functions_text(gains) + report_text(gains) +
           named_matrices("parameters", gains.parameters, gains) + searched_text(gains) +
           search_text(gains);
   text += bounds_text(gains) + certificate_text(gains) + margins_text(gains) + margins_note(gains);

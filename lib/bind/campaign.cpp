@@ -65,9 +65,13 @@ std::vector<model::Formula> ellipsoid(const Binding& binding, const model::Initi
   if (state.cols != 1)
     throw InputError(initial.place, "an ellipsoid is of a column or a number; the state " +
                                         initial.state + " is " + to_string(state));
+  model::Formula level = value(initial.values[2], scope, std::nullopt);
+  const expr::Shape shape = level.program.shape();
+  if (!shape.is_scalar() && shape != expr::Shape{1, 2})
+    throw InputError(level.place, "the level of an ellipsoid is a number, or two of them, " +
+                                      std::string("[low, high]; found ") + to_string(shape));
   return {value(initial.values[0], scope, state),
-          value(initial.values[1], scope, expr::Shape{state.rows, state.rows}),
-          value(initial.values[2], scope, expr::Shape{})};
+          value(initial.values[1], scope, expr::Shape{state.rows, state.rows}), std::move(level)};
 }
 
 model::Design::Start start(const Binding& binding, const model::InitialValue& initial) {

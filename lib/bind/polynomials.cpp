@@ -74,7 +74,12 @@ void add_polynomial(Binding& binding, const model::UnknownDeclaration& unknown,
     binding.design->unknowns.push_back(std::move(coefficient));
   }
   std::vector<std::string> parameters;
-  for (const model::Argument& argument : unknown.arguments) parameters.push_back(argument.name);
+  std::string signature = unknown.name + "(";
+  for (const model::Argument& argument : unknown.arguments) {
+    signature += (parameters.empty() ? "" : ", ") + argument.name;
+    parameters.push_back(argument.name);
+  }
+  binding.design->polynomials.push_back({signature + ")", text});
   scope.definitions[unknown.name] = {parameters,
                                      expr::parse(expr::Text::generated(text, unknown.place))};
 }

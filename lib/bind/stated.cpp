@@ -80,6 +80,10 @@ class Builder {
     std::vector<model::Function> functions = polynomials(design_);
     stated_.bodies = model::Bodies(functions);
     for (const model::StatedFunction& stated : gains_.functions) {
+      const auto states = [&](const model::Design::Polynomial& polynomial) {
+        return polynomial.signature == stated.signature && polynomial.text == stated.text;
+      };
+      if (std::ranges::any_of(design_.polynomials, states)) continue;  // a definition of the design
       const auto known =
           std::find_if(functions.begin(), functions.end(), [&](const model::Function& function) {
             return function.signature() == stated.signature;

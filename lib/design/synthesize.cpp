@@ -145,6 +145,8 @@ void add_gains(const lmi::Inequalities& inequalities, model::Gains& gains) {
     for (const auto& [name, matrix] : gains.unknowns) values[name] = matrix;
   for (const model::Function& function : inequalities.functions)
     gains.functions.push_back({function.signature(), function.text(), function.body().program});
+  for (const auto& [signature, text] : inequalities.design().polynomials)
+    gains.functions.push_back({signature, text, std::nullopt});
   try {
     add_gain_values(inequalities, values, gains);
     note_larger_gains(inequalities.design(), inequalities.design().synthesis, gains);

@@ -11,7 +11,8 @@ namespace gainsmith::hybrid {
 
 void read_ellipsoid(StartRule& rule, const std::string& state) {
   const numbers::Matrix Q = rule.values[1];
-  const double level = rule.values[2](0, 0);
+  const numbers::Matrix levels = rule.values[2];
+  const double level = levels.reshaped().tail(1)(0), least = levels.size() > 1 ? levels(0) : 0;
   const auto fail = [&](const std::string& why) {
     throw InputError(rule.place, "the ellipsoid of " + state + ": " + why);
   };
@@ -20,11 +21,23 @@ void read_ellipsoid(StartRule& rule, const std::string& state) {
   if (asymmetry > kMeantEqual * size) fail("its matrix is not symmetric");
   if (!(level >= 0 && std::isfinite(level)))
     fail("its level is " + brief(level) + ": expected a number from 0 on");
+  if (!(least >= 0 && least <= level))
+    fail("its levels are " + brief(least) + " and " + brief(level) +
+         ": expected [low, high], with 0 <= low <= high");
   const Eigen::LLT<numbers::Matrix> factors((Q + Q.transpose()) / 2);
   if (!Q.allFinite() || factors.info() != Eigen::Success)
     fail("its matrix is not positive definite");
   const numbers::Matrix unit = numbers::Matrix::Identity(Q.rows(), Q.cols());
   rule.values = {rule.values[0], std::sqrt(level) * factors.matrixU().solve(unit)};
+  if (least > 0) rule.hollow = std::pow(least / level, static_cast<double>(Q.rows()) / 2);
+}
+
+Eigen::VectorXd in_shell(const StartRule& rule, const Eigen::VectorXd& b) {
+  if (rule.hollow <= 0) return b;
+  const double length = b.norm(), n = static_cast<double>(b.size());
+  const double moved = std::pow(rule.hollow + (1 - rule.hollow) * std::pow(length, n), 1 / n);
+  return length > 0 ? Eigen::VectorXd(b * (moved / length))
+                    : Eigen::VectorXd(moved * Eigen::VectorXd::Unit(b.size(), 0));
 }
 
 numbers::Matrix spread_map(const numbers::Matrix& spread, bool covariance, Eigen::Index size,
@@ -75,6 +88,7 @@ numbers::Matrix draw_around(const StartRule& rule, RandomStream& random) {
     const double u = random.uniform();
     const double length = z.norm();
     if (length > 0) z *= std::pow(u, 1 / static_cast<double>(n)) / length;
+    z = in_shell(rule, z);
   }
   return around(rule.values[0], rule.values[1], z, rule.kind == model::StartKind::lognormal);
 }

@@ -20,12 +20,18 @@ struct StartRule {
   std::vector<numbers::Matrix> values;
   expr::Program program;  ///< expression
   Place place;
+  double hollow = 0;  ///< of an ellipsoid: the share of its volume that is left out inside
 };
 
 /// Replaces center, matrix Q and level r of an ellipsoid by its center and M = sqrt(r) inv(L)',
-/// with Q = L L': {c + M b: |b| <= 1} = {x: (x - c)' Q (x - c) <= r}. InputError when Q is not
-/// symmetric and positive definite, or r is negative. `state`: the name, for messages.
+/// with Q = L L': {c + M b: |b| <= 1} = {x: (x - c)' Q (x - c) <= r}. Of two levels [r0, r] the part
+/// with (x - c)' Q (x - c) < r0 is hollow. InputError when Q is not symmetric and positive definite,
+/// or not 0 <= r0 <= r. `state`: the name, for messages.
 void read_ellipsoid(StartRule& rule, const std::string& state);
+
+/// A point of the unit ball, moved along its ray into what is not hollow: uniform points stay
+/// uniform.
+Eigen::VectorXd in_shell(const StartRule& rule, const Eigen::VectorXd& b);
 
 /// M of what is drawn around a center: diagonal with the deviations, or of a covariance V the lower
 /// triangular M with M M' = V. V may be semidefinite: a column whose diagonal element would be 0
@@ -38,7 +44,7 @@ numbers::Matrix spread_map(const numbers::Matrix& spread, bool covariance, Eigen
 Eigen::VectorXd draw_normal(Eigen::Index n, RandomStream& random);
 
 /// Around a center c. ellipsoid: c + M b, with b uniform in the unit ball: b = u^(1/n) z/|z|, z
-/// normal, one more draw; normal: c + M z; lognormal: c .* exp(M z).
+/// normal, one more draw, then in_shell(); normal: c + M z; lognormal: c .* exp(M z).
 numbers::Matrix draw_around(const StartRule& rule, RandomStream& random);
 numbers::Matrix around(const numbers::Matrix& center, const numbers::Matrix& M,
                        const Eigen::VectorXd& z, bool is_lognormal);

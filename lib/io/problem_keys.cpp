@@ -89,7 +89,7 @@ constexpr std::array kStartRules = {Rule::exactly_one("box,list,ellipsoid,normal
 
 constexpr std::array kEllipsoid = {Key{"center", "matrix"},
                                    Key{"matrix", "matrix", "P of e'*P*e <= level", kRequired},
-                                   Key{"level", "matrix"}};
+                                   Key{"level", "matrix", "a number, or [low, high]"}};
 
 constexpr std::array kExpectation = {
     Key{"verdict", "'yes' | 'no' | 'undecided'"},

@@ -107,6 +107,12 @@ struct Design {
     Place place;
   };
 
+  /// An unknown polynomial of several variables over its coefficients, which are unknowns.
+  struct Polynomial {
+    std::string signature;  ///< "V(x)"
+    std::string text;       ///< "V_2_0*x(1)^2 + V_1_1*x(1)*x(2) + ..."
+  };
+
   /// A variable of `forall`.
   struct Variable {
     std::string name;
@@ -300,6 +306,7 @@ struct Design {
   std::vector<Assumption> assumptions;
   std::vector<Square> squares;
   std::vector<Unknown> unknowns;
+  std::vector<Polynomial> polynomials;
   std::vector<Inequality> inequalities;
   /// What is necessary beside them, with its own unknowns: it may show that there are no gains, and
   /// is not solved otherwise.

@@ -150,6 +150,23 @@ std::string results_hash(const Gains& gains) {
   return sha256(text);
 }
 
+std::optional<std::string> with_values(const StatedFunction& function, const Gains& gains) {
+  constexpr std::string_view kPlus = " + ";
+  std::string sum;
+  for (std::string_view rest = function.text; !rest.empty();) {
+    const std::string_view term = rest.substr(0, rest.find(kPlus));
+    rest.remove_prefix(std::min(rest.size(), term.size() + kPlus.size()));
+    const std::string_view name = term.substr(0, term.find('*'));
+    const numbers::Matrix* const value = gains.find(std::string(name));
+    if (value == nullptr || value->size() != 1) return std::nullopt;
+    const double c = (*value)(0, 0);
+    if (c == 0) continue;
+    sum += sum.empty() ? (c < 0 ? "-" : "") : c < 0 ? " - " : " + ";
+    (sum += brief(std::abs(c))) += term.substr(name.size());
+  }
+  return sum.empty() ? "0" : sum;
+}
+
 std::optional<Decimals> decimals_of(const Gains& gains, const std::string& name) {
   const auto find = [&](const NamedMatrices& list, const char* key) -> std::optional<Decimals> {
     for (const auto& [known, matrix] : list)

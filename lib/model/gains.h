@@ -200,6 +200,12 @@ struct StatedFunction {
   std::optional<expr::Program> body;
 };
 
+struct Gains;
+
+/// The sum that a function is with the values of its coefficients, six significant digits:
+/// "0.5*x(1)^2 - 1.2*x(1)*x(2)"; of a function whose coefficients are not all numbers, none.
+std::optional<std::string> with_values(const StatedFunction& function, const Gains& gains);
+
 /// The shortest decimal of a double. Zero keeps its sign as "-0.0", since JSON reads "-0" as a whole
 /// number, which has none.
 std::string printed(double value);

@@ -8,6 +8,7 @@
 #include "page/mathml.h"
 #include "page/motion.h"
 #include "page/rows.h"
+#include "page/squares.h"
 #include "page/statement.h"
 #include "page/symbol.h"
 #include "report/text.h"
@@ -148,7 +149,7 @@ std::string matrices(const Results& results, const model::NamedMatrices& named) 
   return rows;
 }
 
-std::string gains_section(const Results& results) {
+std::string gains_section(const Results& results, const Notation& notation) {
   const model::Gains& gains = results.gains;
   std::string functions;
   for (const model::GainFunction& one : gains.gain_functions) functions += function_row(one);
@@ -161,6 +162,7 @@ std::string gains_section(const Results& results) {
       matrices(results, gains.gains) + functions +
           paragraph(results.objective_line.empty() ? "" : "Objective: " + results.objective_line) +
           group("Found by the search", searched + search) +
+          group("Unknown functions", unknown_functions(gains, notation)) +
           group("Poles and other values", matrices(results, gains.report)) +
           folded("Unknowns", matrices(results, gains.unknowns)));
 }
@@ -171,7 +173,7 @@ std::string cells(std::initializer_list<std::string> texts) {
   return line;
 }
 
-std::string margins_section(const Results& results) {
+std::string margins_section(const Results& results, const Notation& notation) {
   const model::Gains& gains = results.gains;
   if (gains.margins.empty() && gains.bounds.empty()) return "";
   std::string lines;
@@ -198,7 +200,7 @@ std::string margins_section(const Results& results) {
     text += paragraph("Which requirements limit the optimum, and what each of them costs:") +
             preformatted("gainsmith explain " + model::problem_words(gains.statement.problem_file,
                                                                      gains.statement.settings));
-  return section("Margins", text);
+  return section("Margins", text + squares(gains, notation));
 }
 
 /// The requirement that a multiplier "flow at tau = 0.7" or "bounds.2" belongs to.
@@ -316,7 +318,7 @@ std::string sections(const Results& results) {
     failed = section("No result", preformatted(results.error, "class=\"verdict no\""));
   if (results.gains.version.empty()) return failed;  // nor gains
   const Notation notation = results.problem ? notation_of(*results.problem) : Notation{};
-  return failed + verdict_section(results) + gains_section(results) + margins_section(results) +
+  return failed + verdict_section(results) + gains_section(results, notation) + margins_section(results, notation) +
          certificate_section(results, notation) + campaign_section(results) + picture_of(results) +
          problem_section(results, notation) + provenance_section(results);
 }

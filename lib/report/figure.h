@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gainsmith::report {
@@ -48,6 +50,8 @@ struct Panel {
   /// A plane: t of its curves is another quantity of this name, in any order, with an axis of its
   /// own. A dot is at the start of each curve, a ring at its end.
   std::optional<std::string> across{};
+  /// Of a plane: at a place in it the rates of both quantities, drawn as arrows behind the curves.
+  std::function<std::pair<double, double>(double across, double up)> field{};
   bool bars =
       false;  ///< a plane whose curves are outlines of bars: as high as other panels, no ends
 };

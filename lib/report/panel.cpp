@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
+#include <vector>
 
 #include "report/band.h"
 #include "report/drawing.h"
@@ -122,6 +124,7 @@ std::string marks(const Curve& curve, const Axis& time, const Axis& values, cons
 std::string end_marks(const Curve& curve, const Axis& across, const Axis& values, const Box& box) {
   Curve both = curve;
   std::string text;
+  if (curve.limit) return text;
   for (const auto& [mark, k] :
        {std::pair(Mark::dot, std::size_t{0}), std::pair(Mark::ring, curve.t.size() - 1)}) {
     if (curve.t.empty()) break;
@@ -148,6 +151,47 @@ std::string lines(const Trace& trace, const Style& style) {
   const char* const radius = trace.flows.empty() ? "2" : "0.9";
   for (const Point& dot : trace.dots) text += circle(dot, radius, colour_name(style.colour));
   return text;
+}
+
+/// Arrows on a grid, as long as their rates relative to the fastest; slow ones are drawn larger, so
+/// that their directions are seen.
+std::string field_of(const Panel& panel, const Axis& across, const Axis& up, const Box& box) {
+  constexpr double spacing = 30, longest = 22, head = 4;
+  struct Arrow {
+    double x, y, right, down, speed;
+  };
+  std::vector<Arrow> arrows;
+  double fastest = 0;
+  const int columns = static_cast<int>(box.width / spacing),
+            rows = static_cast<int>(box.height / spacing);
+  for (int i = 0; i < columns; ++i)
+    for (int k = 0; k < rows; ++k) {
+      const double x = box.left + (i + 0.5) * box.width / columns;
+      const double y = box.top + (k + 0.5) * box.height / rows;
+      const auto [rate_across, rate_up] =
+          panel.field(across.low + (across.high - across.low) * (x - box.left) / box.width,
+                      up.low + (up.high - up.low) * (box.bottom() - y) / box.height);
+      const double right = rate_across * box.width / (across.high - across.low);
+      const double down = -rate_up * box.height / (up.high - up.low);
+      const double speed = std::hypot(right, down);
+      if (!std::isfinite(speed) || speed == 0) continue;
+      arrows.push_back({x, y, right / speed, down / speed, speed});
+      fastest = std::max(fastest, speed);
+    }
+  std::string lines;
+  for (const Arrow& one : arrows) {
+    const double length = longest * std::cbrt(one.speed / fastest);
+    const double x = one.right * length, y = one.down * length;
+    const auto barb = [&](double side) {
+      return "l" + pixels(-head * (one.right - side * one.down)) + "," +
+             pixels(-head * (one.down + side * one.right));
+    };
+    lines += "M" + pixels(one.x - x / 2) + "," + pixels(one.y - y / 2) + "l" + pixels(x) + "," +
+             pixels(y) + barb(0.5) + "M" + pixels(one.x + x / 2) + "," + pixels(one.y + y / 2) +
+             barb(-0.5);
+  }
+  return lines.empty() ? lines
+                       : fmt::format("<path fill=\"none\" stroke=\"#b8b8b8\" d=\"{}\"/>\n", lines);
 }
 
 }  // namespace
@@ -177,6 +221,7 @@ std::string framed(const std::string& name, const Axis& values, const Box& box) 
 
 std::string drawn(const Panel& panel, const Axis& time, const Axis& values, const Box& box) {
   std::string text = grid(time, values, box) + framed(panel.axis, values, box);
+  if (panel.field) text += field_of(panel, time, values, box);
   for (const Band& band : panel.bands) text += drawn(band, time, values, box);
   std::vector<Trace> traces;
   bool few_jumps = !panel.across, anything = !panel.bands.empty();

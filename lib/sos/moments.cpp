@@ -66,6 +66,15 @@ Rational value_of(const Eliminated& eliminated, const Semidefinite& posed, const
   return sum;
 }
 
+/// Whether X_j . Q_j > 0 for the matrix Q_j > 0 of a strict inequality, where X_j >= 0.
+bool is_above_zero(const Program& program, const std::vector<RationalMatrix>& X) {
+  for (std::size_t j = 0; j < X.size(); ++j)
+    if (program.grams[j].multiplier == 0 && program.statements[program.grams[j].statement].strict &&
+        X[j] != RationalMatrix::Zero(X[j].rows(), X[j].cols()))
+      return true;
+  return false;
+}
+
 }  // namespace
 
 std::map<Key, Rational> of_monomials(const std::vector<Equation>& equations,
@@ -83,9 +92,10 @@ std::optional<Moments> excluding_moments(const Program& program, const Eliminate
                                          const Semidefinite& posed, const std::vector<double>& x) {
   for (const int digits : {3, 6, 12, 18}) {
     Moments y = rounded(x, digits);
-    if (value_of(eliminated, posed, y) < 0 &&
-        are_semidefinite(matrices(program, eliminated, posed, y, nullptr)))
-      return y;
+    const Rational value = value_of(eliminated, posed, y);
+    if (value > 0) continue;
+    const auto X = matrices(program, eliminated, posed, y, nullptr);
+    if ((value < 0 || is_above_zero(program, X)) && are_semidefinite(X)) return y;
   }
   return std::nullopt;
 }

@@ -131,7 +131,7 @@ void DrawCube::walk_starts(const Take& take, GivenRun& run) const {
     } else if (rule->kind == model::StartKind::ellipsoid) {
       Eigen::VectorXd w(value.size());
       for (Index k = 0; k < w.size(); ++k) w(k) = 2 * take.u(name(k)) - 1;
-      value = value + rule->values[1] * ball_point(w);
+      value = value + rule->values[1] * hybrid::in_shell(*rule, ball_point(w));
     } else {
       const bool symmetric =
           system_->dynamics.variables[v].structure == model::Structure::symmetric;

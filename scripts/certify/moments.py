@@ -8,12 +8,13 @@ contradiction. For the rows that are left, the file gives a number L for each eq
 
     sum of L times the coefficients of each u and t is 0, and of each Q a matrix >= 0.
 
-Then the same sum of the constants, which is that of the Q, cannot be below 0."""
+Then the same sum of the constants, which is that of the Q, cannot be below 0. It cannot be 0 either
+where that matrix is not 0 and Q > 0, as a strict inequality asks; nor may that Q lose a constant."""
 from collections import namedtuple
 from fractions import Fraction
 from itertools import combinations_with_replacement
 from arithmetic import affine_terms
-from matrices import NEGATIVE, Matrix, classify, filled
+from matrices import NEGATIVE, Matrix, classify, filled, flat
 from squares import parts
 from yes import Claim, cases
 # Terms of an equation: ("u", k), ("t", ...), or ("q", gram, a, b) with a <= b. An equation has its
@@ -22,6 +23,7 @@ class Equations(dict):
     def __init__(self):
         super().__init__()
         self.bases = []     # of the Gram matrices: lists of exponents
+        self.positive = {}  # the main ones of strict inequalities: the constants that they need
     def put(self, key, term, c):
         terms = self.setdefault(key, ({}, Fraction(0)))[0]
         terms[term] = terms.get(term, 0) + c
@@ -33,10 +35,13 @@ def prove_no_squares(statement, given, name):
     for _, comparison, domain in cases(statement):
         if isinstance(comparison, Exception): raise comparison
         for part in parts(comparison, domain):
+            if comparison.sign in ("<", ">"):
+                equations.positive[len(equations.bases)] = part.ring.constants()
             pose(len(posed), part, comparison.entry, equations)
             posed.append(part)
     dead = plain_steps(equations)
-    if dead is None: return Claim(name, "proved", "a coefficient")
+    if dead is None or any(equations.bases[g][a] in equations.positive.get(g, ())
+                           for g, a in dead): return Claim(name, "proved", "a coefficient")
     values = {(at, e): Fraction(y) for at, moments in enumerate(given or [])
               for text, y in moments.items() for e in part_terms(posed[at], text)}
     sums, total = {}, Fraction(0)
@@ -52,11 +57,14 @@ def prove_no_squares(statement, given, name):
                 if a != b: matrices[g].elements[b][a] += half
             else: sums[term] = sums.get(term, 0) + y * c
     if any(sums.values()): return Claim(name, "open", "moments that are not those of the unknowns")
+    excludes = total < 0
     for g, matrix in enumerate(matrices):
         kept = [a for a in range(matrix.rows) if (g, a) not in dead]
-        if classify(Matrix([[matrix[a, b] for b in kept] for a in kept], len(kept), len(kept))) \
-                == NEGATIVE: return Claim(name, "open", "moments that are not those of squares")
-    return Claim(name, "proved", "moments") if total < 0 else \
+        left = Matrix([[matrix[a, b] for b in kept] for a in kept], len(kept), len(kept))
+        if classify(left) == NEGATIVE:
+            return Claim(name, "open", "moments that are not those of squares")
+        excludes |= total == 0 and g in equations.positive and any(flat(left))
+    return Claim(name, "proved", "moments") if excludes else \
         Claim(name, "open", "moments that exclude nothing")
 def part_terms(part, text): return part.ring.terms(part.ring.read(text))
 def plus(*exponents): return tuple(map(sum, zip(*exponents)))

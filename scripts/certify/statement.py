@@ -187,10 +187,11 @@ class Statement:
         """{name: range} of what the texts ask to search. A value that is given ends that."""
         found = {name: p["search"] for name, p in
                  declarations(self.method, "parameters", "default").items() if "search" in p}
-        for name in (*self.given, *self.settings): found.pop(name, None)
+        for name in self.given: found.pop(name, None)
         asked = yaml.load(self.settings.get("search", ""), Loader=TextLoader)
         for value in section({"search": asked} if asked else self.problem, "search").values():
             if isinstance(value, dict): found.update(value)
+        for name in self.settings: found.pop(name, None)
         return found
     def check_searched(self):
         """Values under `searched` replace those of the texts, which must ask for a search."""

@@ -90,6 +90,27 @@ TEST(Figure, IsWellFormedWhateverItShows) {
   }
 }
 
+TEST(Figure, AFieldIsArrowsInsideOfItsPlane) {
+  Figure figure{"f", "", {{"p", "y", false, {plain({-1, 1}, {-1, 1})}}}};
+  figure.panels[0].across = "x";
+  const std::size_t before = count(elements(figure), "path");
+  figure.panels[0].field = [](double x, double y) { return std::pair(y, -x); };
+  const auto all = elements(figure);
+  EXPECT_EQ(count(all, "path"), before + 1);
+  const auto arrows = std::ranges::find_if(all, [](const test::Element& element) {
+    const auto stroke = element.attributes.find("stroke");
+    return stroke != element.attributes.end() && stroke->second == "#b8b8b8";
+  });
+  ASSERT_NE(arrows, all.end());
+  // A shaft and a head of two lines for each.
+  const std::string& path = arrows->attributes.at("d");
+  EXPECT_EQ(std::ranges::count(path, 'M') % 2, 0);
+  EXPECT_GT(std::ranges::count(path, 'M'), 600);
+  // Nothing where the rates have no value.
+  figure.panels[0].field = [](double, double) { return std::pair(nan, 1.0); };
+  EXPECT_EQ(count(elements(figure), "path"), before);
+}
+
 TEST(Figure, IsTheSameBytesTwice) {
   for (const Figure& figure : odd_figures()) EXPECT_EQ(svg(figure), svg(Figure(figure)));
   const Figure figure{"f", "t", {{"p", "", false, state_and_estimate(40)}}};

@@ -77,6 +77,30 @@ TEST(EventDraws, AnEllipsoidIsFilledEvenly) {
   EXPECT_LT((covariance - expected).cwiseAbs().maxCoeff(), 0.02 * expected.norm());
 }
 
+TEST(EventDraws, BetweenTwoLevelsAnEllipsoidIsFilledEvenly) {
+  const auto shares = [](const std::string& level) {
+    const auto setup = setup_of(
+        kPlant, "campaign: {horizon: 1, initial: {x: {ellipsoid: {matrix: Q, level: " + level +
+                    "}}, z: 0}}\n");
+    const Eigen::Matrix3d Q{{4, 1, 0}, {1, 2, 0.5}, {0, 0.5, 1}};
+    std::vector<double> found;
+    for (std::uint64_t run = 0; run < 2000; ++run) {
+      const Eigen::Vector3d d = part(*setup, start(*setup, 7, run), "x");
+      found.push_back(std::pow(d.dot(Q * d), 1.5));
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+  };
+  const std::vector<double> hollow = shares("[1, 4]");  // shares of the volume from 1 to 8
+  EXPECT_GE(hollow.front(), 1 - 1e-12);
+  EXPECT_LE(hollow.back(), 8 + 1e-12);
+  for (std::size_t k = 0; k < hollow.size(); ++k)
+    EXPECT_NEAR((hollow[k] - 1) / 7, (static_cast<double>(k) + 0.5) / 2000, 1.63 / std::sqrt(2000));
+  const std::vector<double> surface = shares("[2, 2]");
+  EXPECT_NEAR(surface.front(), std::pow(2, 1.5), 1e-12);
+  EXPECT_NEAR(surface.back(), std::pow(2, 1.5), 1e-12);
+}
+
 /// The first values of a noise in many runs.
 std::vector<VectorXd> first_values(const claims::RunSetup& setup, const std::string& name,
                                    std::uint64_t runs) {
@@ -225,6 +249,8 @@ TEST(EventDraws, ABadEllipsoidIsRefused) {
        {std::pair("{matrix: -Q}", "positive definite"),
         std::pair("{matrix: \"[1, 1, 0; 0, 1, 0; 0, 0, 1]\"}", "not symmetric"),
         std::pair("{matrix: Q, level: -1}", "level"),
+        std::pair("{matrix: Q, level: [2, 1]}", "expected [low, high]"),
+        std::pair("{matrix: Q, level: [1, 2, 3]}", "a number, or two of them"),
         std::pair("{matrix: eye(2)}", "wrong shape")}) {
     SCOPED_TRACE(ellipsoid);
     try {
