@@ -12,7 +12,6 @@
 #include <string>
 #include <vector>
 
-#include "expr/rename.h"
 #include "model/method.h"
 
 namespace gainsmith::bind {

@@ -3,7 +3,6 @@
 
 #include <optional>
 
-#include "expr/compile.h"
 #include "expr/scope.h"
 #include "model/design.h"
 #include "model/formula.h"

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "base/scalars.h"
-#include "base/unit_roundoff.h"
 
 namespace gainsmith::linear {
 

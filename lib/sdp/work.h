@@ -3,7 +3,6 @@
 
 #include <type_traits>
 
-#include "base/scalars.h"
 #include "base/stop.h"
 
 namespace gainsmith::sdp {

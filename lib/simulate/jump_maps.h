@@ -4,12 +4,10 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "hybrid/event_functions.h"
 #include "simulate/last_places.h"
-#include "simulate/run_end.h"
 #include "simulate/state_31.h"
 
 namespace gainsmith::simulate {
