@@ -2,7 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <utility>
+#include <algorithm>
 #include <vector>
 
 #include "sdp/linalg.h"
@@ -54,6 +54,10 @@ class MatrixOperator {
   struct Block {
     std::vector<Term> terms;
     std::vector<Scalar> scalars;
+    /// How many terms an unknown has.
+    auto terms_of(std::size_t unknown) const {
+      return std::ranges::count(terms, unknown, &Term::unknown);
+    }
   };
   struct Row {
     Vector<double> coefficients;  ///< m
