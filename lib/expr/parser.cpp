@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <string_view>
 #include <utility>
 
 #include "base/stop.h"
@@ -107,8 +106,7 @@ class Parser : TokenCursor {
 
   static void refuse_twice(const std::vector<Index>& indices, const std::string& name,
                            const Place& place) {
-    const auto count = std::count_if(indices.begin(), indices.end(),
-                                     [&](const Index& index) { return index.name == name; });
+    const auto count = std::ranges::count(indices, name, &Index::name);
     if (count > 1) throw InputError(place, "the index '" + name + "' is given twice");
   }
 
