@@ -118,7 +118,7 @@ class SchurOperator {
   const MatrixOperator& of_;
   const Blocks<double>* W_ = nullptr;
   std::vector<Scaled> scaled_;
-  mutable std::vector<Matrix<double>> unknowns_, gradients_;
+  mutable std::vector<Matrix<double>> unknowns_;
 };
 
 }  // namespace gainsmith::sdp
