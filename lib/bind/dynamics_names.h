@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "expr/rename.h"
 #include "model/method.h"
 
 namespace gainsmith::bind {

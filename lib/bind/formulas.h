@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "expr/compile.h"
 #include "expr/scope.h"
 #include "model/design.h"
 #include "model/formula.h"

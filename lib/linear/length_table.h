@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/scalars.h"
+#include "base/unit_roundoff.h"
 
 namespace gainsmith::linear {
 

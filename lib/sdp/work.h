@@ -3,6 +3,7 @@
 
 #include <type_traits>
 
+#include "base/scalars.h"
 #include "base/stop.h"
 
 namespace gainsmith::sdp {
