@@ -24,7 +24,7 @@ Value word(const JsonReader& reader, const std::array<Value, N>& values) {
 }
 
 claims::Judgement judgement_from(const JsonReader& reader) {
-  using enum claims::Judgement;
+  using enum model::CampaignVerdict;
   return word(reader, std::array{held, violated, undecided});
 }
 

@@ -1,7 +1,6 @@
 // Internal to api: the errors of the rooms become those of the library.
 #pragma once
 
-#include <exception>
 #include <stdexcept>
 
 #include "api/gainsmith.h"

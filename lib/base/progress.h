@@ -1,7 +1,6 @@
 // What is being done, in a few words, for people who wait.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <optional>
 #include <string>

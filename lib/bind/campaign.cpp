@@ -1,8 +1,8 @@
 #include "bind/campaign.h"
 
-#include <algorithm>
 #include <cmath>
 
+#include "base/named.h"
 #include "base/nearest.h"
 #include "base/number.h"
 #include "bind/formulas.h"
@@ -51,9 +51,8 @@ void check_box(const Binding& binding, const model::Design::Start& start,
 }
 
 InputError no_state(const Binding& binding, const std::string& name, const Place& place) {
-  std::vector<std::string> names;
-  for (const model::Design::State& state : binding.design->states) names.push_back(state.name);
-  return {place, "there is no state '" + name + "'" + suggestion(name, names)};
+  return {place, "there is no state '" + name + "'" +
+                     suggestion(name, names_of_all(binding.design->states))};
 }
 
 /// Center, matrix and level.

@@ -1,8 +1,8 @@
 #include "bind/claims.h"
 
-#include <algorithm>
 #include <utility>
 
+#include "base/named.h"
 #include "base/nearest.h"
 #include "bind/estimates.h"
 #include "bind/families.h"
@@ -49,8 +49,7 @@ model::Formula constant_of_claim(const Binding& binding, const expr::Expression&
   const auto changes = [&](const std::string& name) {
     if (state_of(*binding.design, name) < binding.design->states.size()) return true;
     const auto& dynamics = binding.design->dynamics;
-    return dynamics && std::any_of(dynamics->variables.begin(), dynamics->variables.end(),
-                                   [&](const auto& one) { return one.name == name; });
+    return dynamics && has_named(dynamics->variables, name);
   };
   for (const expr::Input& input : bound.program.inputs)
     if (changes(input.name))

@@ -1,7 +1,5 @@
 #include "bind/convex.h"
 
-#include <utility>
-
 #include "bind/trees.h"
 namespace gainsmith::bind {
 

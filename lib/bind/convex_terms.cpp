@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 
+#include "base/named.h"
 #include "bind/convex.h"
 #include "bind/dynamics_names.h"
 #include "bind/families.h"
@@ -296,8 +297,7 @@ NodePtr bounding_unknown(Binding& binding, const expr::Expression& text, const N
   const auto is_taken = [&](const std::string& name) {
     return scope.symbols.contains(name) || scope.definitions.contains(name) ||
            scope.dimensions.contains(name) || name == timer_name(binding.method()) ||
-           std::any_of(binding.method().gains.begin(), binding.method().gains.end(),
-                       [&](const model::Gain& gain) { return gain.name == name; }) ||
+           has_named(binding.method().gains, name) ||
            std::any_of(binding.method().observers.begin(), binding.method().observers.end(),
                        [&](const model::Component& one) { return names_of(one).contains(name); }) ||
            names_of(binding.method().plant).contains(name);

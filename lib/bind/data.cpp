@@ -1,4 +1,5 @@
 #include "bind/data.h"
+#include "base/named.h"
 #include "bind/polynomials.h"
 
 #include <algorithm>
@@ -17,13 +18,6 @@
 namespace gainsmith::bind {
 
 namespace {
-
-template <class Item>
-const Item* find_named(const std::vector<Item>& items, const std::string& name) {
-  const auto found =
-      std::find_if(items.begin(), items.end(), [&](const Item& item) { return item.name == name; });
-  return found == items.end() ? nullptr : &*found;
-}
 
 std::string declared(const model::Declaration& declaration, const model::Dimensions& dimensions) {
   std::string text = declaration.shape.text;
@@ -271,12 +265,12 @@ const model::Let* find_let(const model::Method& method, const std::string& name)
 std::string meaning_of(const Binding& binding, const std::string& name) {
   const model::Method& method = binding.method();
   const std::string of_method = " of the method " + method.name;
-  if (find_named(method.data, name) != nullptr)
+  if (has_named(method.data, name))
     return "it is a datum of the method, whose place is under 'data'";
-  if (find_named(method.parameters, name) != nullptr)
+  if (has_named(method.parameters, name))
     return "it is a parameter of the method, whose place is under 'parameters'";
-  if (find_named(method.unknowns, name) != nullptr) return "it is an unknown" + of_method;
-  if (find_named(method.gains, name) != nullptr) return "it is a gain" + of_method;
+  if (has_named(method.unknowns, name)) return "it is an unknown" + of_method;
+  if (has_named(method.gains, name)) return "it is a gain" + of_method;
   // Those of a method in the problem itself may be set again: `--set k=2`.
   if (model::is_method_file(method.file) && find_let(method, name) != nullptr)
     return "it is a definition" + of_method;

@@ -4,26 +4,15 @@
 #include <string>
 #include <vector>
 
+#include "base/named.h"
 #include "base/nearest.h"
 #include "expr/rename.h"
 
 namespace gainsmith::bind {
 
-namespace {
-
-template <class Item>
-std::vector<std::string> names_of(const std::vector<Item>& items) {
-  std::vector<std::string> names;
-  names.reserve(items.size());
-  for (const Item& item : items) names.push_back(item.name);
-  return names;
-}
-
-}  // namespace
-
 void refuse_unknown_names(const Binding& binding) {
-  const auto data = names_of(binding.method().data);
-  const auto parameters = names_of(binding.method().parameters);
+  const auto data = names_of_all(binding.method().data);
+  const auto parameters = names_of_all(binding.method().parameters);
   const auto refuse = [&](const std::vector<model::Value>& values,
                           const std::vector<std::string>& known,
                           const std::vector<std::string>& elsewhere, const char* what,
@@ -33,9 +22,7 @@ void refuse_unknown_names(const Binding& binding) {
       // What is given already is no misspelling of this one.
       std::vector<std::string> missing;
       for (const std::string& one : known)
-        if (std::none_of(values.begin(), values.end(),
-                         [&](const model::Value& given) { return given.name == one; }))
-          missing.push_back(one);
+        if (!has_named(values, one)) missing.push_back(one);
       const bool misplaced =
           std::find(elsewhere.begin(), elsewhere.end(), value.name) != elsewhere.end();
       throw InputError(

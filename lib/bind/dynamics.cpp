@@ -3,6 +3,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/named.h"
 #include "base/nearest.h"
 #include "bind/binding.h"
 #include "bind/dynamics_binding.h"
@@ -43,9 +44,7 @@ model::Formula DynamicsBinding::formula(const expr::Expression& text, const expr
 }
 
 bool DynamicsBinding::is_moving(const std::string& name) const {
-  return std::any_of(
-      result_.variables.begin(), result_.variables.end(),
-      [&](const model::Dynamics::Variable& variable) { return variable.name == name; });
+  return has_named(result_.variables, name);
 }
 
 bool DynamicsBinding::is_free(const std::string& name) const {

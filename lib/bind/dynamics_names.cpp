@@ -4,6 +4,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/named.h"
 #include "base/nearest.h"
 
 namespace gainsmith::bind {
@@ -63,8 +64,7 @@ std::string DynamicsNames::full(const model::Component& component, const std::st
 
 bool DynamicsNames::is_output_of_plant(const std::string& name) const {
   const auto& outputs = method_->plant.outputs;
-  return std::any_of(outputs.begin(), outputs.end(),
-                     [&](const model::Output& output) { return output.name == name; });
+  return has_named(outputs, name);
 }
 
 /// "plant.x" is x, "plant.impact.left" is impact.left; what has a value under "plant.x" stays.
@@ -78,8 +78,7 @@ std::optional<std::string> DynamicsNames::of_part(const std::string& name) const
 std::optional<std::string> DynamicsNames::event(const model::Component* component,
                                                 const std::string& name) const {
   const auto has = [](const std::vector<model::EventText>& events, const std::string& one) {
-    return std::any_of(events.begin(), events.end(),
-                       [&](const model::EventText& event) { return event.name == one; });
+    return has_named(events, one);
   };
   if (component != nullptr && has(component->events, name)) return full_name(*component, name);
   if (has(method_->events, name) || has(method_->plant.events, name)) return name;
@@ -209,8 +208,7 @@ std::vector<Reading> DynamicsNames::outside(const std::vector<expr::Expression>&
 Reading DynamicsNames::of_observer(const std::string& observer,
                                    const std::vector<expr::Expression>& texts,
                                    const Place& place) const {
-  std::vector<std::string> observers;
-  for (const model::Component& one : method_->observers) observers.push_back(one.name);
+  const std::vector<std::string> observers = names_of_all(method_->observers);
   if (std::find(observers.begin(), observers.end(), observer) == observers.end())
     throw InputError(place,
                      "there is no observer '" + observer + "'" + suggestion(observer, observers));
@@ -240,10 +238,7 @@ std::vector<Reading> DynamicsNames::add_signal(const model::Named& signal) {
 
 std::vector<std::string> DynamicsNames::states(const std::string& name) const {
   const auto has = [](const model::Component& component, const std::string& one) {
-    for (const auto* list : {&component.states, &component.modes})
-      for (const model::Declaration& state : *list)
-        if (state.name == one) return true;
-    return false;
+    return has_named(component.states, one) || has_named(component.modes, one);
   };
   const std::string own = name.starts_with(kPlant) ? name.substr(kPlant.size()) : name;
   if (has(method_->plant, own)) return {full(method_->plant, own)};

@@ -4,7 +4,6 @@
 #include <array>
 #include <charconv>
 #include <optional>
-#include <string_view>
 
 namespace gainsmith::bind {
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/named.h"
 #include "bind/formulas.h"
 #include "expr/functions.h"
 
@@ -80,10 +81,8 @@ bool is_function(const model::Problem& problem, const model::Declaration& datum)
   if (const model::Let* let = given(problem, datum.name); let != nullptr && !function)
     throw InputError(let->place, "the datum " + datum.name + " is declared " + datum.shape.text +
                                      "; found a function");
-  const auto matrix =
-      std::find_if(problem.data.begin(), problem.data.end(),
-                   [&](const model::Value& value) { return value.name == datum.name; });
-  if (function && matrix != problem.data.end())
+  const model::Value* matrix = find_named(problem.data, datum.name);
+  if (function && matrix != nullptr)
     throw InputError(matrix->place, "the datum " + declared(datum) + " is a function: write " +
                                         called(datum) + ": ...");
   return function;

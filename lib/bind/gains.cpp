@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 
+#include "base/named.h"
 #include "base/nearest.h"
 #include "bind/estimates.h"
 #include "bind/families.h"
@@ -143,8 +144,7 @@ void add_gain(Binding& binding, const model::Gain& gain, const expr::Scope& name
 /// The bound of a family is that of each of its members.
 void bind_gain_bounds(Binding& binding) {
   std::vector<model::BoundOfGain> bounds;
-  std::vector<std::string> names;
-  for (const model::Gain& gain : binding.method().gains) names.push_back(gain.name);
+  const std::vector<std::string> names = names_of_all(binding.method().gains);
   for (const model::BoundOfGain& stated : binding.source->synthesis.gain_bounds) {
     const std::size_t before = bounds.size();
     for (const model::Gain& gain : binding.method().gains)

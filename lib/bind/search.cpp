@@ -1,8 +1,8 @@
 #include "bind/search.h"
 
-#include <algorithm>
 #include <set>
 
+#include "base/named.h"
 #include "base/nearest.h"
 #include "bind/estimates.h"
 #include "bind/formulas.h"
@@ -113,8 +113,7 @@ void bind_search(Binding& binding) {
   for (const model::ScalarRange& text : binding.problem().negotiable)
     binding.design->negotiable.push_back(checked(text));
   const auto is_given = [&](const std::string& name) {
-    return std::any_of(binding.problem().parameters.begin(), binding.problem().parameters.end(),
-                       [&](const model::Value& value) { return value.name == name; });
+    return has_named(binding.problem().parameters, name);
   };
   for (const model::Parameter& parameter : binding.method().parameters)
     if (parameter.search && !is_given(parameter.name))

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/eigen_scalars.h"
+#include "base/named.h"
 #include "bind/binding.h"
 #include "bind/exact_values.h"
 #include "bind/gains.h"
@@ -43,7 +44,7 @@ class Builder {
     add_bases();
     add_functions();
     for (const auto& [name, value] : gains_.parameters)
-      if (is_parameter(name)) take(name, {}, value);
+      if (has_named(design_.parameters, name)) take(name, {}, value);
     for (const model::UnknownMatrix& unknown : stated_.unknowns)
       if (const numbers::Matrix* value = gains_.find(unknown.name))
         take(unknown.name, unknown.shape, *value);
@@ -52,12 +53,6 @@ class Builder {
   }
 
  private:
-  bool is_parameter(const std::string& name) const {
-    return std::any_of(
-        design_.parameters.begin(), design_.parameters.end(),
-        [&](const model::Design::Datum& parameter) { return parameter.name == name; });
-  }
-
   /// The bases that the gains are in, and the data that follow from them.
   void add_bases() {
     numbers::Values bases;
@@ -85,9 +80,7 @@ class Builder {
       };
       if (std::ranges::any_of(design_.polynomials, states)) continue;  // a definition of the design
       const auto known =
-          std::find_if(functions.begin(), functions.end(), [&](const model::Function& function) {
-            return function.signature() == stated.signature;
-          });
+          std::ranges::find(functions, stated.signature, &model::Function::signature);
       if (known == functions.end())
         throw InputError({gains_.file}, "the gain file defines " + stated.signature +
                                             ", which is no unknown function of the method");
@@ -107,8 +100,7 @@ class Builder {
   }
 
   const model::Design::Unknown& unknown(const std::string& name) const {
-    return *std::find_if(design_.unknowns.begin(), design_.unknowns.end(),
-                         [&](const model::Design::Unknown& known) { return known.name == name; });
+    return *find_named(design_.unknowns, name);
   }
 
   /// `polynomial` has as many coefficients as the file.

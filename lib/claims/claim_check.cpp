@@ -59,18 +59,6 @@ Finding finding_at(const Track& track, std::size_t sample, const Bounded& value,
 
 }  // namespace
 
-std::string to_string(Judgement judgement) {
-  switch (judgement) {
-    case Judgement::held:
-      return "held";
-    case Judgement::violated:
-      return "violated";
-    case Judgement::undecided:
-      return "undecided";
-  }
-  return "?";
-}
-
 Finding ClaimCheck::operator()(const Track& track, bool holds) const {
   Finding finding = judged(track, holds || claim_->always);
   finding.tolerance = claim_->tolerance;

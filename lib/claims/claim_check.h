@@ -54,8 +54,8 @@
 
 namespace gainsmith::claims {
 
-enum class Judgement { held, violated, undecided };
-std::string to_string(Judgement judgement);
+/// Of one run; of a campaign it is the worst of its runs.
+using Judgement = model::CampaignVerdict;
 
 /// How near a run came to violating a claim.
 struct Finding {

@@ -1,7 +1,5 @@
 #include "claims/run_costs.h"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 

@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "base/unit_roundoff.h"
 #include "claims/tolerances.h"
-#include "ode/tolerances.h"
 
 namespace gainsmith::claims {
 

@@ -112,8 +112,7 @@ class Halving {
     // At a break itself a sign may be 0, beside it never.
     const double inside = std::clamp(x, -1 + kBesideBreak, 1 - kBesideBreak);
     const double t = chebyshev::outer(inside, part.from, part.to);
-    const auto known =
-        std::find_if(checks_.begin(), checks_.end(), [&](const Place& one) { return one.t == t; });
+    const auto known = std::ranges::find(checks_, t, &Place::t);
     const bool is_kept = known != checks_.end();
     const double value = is_kept && known->value ? *known->value : value_.at(t);
     if (is_kept) known->value = value;

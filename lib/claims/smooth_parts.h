@@ -10,7 +10,6 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
-#include <functional>
 #include <optional>
 #include <vector>
 

@@ -14,7 +14,6 @@
 namespace gainsmith::claims {
 
 using Eigen::Index;
-using Eigen::VectorXd;
 
 namespace {
 

@@ -3,7 +3,6 @@
 #include <optional>
 
 #include "base/number.h"
-#include "expr/evaluate.h"
 #include "numbers/dense.h"
 #include "numbers/rational_algebra.h"
 #include "verdict/rational_blocks.h"

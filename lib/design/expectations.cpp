@@ -1,7 +1,6 @@
 #include "design/expectations.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/number.h"
 #include "design/results.h"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "base/named.h"
 #include "base/stop.h"
 #include "bind/instance.h"
 #include "design/bisect.h"
@@ -24,9 +25,7 @@ bool holds_at_zero(const model::Instance& instance) {
   const lmi::Inequalities inequalities(instance);
   if (has_sums_of_squares(*instance.design)) return hold_at_zero(sos_statements(inequalities));
   const lmi::Lmi lmi = lmi::compile(inequalities);
-  return lmi::is_homogeneous(lmi.blocks) &&
-         std::none_of(lmi.blocks.begin(), lmi.blocks.end(),
-                      [](const lmi::Block& block) { return block.strict; });
+  return lmi::is_homogeneous(lmi.blocks) && std::ranges::none_of(lmi.blocks, &lmi::Block::strict);
 }
 
 std::vector<std::string> in_reverse(const std::vector<model::Design::Inequality>& inequalities) {
@@ -311,8 +310,7 @@ std::vector<Reach> find_room(const model::Instance& instance, const sdp::Options
   try {
     for (const model::Range& range : design.negotiable) add(range, {});
     const auto is_negotiable = [&](const std::string& name) {
-      return std::any_of(design.negotiable.begin(), design.negotiable.end(),
-                         [&](const model::Range& range) { return range.name == name; });
+      return has_named(design.negotiable, name);
     };
     if (design.search && design.search->extreme && !is_negotiable(design.search->extreme->name))
       add(*design.search->extreme, design.search->largest);

@@ -108,8 +108,7 @@ class FacialReduction {
   }
 
   std::optional<Attempt> run() {
-    const bool any = std::any_of(stated_.begin(), stated_.end(),
-                                 [](const RationalBlock& block) { return block.exact; });
+    const bool any = std::ranges::any_of(stated_, &RationalBlock::exact);
     if (!any) return std::nullopt;
     faces_.find_plain();
     // A quick answer checks only what needs no multipliers.

@@ -1,10 +1,10 @@
 #include "design/fixed_gains.h"
 
+#include "base/named.h"
 #include "design/sos_statements.h"
 #include "design/sums_of_squares.h"
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -126,10 +126,8 @@ class Fixing {
   }
 
   void fix(const model::Design::Gain& gain) {
-    const auto function =
-        std::find_if(gains_.gain_functions.begin(), gains_.gain_functions.end(),
-                     [&](const model::GainFunction& one) { return one.name == gain.name; });
-    const bool is_function = function != gains_.gain_functions.end();
+    const model::GainFunction* function = find_named(gains_.gain_functions, gain.name);
+    const bool is_function = function != nullptr;
     if (is_function && function->kind != model::GainFunction::Kind::polynomial) {
       result_.solvable = false;
       if (function->formula != gain.formula.text) stick(gain);
@@ -146,7 +144,7 @@ class Fixing {
     if (unknowns.empty() && datum != nullptr && !is_function)
       return set_datum(decimals_at(gains_, "gains." + gain.name, matrix->second), *datum);
     if (const auto solution = simplest(unknowns, gain, formula))
-      return replace(solution->first, solution->second, gain, is_function ? &*function : nullptr);
+      return replace(solution->first, solution->second, gain, function);
     if (!unknowns.empty()) result_.solvable = false;
     if (edited) stick(gain);
   }
@@ -213,8 +211,7 @@ class Fixing {
     const std::string name = expr::derivative_name(unknown);
     for (const model::Design::Inequality& inequality : design_.inequalities)
       for (const model::Design::Comparison& comparison : inequality.comparisons)
-        for (const expr::Input& function : comparison.difference.functions)
-          if (function.name == name) return true;
+        if (has_named(comparison.difference.functions, name)) return true;
     return false;
   }
 
@@ -225,9 +222,7 @@ class Fixing {
       const expr::Program& formula) const {
     std::optional<std::pair<std::string, expr::Program>> best;
     const auto inverses = [](const expr::Program& program) {
-      return std::count_if(
-          program.code.begin(), program.code.end(),
-          [](const expr::Instruction& one) { return one.op == expr::Op::inverse; });
+      return std::ranges::count(program.code, expr::Op::inverse, &expr::Instruction::op);
     };
     for (const std::string& name : unknowns) {
       // Values of a formula have no structure, unless they are the gain itself.
@@ -243,8 +238,7 @@ class Fixing {
   }
 
   const model::Design::Unknown& unknown(const std::string& name) const {
-    return *std::find_if(design_.unknowns.begin(), design_.unknowns.end(),
-                         [&](const model::Design::Unknown& one) { return one.name == name; });
+    return *find_named(design_.unknowns, name);
   }
 
   void replace(const std::string& name, const expr::Program& solution,

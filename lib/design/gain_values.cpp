@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/named.h"
 #include "base/scalars.h"
 #include "bind/stated.h"
 #include "lmi/affine.h"
@@ -45,13 +46,11 @@ std::optional<std::vector<numbers::Matrix>> polynomial(const expr::Program& prog
 /// Whether the formula calls an unknown function in this basis.
 bool calls(const lmi::Inequalities& inequalities, const expr::Program& formula,
            model::Basis::Kind basis) {
-  return std::any_of(
-      inequalities.functions.begin(), inequalities.functions.end(),
-      [&](const model::Function& function) {
-        return function.basis.kind == basis &&
-               std::any_of(formula.functions.begin(), formula.functions.end(),
-                           [&](const expr::Input& called) { return called.name == function.name; });
-      });
+  return std::any_of(inequalities.functions.begin(), inequalities.functions.end(),
+                     [&](const model::Function& function) {
+                       return function.basis.kind == basis &&
+                              has_named(formula.functions, function.name);
+                     });
 }
 
 }  // namespace

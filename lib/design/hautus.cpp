@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/named.h"
 #include "base/number.h"
 #include "expr/evaluate.h"
 #include "forall/minima.h"
@@ -364,9 +365,8 @@ std::string hidden_mode_text(const model::Instance& instance, const forall::Doma
   const auto flow = std::find_if(dynamics.flow.begin(), dynamics.flow.end(), [&](const auto& each) {
     return dynamics.variables[each.variable].name == state;
   });
-  const auto output = std::find_if(dynamics.signals.begin(), dynamics.signals.end(),
-                                   [](const auto& signal) { return signal.name == "y"; });
-  if (shape.cols != 1 || flow == dynamics.flow.end() || output == dynamics.signals.end()) return "";
+  const model::Dynamics::Signal* output = find_named(dynamics.signals, "y");
+  if (shape.cols != 1 || flow == dynamics.flow.end() || output == nullptr) return "";
   if (!flow->value.program.functions.empty() || !output->value.program.functions.empty()) return "";
   const StateBox box(domain, state, shape.rows);
   if (box.low.empty()) return "";

@@ -1,8 +1,6 @@
 #include "design/limits.h"
 
 #include <algorithm>
-#include <cmath>
-#include <map>
 #include <set>
 
 #include "base/stop.h"

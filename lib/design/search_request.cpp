@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/named.h"
 #include "base/number.h"
 
 namespace gainsmith::design {
@@ -9,9 +10,7 @@ namespace gainsmith::design {
 namespace {
 
 bool names(const SearchRequest& request, const std::string& name) {
-  return (request.extreme && request.extreme->name == name) ||
-         std::any_of(request.over.begin(), request.over.end(),
-                     [&](const SearchedScalar& scalar) { return scalar.name == name; });
+  return (request.extreme && request.extreme->name == name) || has_named(request.over, name);
 }
 
 }  // namespace

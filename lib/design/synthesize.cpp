@@ -35,8 +35,7 @@ double seconds_since(Clock::time_point start) {
 
 /// InputError when x = 0 satisfies everything because nothing is strict and nothing is constant.
 void refuse_zero_solution(const model::Design& design, const lmi::Lmi& lmi) {
-  const bool strict = std::any_of(lmi.blocks.begin(), lmi.blocks.end(),
-                                  [](const lmi::Block& block) { return block.strict; });
+  const bool strict = std::ranges::any_of(lmi.blocks, &lmi::Block::strict);
   // Between the points of a domain there may be constant parts that are 0 at these points.
   const bool has_domains = std::any_of(design.inequalities.begin(), design.inequalities.end(),
                                        [](const auto& one) { return !one.domain.empty(); });
@@ -78,8 +77,7 @@ void report_plans(const forall::Plan& plan, int rounds, model::Gains& gains) {
     gains.solver.add_message(text);
   }
   if (!gains.certificate || gains.certificate->is_about_problem()) return;
-  const bool exact = std::all_of(plan.inequalities.begin(), plan.inequalities.end(),
-                                 [](const forall::Imposed& imposed) { return imposed.exact; });
+  const bool exact = std::ranges::all_of(plan.inequalities, &forall::Imposed::exact);
   if (exact) {
     gains.solver.add_message(
         blunt_text(gains.certificate->backward_error, !gains.solver.out_of_allowance));

@@ -3,7 +3,6 @@
 
 #include "model/gains.h"
 #include "model/instance.h"
-#include "sdp/problem.h"
 #include "sdp/solver.h"
 
 namespace gainsmith::design {

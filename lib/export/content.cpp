@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "base/hash.h"
+#include "base/named.h"
 #include "export/shared_text.h"
 #include "expr/substitute.h"
-#include "model/dynamics_programs.h"
 #include "model/estimate_name.h"
 #include "numbers/degree.h"
 
@@ -314,10 +314,8 @@ Content content_of(const model::Gains& gains, const model::Design& design,
   content.values = stated.values;
   for (const auto& [name, value] : gains.gains) content.gains.push_back({name, value});
   for (const model::Design::Gain& gain : design.gains) {
-    const auto function =
-        std::find_if(gains.gain_functions.begin(), gains.gain_functions.end(),
-                     [&](const model::GainFunction& one) { return one.name == gain.name; });
-    if (function == gains.gain_functions.end()) continue;
+    const model::GainFunction* function = find_named(gains.gain_functions, gain.name);
+    if (function == nullptr) continue;
     if (gain.shape.size() == 0) {
       content.notes.push_back("the gain " + gain.name + " has no elements and is left out");
       continue;

@@ -3,7 +3,6 @@
 
 #include <set>
 #include <string>
-#include <vector>
 
 namespace gainsmith::exports {
 

@@ -1,8 +1,5 @@
 #include "export/shared_text.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <utility>
 
 #include "base/number.h"

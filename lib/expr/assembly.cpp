@@ -1,8 +1,8 @@
 #include "expr/assembly.h"
 
-#include <algorithm>
 #include <stdexcept>
-#include <utility>
+
+#include "expr/rewrite.h"
 
 namespace gainsmith::expr {
 
@@ -14,11 +14,6 @@ int place_of(std::vector<Input>& inputs, const std::string& name, Shape shape) {
     if (inputs[i].name == name) return static_cast<int>(i);
   inputs.push_back({name, shape});
   return static_cast<int>(inputs.size()) - 1;
-}
-
-Instruction made(Op op, std::vector<int> operands, Shape shape, int attribute,
-                 const Instruction& like) {
-  return {op, std::move(operands), shape, {attribute}, {}, like.origin, like.offset};
 }
 
 }  // namespace
@@ -37,33 +32,34 @@ int Assembly::add(Instruction instruction) {
                 instruction.shape.cols,
                 instruction.attributes,
                 instruction.text,
-                number_of(instruction.body)};
+                bodies_.number_of(instruction.body)};
   const auto [found, fresh] = known_.emplace(key, static_cast<int>(program_.code.size()));
   if (fresh) program_.code.push_back(std::move(instruction));
   return found->second;
 }
 
-int Assembly::number_of(const std::shared_ptr<const Program>& body) {
-  if (!body) return -1;
-  const auto found = std::ranges::find_if(
-      bodies_, [&](const auto& known) { return known == body || is_same(*known, *body); });
-  if (found == bodies_.end()) {
-    bodies_.push_back(body);
-    return static_cast<int>(bodies_.size()) - 1;
-  }
-  return static_cast<int>(found - bodies_.begin());
-}
-
 int Assembly::add_input(const std::string& name, Shape shape, const Instruction& like) {
-  return add(made(Op::input, {}, shape, place_of(program_.inputs, name, shape), like));
+  return add(made(Op::input, {}, shape, like, {place_of(program_.inputs, name, shape)}));
 }
 
 int Assembly::add_call(const std::string& name, Shape shape, int argument,
                        const Instruction& like) {
   Instruction call =
-      made(Op::call, {argument}, shape, place_of(program_.functions, name, shape), like);
+      made(Op::call, {argument}, shape, like, {place_of(program_.functions, name, shape)});
   call.text = like.text;
   return add(std::move(call));
+}
+
+int Assembly::add_copy(const Program& program, Instruction copy) {
+  if (copy.op != Op::input && copy.op != Op::call) return add(std::move(copy));
+  if (copy.op == Op::call)
+    return add_call(called_by(program, copy), copy.shape, copy.operands[0], copy);
+  const Input& input = program.input_of(copy);
+  return add_input(input.name, input.shape, copy);
+}
+
+int Assembly::add_program(const Program& program) {
+  return add_program(program, [](const auto&, const auto&) { return std::nullopt; });
 }
 
 Program Assembly::extract(int at) const {
@@ -77,8 +73,7 @@ Program Assembly::extract(int at) const {
   std::vector<int> moved(program_.code.size(), -1);
   for (std::size_t i = 0; i < program_.code.size(); ++i) {
     if (!needed[i]) continue;
-    Instruction instruction = program_.code[i];
-    for (int& operand : instruction.operands) operand = moved[static_cast<std::size_t>(operand)];
+    Instruction instruction = expr::moved(program_.code[i], moved);
     if (instruction.op == Op::input || instruction.op == Op::call) {
       const bool input = instruction.op == Op::input;
       const auto& all = input ? program_.inputs : program_.functions;

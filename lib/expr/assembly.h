@@ -2,9 +2,10 @@
 #pragma once
 
 #include <map>
-#include <memory>
+#include <optional>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "expr/program.h"
@@ -22,13 +23,33 @@ class Assembly {
   /// The instruction that calls a function of the given shape; `like` gives its place and text.
   int add_call(const std::string& name, Shape shape, int argument, const Instruction& like);
 
+  /// Adds a program: where each of its instructions is then. replace(one, copy) gives what takes the
+  /// place of one, if anything does; the copy has its operands here.
+  template <class Replace>
+  std::vector<int> add_all(const Program& program, const Replace& replace) {
+    std::vector<int> places;
+    places.reserve(program.code.size());
+    for (const Instruction& one : program.code) {
+      Instruction copy = moved(one, places);
+      const std::optional<int> other = replace(one, copy);
+      places.push_back(other ? *other : add_copy(program, std::move(copy)));
+    }
+    return places;
+  }
+  /// Where its result is then.
+  template <class Replace>
+  int add_program(const Program& program, const Replace& replace) {
+    return add_all(program, replace)[static_cast<std::size_t>(program.result)];
+  }
+  int add_program(const Program& program);
+
   const Instruction& operator[](int at) const {
     return program_.code[static_cast<std::size_t>(at)];
   }
   Shape shape(int at) const { return (*this)[at].shape; }
   /// Of an instruction that reads one.
   const std::string& input_name(const Instruction& input) const {
-    return program_.inputs[static_cast<std::size_t>(input.attributes[0])].name;
+    return program_.input_of(input).name;
   }
   int size() const { return static_cast<int>(program_.code.size()); }
 
@@ -38,11 +59,10 @@ class Assembly {
  private:
   using Key = std::tuple<Op, std::vector<int>, int, int, Attributes, std::string, int>;
 
-  /// Which of the bodies it is; equal ones are the same. -1: none.
-  int number_of(const std::shared_ptr<const Program>& body);
+  int add_copy(const Program& program, Instruction copy);
 
   Program program_;
-  std::vector<std::shared_ptr<const Program>> bodies_;
+  Bodies bodies_;
   std::map<Key, int> known_;
 };
 

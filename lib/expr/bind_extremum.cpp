@@ -1,7 +1,6 @@
 // maximum(f, x in [a, b], ...) and minimum: f as a program of its own in the names of the box.
 #include <algorithm>
 #include <memory>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>

@@ -80,7 +80,7 @@ Bound Binder::derivative_along(const Expression& expression, const Node& node, i
     return body.add_input("operand " + std::to_string(at), shape(operand), assembly_[operand]);
   };
   const auto made = [&](Op op, std::vector<int> of, Shape shape) {
-    return body.add({op, std::move(of), shape, {}, {}, like.origin, like.offset});
+    return body.add(expr::made(op, std::move(of), shape, like));
   };
   std::vector<int> moved(end, -1);
   for (std::size_t i = 0; i < end; ++i) {
@@ -95,15 +95,14 @@ Bound Binder::derivative_along(const Expression& expression, const Node& node, i
           made(of.is_scalar() ? Op::multiply : Op::scale, {s, outside(rate->second)}, of);
       moved[i] = made(Op::add, {x, step}, of);
     } else {
-      Instruction instruction = assembly_[at];
+      const Instruction& instruction = assembly_[at];
       if (instruction.op == Op::jacobian)
         fail(expression, node, "rate: what holds a jacobian or a rate has none here");
       if (instruction.op == Op::call)
         fail(expression, node,
              "rate: '" + instruction.text +
                  "' is a call of an unknown or a gain, which has no derivative here");
-      for (int& operand : instruction.operands) operand = moved[static_cast<std::size_t>(operand)];
-      moved[i] = body.add(std::move(instruction));
+      moved[i] = body.add(expr::moved(instruction, moved));
     }
   }
   auto program = std::make_shared<const Program>(body.extract(moved[end - 1]));

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <optional>
 #include <utility>
-#include <vector>
 
 #include "expr/binder.h"
 

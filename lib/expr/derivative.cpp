@@ -279,38 +279,20 @@ std::optional<int> add_columns(Assembly& assembly, const Instruction& jacobian,
   }
   if (columns.size() == 1) return columns.front();
   const int count = static_cast<int>(columns.size());
-  return assembly.add({Op::blocks,
-                       std::move(columns),
-                       jacobian.shape,
-                       {count},
-                       {},
-                       jacobian.origin,
-                       jacobian.offset});
+  return assembly.add(made(Op::blocks, std::move(columns), jacobian.shape, jacobian, {count}));
 }
 
 /// The instructions of a program, jacobians replaced. `inputs`: what replaces its inputs; none:
 /// they stay inputs.
 std::vector<int> add_instructions(Assembly& assembly, const Program& program,
                                   const std::vector<int>& inputs) {
-  std::vector<int> moved;
-  for (const Instruction& one : program.code) {
-    if (one.op == Op::input) {
-      const auto position = static_cast<std::size_t>(one.attributes[0]);
-      const Input& input = program.inputs[position];
-      moved.push_back(inputs.empty() ? assembly.add_input(input.name, input.shape, one)
-                                     : inputs[position]);
-      continue;
-    }
-    Instruction copy = one;
-    for (int& operand : copy.operands) operand = moved[static_cast<std::size_t>(operand)];
-    if (one.op == Op::jacobian && one.shape.size() > 0)
-      if (const auto columns = add_columns(assembly, one, copy.operands)) {
-        moved.push_back(*columns);
-        continue;
-      }
-    moved.push_back(assembly.add(std::move(copy)));
-  }
-  return moved;
+  const auto replace = [&](const Instruction& one, const Instruction& copy) -> std::optional<int> {
+    if (one.op == Op::input && !inputs.empty())
+      return inputs[static_cast<std::size_t>(one.attributes[0])];
+    if (one.op != Op::jacobian || one.shape.size() == 0) return std::nullopt;
+    return add_columns(assembly, one, copy.operands);
+  };
+  return assembly.add_all(program, replace);
 }
 
 }  // namespace

@@ -25,8 +25,7 @@ Estimate estimate_of(const Program& program,
   for (std::size_t i = 0; i < program.code.size(); ++i) {
     const Instruction& instruction = program.code[i];
     if (instruction.op == Op::input) {
-      const auto input = static_cast<std::size_t>(instruction.attributes[0]);
-      found[i] = of_input(program.inputs[input].name);
+      found[i] = of_input(program.input_of(instruction).name);
       continue;
     }
     const bool is_search = instruction.op == Op::extremum;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "base/named.h"
+
 namespace gainsmith::expr {
 
 namespace {
@@ -30,11 +32,7 @@ std::span<const Function> functions() { return kFunctions; }
 
 std::span<const Operator> operators() { return kOperators; }
 
-const Function* find_function(std::string_view name) {
-  for (const Function& function : kFunctions)
-    if (function.name == name) return &function;
-  return nullptr;
-}
+const Function* find_function(std::string_view name) { return find_named(kFunctions, name); }
 
 bool is_reserved(std::string_view name) {
   constexpr std::array<std::string_view, 7> kWords = {"I",  "pi",  "derivative", "and",
@@ -43,12 +41,7 @@ bool is_reserved(std::string_view name) {
          find_function(name) != nullptr;
 }
 
-std::vector<std::string> function_names() {
-  std::vector<std::string> names;
-  names.reserve(kFunctions.size());
-  for (const Function& function : kFunctions) names.emplace_back(function.name);
-  return names;
-}
+std::vector<std::string> function_names() { return names_of_all(kFunctions); }
 
 std::string functions_page() {
   std::string page = "| function | | example |\n|---|---|---|\n";

@@ -1,7 +1,6 @@
 #include "expr/operations.h"
 
 #include <algorithm>
-#include <vector>
 
 namespace gainsmith::expr {
 

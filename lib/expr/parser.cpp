@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <string_view>
 #include <utility>
 
 #include "base/stop.h"
@@ -107,8 +106,7 @@ class Parser : TokenCursor {
 
   static void refuse_twice(const std::vector<Index>& indices, const std::string& name,
                            const Place& place) {
-    const auto count = std::count_if(indices.begin(), indices.end(),
-                                     [&](const Index& index) { return index.name == name; });
+    const auto count = std::ranges::count(indices, name, &Index::name);
     if (count > 1) throw InputError(place, "the index '" + name + "' is given twice");
   }
 
@@ -235,15 +233,17 @@ class Parser : TokenCursor {
     return left;
   }
 
-  NodePtr sign() {
+  NodePtr sign() { return with_signs(&Parser::postfix); }
+
+  NodePtr with_signs(NodePtr (Parser::*read)()) {
     const Depth depth(*this);
     const std::size_t begin = here().begin;
-    if (accept(TokenKind::plus)) return sign();
+    if (accept(TokenKind::plus)) return with_signs(read);
     if (accept(TokenKind::minus)) {
-      NodePtr operand = sign();
+      NodePtr operand = with_signs(read);
       return make(NodeKind::negate, begin, {operand});
     }
-    return postfix();
+    return (this->*read)();
   }
 
   NodePtr postfix() {
@@ -265,16 +265,7 @@ class Parser : TokenCursor {
     }
   }
 
-  NodePtr exponent() {
-    const Depth depth(*this);
-    const std::size_t begin = here().begin;
-    if (accept(TokenKind::plus)) return exponent();
-    if (accept(TokenKind::minus)) {
-      NodePtr operand = exponent();
-      return make(NodeKind::negate, begin, {operand});
-    }
-    return primary();
-  }
+  NodePtr exponent() { return with_signs(&Parser::primary); }
 
   /// After "value(": a call when the value is a bare name (whether it is a function or an indexed
   /// matrix is known only to the binder), an index otherwise.
@@ -402,21 +393,18 @@ class Parser : TokenCursor {
   int depth_ = 0;
 };
 
+Expression parsed(Text text, NodePtr (Parser::*read)()) {
+  count_parsed();
+  auto shared = std::make_shared<const Text>(std::move(text));
+  NodePtr root = (Parser(shared).*read)();
+  return {shared, root};
+}
+
 }  // namespace
 
-Expression parse(Text text) {
-  count_parsed();
-  auto shared = std::make_shared<const Text>(std::move(text));
-  NodePtr root = Parser(shared).whole();
-  return {shared, root};
-}
+Expression parse(Text text) { return parsed(std::move(text), &Parser::whole); }
 
-Expression parse_element(Text text) {
-  count_parsed();
-  auto shared = std::make_shared<const Text>(std::move(text));
-  NodePtr root = Parser(shared).whole_element();
-  return {shared, root};
-}
+Expression parse_element(Text text) { return parsed(std::move(text), &Parser::whole_element); }
 
 Index parse_index(Text text) {
   return Parser(std::make_shared<const Text>(std::move(text))).whole_index();

@@ -36,6 +36,13 @@ struct Input {
   Shape shape;
 };
 
+/// An operation that was written where `like` was.
+Instruction made(Op op, std::vector<int> operands, Shape shape, const Instruction& like,
+                 Attributes attributes = {});
+
+/// An instruction whose operands have moved: operand k is to[k] now.
+Instruction moved(Instruction instruction, const std::vector<int>& to);
+
 struct Program {
   std::vector<Instruction> code;
   std::vector<Input> inputs;
@@ -46,6 +53,10 @@ struct Program {
   /// The position of an input, or -1.
   int input(const std::string& name) const;
   bool uses(const std::string& name) const { return input(name) >= 0; }
+  /// What an instruction of the program reads.
+  const Input& input_of(const Instruction& reading) const {
+    return inputs[static_cast<std::size_t>(reading.attributes[0])];
+  }
 };
 
 /// The names of the inputs of a body (jacobian, extremum): what it is a function of, from 0, and
@@ -55,5 +66,15 @@ std::string other_name(std::size_t k);
 
 /// Whether two programs compute the same by the same instructions; places do not count.
 bool is_same(const Program& a, const Program& b);
+
+/// Bodies by number; the same number for those that compute the same.
+class Bodies {
+ public:
+  /// -1: no body.
+  int number_of(const std::shared_ptr<const Program>& body);
+
+ private:
+  std::vector<std::shared_ptr<const Program>> known_;
+};
 
 }  // namespace gainsmith::expr

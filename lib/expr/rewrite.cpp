@@ -1,7 +1,7 @@
 #include "expr/rewrite.h"
 
-#include <algorithm>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -11,40 +11,18 @@ namespace gainsmith::expr {
 
 namespace {
 
-Instruction operation(Op op, std::vector<int> operands, Shape shape, const Instruction& like) {
-  return {op, std::move(operands), shape, {}, {}, like.origin, like.offset};
-}
-
 /// Adds the instructions of a program, calls replaced; its inputs stay inputs, but for `variable`,
 /// which is the instruction `argument`. The index of its result.
-int add_program(Assembly& assembly, const Program& program, const BodyOf* body,
-                const std::string& variable = "", int argument = -1) {
-  std::vector<int> moved;
-  moved.reserve(program.code.size());
-  for (const Instruction& instruction : program.code) {
-    if (instruction.op == Op::input) {
-      const Input& input = program.inputs[static_cast<std::size_t>(instruction.attributes[0])];
-      const bool replaced = argument >= 0 && input.name == variable;
-      moved.push_back(replaced ? argument
-                               : assembly.add_input(input.name, input.shape, instruction));
-      continue;
-    }
-    if (instruction.op == Op::call) {
-      const int at = moved[static_cast<std::size_t>(instruction.operands[0])];
-      if (body == nullptr) {
-        moved.push_back(
-            assembly.add_call(called_by(program, instruction), instruction.shape, at, instruction));
-        continue;
-      }
-      const Body& found = (*body)(called_by(program, instruction), instruction);
-      moved.push_back(add_program(assembly, found.program, body, found.variable, at));
-      continue;
-    }
-    Instruction copy = instruction;
-    for (int& operand : copy.operands) operand = moved[static_cast<std::size_t>(operand)];
-    moved.push_back(assembly.add(std::move(copy)));
-  }
-  return moved[static_cast<std::size_t>(program.result)];
+int add_linked(Assembly& assembly, const Program& program, const BodyOf& body,
+               const std::string& variable = "", int argument = -1) {
+  const auto replace = [&](const Instruction& one, const Instruction& copy) -> std::optional<int> {
+    if (one.op == Op::input && argument >= 0 && program.input_of(one).name == variable)
+      return argument;
+    if (one.op != Op::call) return std::nullopt;
+    const Body& found = body(called_by(program, one), one);
+    return add_linked(assembly, found.program, body, found.variable, copy.operands[0]);
+  };
+  return assembly.add_program(program, replace);
 }
 
 }  // namespace
@@ -52,7 +30,7 @@ int add_program(Assembly& assembly, const Program& program, const BodyOf* body,
 Program link(const Program& program, const BodyOf& body) {
   if (program.functions.empty()) return program;
   Assembly assembly;
-  return assembly.extract(add_program(assembly, program, &body));
+  return assembly.extract(add_linked(assembly, program, body));
 }
 
 const std::string& called_by(const Program& program, const Instruction& call) {
@@ -70,7 +48,7 @@ Program argument_of(const Program& program, const Instruction& call) {
   Program whole = program;
   whole.result = call.operands[0];
   Assembly assembly;
-  return assembly.extract(add_program(assembly, whole, nullptr));
+  return assembly.extract(assembly.add_program(whole));
 }
 
 Composer::Composer(const Place& place) {
@@ -88,12 +66,10 @@ int Composer::input(const std::string& name, Shape shape) {
 }
 
 int Composer::apply(Op op, std::vector<int> operands, Shape shape, std::array<int, 4> attributes) {
-  Instruction made = operation(op, std::move(operands), shape, like_);
-  made.attributes = attributes;
-  return assembly_.add(std::move(made));
+  return assembly_.add(made(op, std::move(operands), shape, like_, attributes));
 }
 
-int Composer::program(const Program& program) { return add_program(assembly_, program, nullptr); }
+int Composer::program(const Program& program) { return assembly_.add_program(program); }
 
 Program combination(const std::vector<Program>& factors, const std::vector<std::string>& terms,
                     Shape shape, const Place& place) {
@@ -118,29 +94,27 @@ Program input_program(const std::string& name, Shape shape) {
 Program with_diagonal(const Program& program, const std::vector<std::string>& diagonal,
                       const std::string& name) {
   Assembly assembly;
-  const int difference = add_program(assembly, program, nullptr);
+  const int difference = assembly.add_program(program);
   const Instruction like = assembly[difference];
   const Shape shape = like.shape;
   std::vector<int> numbers;
   for (const std::string& decimal : diagonal) {
-    Instruction number = operation(Op::constant, {}, {}, like);
+    Instruction number = made(Op::constant, {}, {}, like);
     number.text = decimal;
     numbers.push_back(assembly.add(std::move(number)));
   }
   int room = numbers.front();
   if (numbers.size() == 1) {
-    room = assembly.add(operation(Op::identity, {room}, shape, like));
+    room = assembly.add(made(Op::identity, {room}, shape, like));
   } else {
-    Instruction column = operation(Op::blocks, numbers, {shape.rows, 1}, like);
-    column.attributes[0] = 1;
-    room = assembly.add(
-        operation(Op::diagonal_matrix, {assembly.add(std::move(column))}, shape, like));
+    const int column = assembly.add(made(Op::blocks, numbers, {shape.rows, 1}, like, {1}));
+    room = assembly.add(made(Op::diagonal_matrix, {column}, shape, like));
   }
   if (!name.empty()) {
     const int scalar = assembly.add_input(name, {}, like);
-    room = assembly.add(operation(Op::scale, {scalar, room}, shape, like));
+    room = assembly.add(made(Op::scale, {scalar, room}, shape, like));
   }
-  return assembly.extract(assembly.add(operation(Op::add, {difference, room}, shape, like)));
+  return assembly.extract(assembly.add(made(Op::add, {difference, room}, shape, like)));
 }
 
 }  // namespace gainsmith::expr

@@ -1,6 +1,5 @@
 #include "expr/square_of_norm.h"
 
-#include <utility>
 #include <vector>
 
 namespace gainsmith::expr {

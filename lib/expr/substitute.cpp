@@ -19,7 +19,7 @@ class Algebra {
   Assembly assembly;
 
   int apply(Op op, std::vector<int> operands, Shape shape, const Instruction& like) {
-    return assembly.add({op, std::move(operands), shape, {}, {}, like.origin, like.offset});
+    return assembly.add(made(op, std::move(operands), shape, like));
   }
 
   int times(int left, int right, const Instruction& like) {
@@ -43,12 +43,10 @@ class Algebra {
     return apply(Op::inverse, {square}, it.shape, like);
   }
 
-  /// Adds a copy of an instruction whose operands are `operands`.
-  int copy(const Instruction& instruction, std::vector<int> operands) {
-    if (instruction.op == Op::multiply) return times(operands[0], operands[1], instruction);
-    Instruction made = instruction;
-    made.operands = std::move(operands);
-    return assembly.add(std::move(made));
+  /// Adds an instruction whose operands are here.
+  int add(const Instruction& one) {
+    return one.op == Op::multiply ? times(one.operands[0], one.operands[1], one)
+                                  : assembly.add(one);
   }
 
  private:
@@ -82,26 +80,13 @@ using Special =
 
 /// Adds a program; what each of its instructions became.
 std::vector<int> add_all(Algebra& algebra, const Program& program, const Special& special = {}) {
-  std::vector<int> moved;
-  moved.reserve(program.code.size());
-  for (const Instruction& one : program.code) {
-    std::vector<int> operands;
-    for (const int operand : one.operands) operands.push_back(moved[index(operand)]);
-    if (one.op == Op::input || one.op == Op::call) {
-      const bool input = one.op == Op::input;
-      const std::string& name =
-          input ? program.inputs[index(one.attributes[0])].name : called_by(program, one);
-      std::optional<int> found;
-      if (special) found = special(name, input ? std::nullopt : std::optional(operands.front()));
-      if (!found)
-        found = input ? algebra.assembly.add_input(name, one.shape, one)
-                      : algebra.assembly.add_call(name, one.shape, operands.front(), one);
-      moved.push_back(*found);
-    } else {
-      moved.push_back(algebra.copy(one, std::move(operands)));
-    }
-  }
-  return moved;
+  const auto replace = [&](const Instruction& one, const Instruction& copy) -> std::optional<int> {
+    if (one.op != Op::input && one.op != Op::call) return algebra.add(copy);
+    if (!special) return std::nullopt;
+    if (one.op == Op::input) return special(program.input_of(one).name, std::nullopt);
+    return special(called_by(program, one), copy.operands.front());
+  };
+  return algebra.assembly.add_all(program, replace);
 }
 
 int add(Algebra& algebra, const Program& program, const Special& special = {}) {
@@ -194,14 +179,13 @@ Program with_inputs(const Program& program,
   std::vector<int> moved(index(all.size()), -1);
   for (int at = 0; at < all.size(); ++at) {
     if (!needed[index(at)]) continue;
-    Instruction one = all[at];
+    const Instruction& one = all[at];
     if (const auto part = known.find(at); part != known.end()) {
       moved[index(at)] = made.add_input(part->second, one.shape, one);
     } else if (one.op == Op::input) {
       moved[index(at)] = made.add_input(all.input_name(one), one.shape, one);
     } else {
-      for (int& operand : one.operands) operand = moved[index(operand)];
-      moved[index(at)] = made.add(std::move(one));
+      moved[index(at)] = made.add(expr::moved(one, moved));
     }
   }
   return made.extract(moved[index(result)]);
@@ -212,9 +196,8 @@ std::optional<Program> isolated(const Program& program, const std::string& part,
   int target = -1;
   for (std::size_t at = 0; at < program.code.size(); ++at) {
     const Instruction& one = program.code[at];
-    const bool is_part =
-        (one.op == Op::input && program.inputs[index(one.attributes[0])].name == part) ||
-        (one.op == Op::call && called_by(program, one) == part);
+    const bool is_part = (one.op == Op::input && program.input_of(one).name == part) ||
+                         (one.op == Op::call && called_by(program, one) == part);
     if (!is_part) continue;
     if (target >= 0) return std::nullopt;
     target = static_cast<int>(at);
@@ -223,7 +206,7 @@ std::optional<Program> isolated(const Program& program, const std::string& part,
   const Instruction& found = program.code[index(target)];
   if (found.op == Op::call) {
     const Instruction& argument = program.code[index(found.operands[0])];
-    if (argument.op != Op::input || program.inputs[index(argument.attributes[0])].name != variable)
+    if (argument.op != Op::input || program.input_of(argument).name != variable)
       return std::nullopt;
   }
   const std::vector<int> count = occurrences(program, target);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "expr/evaluate.h"
+#include "base/named.h"
 
 namespace gainsmith::forall {
 
@@ -10,9 +10,8 @@ MonomialTable::MonomialTable(Domain variables)
     : variables_(std::move(variables)), monomials_{Monomial{}} {}
 
 int MonomialTable::find_variable(const std::string& name) const {
-  const auto found = std::find_if(variables_.begin(), variables_.end(),
-                                  [&](const Variable& v) { return v.name == name; });
-  return found == variables_.end() ? -1 : static_cast<int>(found - variables_.begin());
+  const Variable* found = find_named(variables_, name);
+  return found == nullptr ? -1 : static_cast<int>(found - variables_.data());
 }
 
 int MonomialTable::index(const Monomial& monomial) {

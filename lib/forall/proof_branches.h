@@ -5,7 +5,6 @@
 #include <deque>
 #include <map>
 #include <memory>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -66,20 +65,13 @@ class Branches {
   /// What an instruction needs and no more, each `where` of `branch` replaced by that operand.
   expr::Program part(int result, const std::map<int, std::size_t>& branch) const {
     expr::Assembly assembly;
-    std::vector<int> moved;
-    for (std::size_t at = 0; at < program_.code.size(); ++at) {
-      expr::Instruction one = program_.code[at];
-      for (int& operand : one.operands) operand = moved[static_cast<std::size_t>(operand)];
-      if (const auto found = branch.find(static_cast<int>(at)); found != branch.end()) {
-        moved.push_back(one.operands[found->second]);
-      } else if (one.op == expr::Op::input) {
-        const expr::Input& input = program_.inputs[static_cast<std::size_t>(one.attributes[0])];
-        moved.push_back(assembly.add_input(input.name, input.shape, one));
-      } else {
-        moved.push_back(assembly.add(std::move(one)));
-      }
-    }
-    return assembly.extract(moved[static_cast<std::size_t>(result)]);
+    const auto replace = [&](const expr::Instruction& one,
+                             const expr::Instruction& copy) -> std::optional<int> {
+      const auto found = branch.find(static_cast<int>(&one - program_.code.data()));
+      if (found == branch.end()) return std::nullopt;
+      return copy.operands[found->second];
+    };
+    return assembly.extract(assembly.add_all(program_, replace)[static_cast<std::size_t>(result)]);
   }
 
   const expr::Program& program_;

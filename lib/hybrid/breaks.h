@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "hybrid/state_layout.h"
-#include "hybrid/tolerances.h"
 #include "ode/roots.h"
 
 namespace gainsmith::hybrid {

@@ -37,9 +37,7 @@ std::ptrdiff_t uses(const expr::Program& program, const std::string& name) {
   std::ptrdiff_t count = 0;
   for (std::size_t at = 0; at < program.code.size(); ++at) {
     const expr::Instruction& one = program.code[at];
-    if (one.op != expr::Op::input ||
-        program.inputs[static_cast<std::size_t>(one.attributes[0])].name != name)
-      continue;
+    if (one.op != expr::Op::input || program.input_of(one).name != name) continue;
     for (const expr::Instruction& user : program.code)
       count += std::count(user.operands.begin(), user.operands.end(), static_cast<int>(at)) *
                (user.op == expr::Op::fill ? user.shape.size() : 1);

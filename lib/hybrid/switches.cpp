@@ -16,10 +16,6 @@ using expr::Op;
 using expr::Program;
 using expr::Shape;
 
-Instruction operation(Op op, std::vector<int> operands, Shape shape, const Instruction& like) {
-  return {op, std::move(operands), shape, {}, {}, like.origin, like.offset};
-}
-
 std::optional<Switch::Kind> kind_of(const Instruction& instruction, Shape operand) {
   switch (instruction.op) {
     case Op::where:
@@ -49,13 +45,11 @@ std::optional<Instruction> fixed_form(const Instruction& branch, int fixed) {
       int a = branch.operands[where ? 1 : 0];
       int b = branch.operands[where ? 2 : 1];
       if (branch.op == Op::minimum) std::swap(a, b);
-      Instruction made = operation(Op::where, {fixed, a, b}, branch.shape, branch);
-      made.attributes = {1};
-      return made;
+      return made(Op::where, {fixed, a, b}, branch.shape, branch, {1});
     }
     case Op::abs:
     case Op::norm:
-      return operation(Op::elementwise_product, {branch.operands[0], fixed}, branch.shape, branch);
+      return made(Op::elementwise_product, {branch.operands[0], fixed}, branch.shape, branch);
     default:
       return std::nullopt;
   }
@@ -74,18 +68,14 @@ class Rewritten {
   }
   int push_input(const std::string& name, Shape shape, const Instruction& like) {
     const int known = made_.input(name);
-    Instruction input = operation(Op::input, {}, shape, like);
-    input.attributes = {known >= 0 ? known : static_cast<int>(made_.inputs.size())};
+    const int at = known >= 0 ? known : static_cast<int>(made_.inputs.size());
     if (known < 0) made_.inputs.push_back({name, shape});
-    return push(std::move(input));
+    return push(made(Op::input, {}, shape, like, {at}));
   }
   std::size_t inputs() const { return made_.inputs.size(); }
   /// Where the next instruction of the old program is now.
   void set_next(int at) { at_.push_back(at); }
-  Instruction moved(Instruction instruction) const {
-    for (int& operand : instruction.operands) operand = (*this)[operand];
-    return instruction;
-  }
+  Instruction moved(const Instruction& instruction) const { return expr::moved(instruction, at_); }
   Program take(int old_result) {
     made_.result = (*this)[old_result];
     return std::move(made_);
@@ -102,26 +92,16 @@ class BranchFixer {
       : moves_(moves), switches_(switches) {}
 
   Program rewritten(const Program& program) {
-    std::vector<int> at;
-    for (const Instruction& instruction : program.code) {
-      if (instruction.op == Op::input) {
-        const expr::Input& input =
-            program.inputs[static_cast<std::size_t>(instruction.attributes[0])];
-        at.push_back(
-            note(assembly_.add_input(input.name, input.shape, instruction), moves_(input.name)));
-      } else {
-        at.push_back(add(moved(instruction, at)));
-      }
-    }
-    return assembly_.extract(at[static_cast<std::size_t>(program.result)]);
+    const auto replace = [&](const Instruction& one, const Instruction& copy) {
+      if (one.op != Op::input) return std::optional(add(copy));
+      const expr::Input& input = program.input_of(one);
+      return std::optional(
+          note(assembly_.add_input(input.name, input.shape, one), moves_(input.name)));
+    };
+    return assembly_.extract(assembly_.add_program(program, replace));
   }
 
  private:
-  static Instruction moved(Instruction instruction, const std::vector<int>& at) {
-    for (int& operand : instruction.operands) operand = at[static_cast<std::size_t>(operand)];
-    return instruction;
-  }
-
   bool moves(const Instruction& instruction) const {
     return std::any_of(instruction.operands.begin(), instruction.operands.end(),
                        [&](int operand) { return moving_[static_cast<std::size_t>(operand)]; });
@@ -148,8 +128,7 @@ class BranchFixer {
 
   /// Of the H of a branching instruction.
   int add_fixed(const std::string& name, const Instruction& branch) {
-    const auto found = std::find_if(switches_.begin(), switches_.end(),
-                                    [&](const Switch& one) { return one.input == name; });
+    const auto found = std::ranges::find(switches_, name, &Switch::input);
     return note(assembly_.add_input(name, found->difference.shape(), branch), false);
   }
 
@@ -173,7 +152,7 @@ class BranchFixer {
         continue;
       }
       Instruction here = inner.moved(instruction);
-      Instruction there = moved(instruction, outside);
+      Instruction there = expr::moved(instruction, outside);
       if (const std::string name = input_of(there); !name.empty()) {
         const int fixed = fixed_inside(name, instruction);
         const auto form = fixed_form(here, fixed);
@@ -188,7 +167,7 @@ class BranchFixer {
       } else {
         inner.set_next(inner.push(std::move(here)));
       }
-      outside.push_back(add(moved(instruction, outside)));
+      outside.push_back(add(expr::moved(instruction, outside)));
     }
     jacobian.body = std::make_shared<const Program>(inner.take(body.result));
   }
@@ -202,7 +181,7 @@ class BranchFixer {
     if (branch.op == Op::maximum || branch.op == Op::minimum) {
       if (!moves(branch)) return "";
       difference =
-          note(assembly_.add(operation(Op::subtract, branch.operands, branch.shape, branch)), true);
+          note(assembly_.add(made(Op::subtract, branch.operands, branch.shape, branch)), true);
     }
     if (!moving_[static_cast<std::size_t>(difference)]) return "";
     Switch one;

@@ -8,7 +8,6 @@
 #include <variant>
 #include <vector>
 
-#include "hybrid/tolerances.h"
 #include "numbers/matrix.h"
 
 namespace gainsmith::hybrid {

@@ -1,7 +1,6 @@
 #include "io/campaign_json.h"
 
 #include <array>
-#include <limits>
 
 #include "base/hash.h"
 #include "io/figures_json.h"

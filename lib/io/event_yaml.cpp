@@ -1,8 +1,6 @@
 // Events: what they are due by, and what is asked of them besides.
-#include <algorithm>
 #include <utility>
 
-#include "base/nearest.h"
 #include "io/component_yaml.h"
 #include "io/measured_yaml.h"
 

@@ -1,9 +1,9 @@
 #include "io/given_run_json.h"
 
 #include <algorithm>
-#include <utility>
 #include <vector>
 
+#include "base/named.h"
 #include "base/nearest.h"
 #include "io/gains_json.h"
 #include "io/json_reader.h"
@@ -14,13 +14,6 @@ namespace {
 
 using hybrid::GivenRun;
 using Names = std::vector<std::string>;
-
-template <class Item>
-Names given_names(const std::vector<Item>& items) {
-  Names names;
-  for (const Item& item : items) names.push_back(item.name);
-  return names;
-}
 
 Json given_value_json(const numbers::Matrix& value) {
   if (value.cols() != 1) return matrix_json(value);
@@ -82,10 +75,10 @@ std::vector<Item> read_list(const JsonReader& reader, const Read& read) {
 }  // namespace
 
 Json to_json(const GivenRun& run, const model::Dynamics& dynamics) {
-  const Names events = given_names(dynamics.events);
+  const Names events = names_of_all(dynamics.events);
   const auto number = [](double value) { return Json(value); };
   Json json = Json::object();
-  add_given(json, "start", run.starts, given_names(dynamics.variables),
+  add_given(json, "start", run.starts, names_of_all(dynamics.variables),
             [](const auto& start) { return start ? given_value_json(*start) : Json(nullptr); });
   add_given(json, "first", run.first, events,
             [](const auto& first) { return first ? Json(*first) : Json(nullptr); });
@@ -94,7 +87,7 @@ Json to_json(const GivenRun& run, const model::Dynamics& dynamics) {
   add_given(json, "lost", run.losses, events, [](const auto& losses) {
     return written_list(losses, [](char lost) { return Json(lost != 0); });
   });
-  add_given(json, "noise", run.noise, given_names(dynamics.noise),
+  add_given(json, "noise", run.noise, names_of_all(dynamics.noise),
             [](const auto& values) { return written_list(values, given_value_json); });
   return json;
 }
@@ -104,11 +97,11 @@ GivenRun parse_given_run(const std::string& text, const std::string& file,
   const Json document = parse_json(text, file);
   const JsonReader reader(document, file, text);
   if (!document.is_object()) reader.fail("expected an object");
-  const Names events = given_names(dynamics.events);
+  const Names events = names_of_all(dynamics.events);
   const auto number = [](const JsonReader& value) { return value.number(); };
   GivenRun run;
   run.place = {file};
-  take_given(reader, "start", given_names(dynamics.variables), run.starts,
+  take_given(reader, "start", names_of_all(dynamics.variables), run.starts,
              [](const JsonReader& value) { return given_value(value); });
   take_given(reader, "first", events, run.first, number);
   take_given(reader, "lengths", events, run.lengths,
@@ -117,7 +110,7 @@ GivenRun parse_given_run(const std::string& text, const std::string& file,
     return read_list<char>(
         list, [](const JsonReader& value) { return static_cast<char>(value.truth()); });
   });
-  take_given(reader, "noise", given_names(dynamics.noise), run.noise,
+  take_given(reader, "noise", names_of_all(dynamics.noise), run.noise,
              [](const JsonReader& list) { return read_list<numbers::Matrix>(list, given_value); });
   reader.finish();
   return run;

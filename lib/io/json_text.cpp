@@ -17,10 +17,7 @@ namespace gainsmith::io {
 
 namespace {
 
-bool is_flat(const Json& list) {
-  return std::none_of(list.begin(), list.end(),
-                      [](const Json& item) { return item.is_structured(); });
-}
+bool is_flat(const Json& list) { return std::ranges::none_of(list, &Json::is_structured); }
 
 /// Bytes that are no UTF-8 (in the name of a file) are replaced: JSON has no spelling for them.
 std::string dumped(const Json& text) {

@@ -7,8 +7,6 @@
 // without a value (empty, NaN, NA) count for nothing.
 #pragma once
 
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "io/yaml.h"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <string_view>
-#include <utility>
 
 #include "base/nearest.h"
 #include "io/blocks_yaml.h"

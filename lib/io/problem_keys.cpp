@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/named.h"
 #include "io/keys.h"
 
 namespace gainsmith::io {
@@ -254,11 +255,7 @@ constexpr std::array kProblemLevels = {&problem,
 
 }  // namespace keys
 
-const Key* Level::find(std::string_view key) const {
-  for (const Key& one : keys)
-    if (one.name == key) return &one;
-  return nullptr;
-}
+const Key* Level::find(std::string_view key) const { return find_named(keys, key); }
 
 void require_known(const Level& level, std::string_view key) {
   if (level.find(key) == nullptr)

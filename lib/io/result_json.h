@@ -2,7 +2,6 @@
 // read the folder later.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 

@@ -1,12 +1,12 @@
 #include "io/scalar_data.h"
 
-#include <algorithm>
 #include <memory>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/named.h"
 #include "model/names.h"
 
 namespace gainsmith::io {
@@ -29,11 +29,7 @@ std::set<std::string> read_beside(const model::Value& self, const model::Problem
 }
 
 bool is_declared(const std::string& name, const model::Method& method) {
-  const auto has = [&](const auto& list) {
-    return std::any_of(list.begin(), list.end(),
-                       [&](const auto& item) { return item.name == name; });
-  };
-  return has(method.data) || has(method.parameters);
+  return has_named(method.data, name) || has_named(method.parameters, name);
 }
 
 /// A matrix that is written out, or read from a file, is none.

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "base/named.h"
 #include "base/nearest.h"
 #include "expr/parser.h"
 #include "io/keys.h"
@@ -112,8 +113,7 @@ class Setter {
       throw InputError({option_}, "'" + key +
                                       "' is a key of the campaign, which is set in the problem "
                                       "file; --runs and --seed are options of run and verify");
-    if (std::any_of(method.unknowns.begin(), method.unknowns.end(),
-                    [&](const auto& unknown) { return unknown.name == name_; }))
+    if (has_named(method.unknowns, name_))
       throw InputError(
           {option_},
           "'" + name_ +

@@ -7,6 +7,7 @@
 
 #include "base/file.h"
 #include "base/hash.h"
+#include "base/named.h"
 #include "base/nearest.h"
 #include "base/number.h"
 
@@ -29,13 +30,6 @@ std::string nearest_file(const fs::path& path) {
   std::sort(names.begin(), names.end());
   const auto near = nearest(path.filename().string(), names);
   return near ? "; did you mean '" + *near + "'?" : "";
-}
-
-template <class Item>
-auto* find_by_name(Item& items, const std::string& name) {
-  const auto found =
-      std::find_if(items.begin(), items.end(), [&](const auto& item) { return item.name == name; });
-  return found == items.end() ? nullptr : &*found;
 }
 
 }  // namespace
@@ -64,13 +58,13 @@ std::string Sources::shown_option(const std::string& option) const {
 }
 
 model::StatedFile& Sources::noted(const std::string& name) {
-  if (model::StatedFile* known = find_by_name(files_, name)) return *known;
+  if (model::StatedFile* known = find_named(files_, name)) return *known;
   files_.push_back({name, {}, {}, {}});
   return files_.back();
 }
 
 const model::StatedFile* Sources::stated(const Reference& reference) const {
-  const model::StatedFile* found = find_by_name(stated_, reference.name);
+  const model::StatedFile* found = find_named(stated_, reference.name);
   if (found == nullptr) return nullptr;
   const std::string path = path_of(reference.name);
   std::error_code error;

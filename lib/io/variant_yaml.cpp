@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/named.h"
 #include "base/nearest.h"
 #include "io/sources.h"
 #include "io/yaml_names.h"
@@ -51,18 +52,6 @@ std::string name_of_key(const std::string& key, const KeyPath& path) {
   const bool signatures =
       !path.empty() && (path.back() == "let" || path.back() == "data" || path.back() == "gains");
   return signatures ? key.substr(0, key.find('(')) : key;
-}
-
-const VariantEntry* find_entry(const Entries& entries, const std::string& name) {
-  const auto found = std::find_if(entries.begin(), entries.end(),
-                                  [&](const VariantEntry& entry) { return entry.name == name; });
-  return found == entries.end() ? nullptr : &*found;
-}
-
-std::vector<std::string> entry_names(const Entries& entries) {
-  std::vector<std::string> names;
-  for (const VariantEntry& entry : entries) names.push_back(entry.name);
-  return names;
 }
 
 /// How often the name is a key below the node.
@@ -161,14 +150,13 @@ class Variant {
                     bool keeps_none) {
     const Entries mine = entries_of(own, path);
     const Entries theirs = entries_of(other, path);
-    const bool like =
-        is_component(path) && (find_entry(mine, "like") || find_entry(theirs, "like"));
+    const bool like = is_component(path) && (has_named(mine, "like") || has_named(theirs, "like"));
     // What is taken away may be of the built-in method too, which comes in later.
     const bool later = method_goes_on_ && !path.empty() && path[0] == "method";
     std::vector<std::pair<YAML::Node, YAML::Node>> result;
     for (const VariantEntry& entry : theirs) {
       if (path.empty() && is_own(entry.name)) continue;
-      const VariantEntry* replaced = find_entry(mine, entry.name);
+      const VariantEntry* replaced = find_named(mine, entry.name);
       if (replaced == nullptr) {
         result.emplace_back(entry.key, entry.value);
       } else if (keeps_none || !takes_away(*replaced, path)) {
@@ -184,12 +172,12 @@ class Variant {
           result.emplace_back(entry.key, entry.value);
         continue;
       }
-      if (find_entry(theirs, entry.name) != nullptr) continue;
+      if (has_named(theirs, entry.name)) continue;
       if (takes_away(entry, path) && !keeps_none && was_taken(path_of(path, entry.name))) continue;
       if (takes_away(entry, path) && !keeps_none && !later)
-        throw InputError(file_.place(entry.value), "there is no '" + entry.name + "' in " + other_ +
-                                                       " to be taken away" +
-                                                       suggestion(entry.name, entry_names(theirs)));
+        throw InputError(file_.place(entry.value),
+                         "there is no '" + entry.name + "' in " + other_ + " to be taken away" +
+                             suggestion(entry.name, names_of_all(theirs)));
       refuse_misspelling(entry, theirs, path);
       result.emplace_back(entry.key, method_goes_on_
                                          ? entry.value
@@ -275,7 +263,7 @@ class Variant {
     if (is_observer && (!entry.value.IsMap() || entry.value["state"] || entry.value["like"]))
       return;
     if (must_be_read && (is_read(root_, entry.name) || count_keys(root_, entry.name) > 1)) return;
-    if (const auto near = nearest(entry.name, entry_names(theirs)))
+    if (const auto near = nearest(entry.name, names_of_all(theirs)))
       throw InputError(file_.place(entry.key),
                        "'" + entry.name + "' is not in " + other_ +
                            (is_observer ? ", and has no state" : ", and nothing reads it") +

@@ -4,7 +4,6 @@
 #include <yaml-cpp/yaml.h>
 
 #include <map>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>

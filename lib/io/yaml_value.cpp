@@ -1,7 +1,5 @@
 // Matrices of lists.
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "expr/parser.h"
 #include "io/data_file_yaml.h"

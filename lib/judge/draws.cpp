@@ -56,8 +56,7 @@ class Draws {
 
   void check_start(std::size_t v) {
     const auto& starts = from_.campaign->starts;
-    const auto start = std::find_if(starts.begin(), starts.end(),
-                                    [&](const Design::Start& one) { return one.state == v; });
+    const auto start = std::ranges::find(starts, v, &Design::Start::state);
     if (start == starts.end() || texts_.layout.slots[v].shape.size() == 0) return;
     const VectorXd wanted = start_value(v, *start);
     const VectorXd here = texts_.part(run_.start, v);

@@ -1,8 +1,6 @@
 #include "judge/events.h"
 
-#include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "judge/flow.h"
 

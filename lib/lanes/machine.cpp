@@ -4,7 +4,6 @@
 #include <bit>
 #include <cmath>
 #include <cstdlib>
-#include <cstring>
 #include <limits>
 #include <map>
 #include <new>
@@ -19,42 +18,10 @@ namespace {
 
 std::optional<LaneOp> lane_op(ScalarOp op) {
   switch (op) {
-    case ScalarOp::add:
-      return LaneOp::add;
-    case ScalarOp::subtract:
-      return LaneOp::subtract;
-    case ScalarOp::multiply:
-      return LaneOp::multiply;
-    case ScalarOp::multiply_add:
-      return LaneOp::multiply_add;
-    case ScalarOp::divide:
-      return LaneOp::divide;
-    case ScalarOp::negate:
-      return LaneOp::negate;
-    case ScalarOp::minimum:
-      return LaneOp::minimum;
-    case ScalarOp::maximum:
-      return LaneOp::maximum;
-    case ScalarOp::where_positive:
-      return LaneOp::where_positive;
-    case ScalarOp::where_nonnegative:
-      return LaneOp::where_nonnegative;
-    case ScalarOp::abs:
-      return LaneOp::abs;
-    case ScalarOp::sign:
-      return LaneOp::sign;
-    case ScalarOp::floor:
-      return LaneOp::floor;
-    case ScalarOp::sqrt:
-      return LaneOp::sqrt;
-    case ScalarOp::exp:
-      return LaneOp::exp;
-    case ScalarOp::sin:
-      return LaneOp::sin;
-    case ScalarOp::cos:
-      return LaneOp::cos;
-    case ScalarOp::tanh:
-      return LaneOp::tanh;
+#define LANE_OP(op, operands) \
+  case ScalarOp::op:          \
+    return LaneOp::op;
+#include "numbers/scalar_ops.def"
     default:
       return std::nullopt;
   }
@@ -62,23 +29,12 @@ std::optional<LaneOp> lane_op(ScalarOp op) {
 
 int operands_of(ScalarOp op) {
   switch (op) {
-    case ScalarOp::where_positive:
-    case ScalarOp::where_nonnegative:
-    case ScalarOp::multiply_add:
-      return 3;
-    case ScalarOp::negate:
-    case ScalarOp::abs:
-    case ScalarOp::sign:
-    case ScalarOp::floor:
-    case ScalarOp::exp:
-    case ScalarOp::log:
-    case ScalarOp::sqrt:
-    case ScalarOp::sin:
-    case ScalarOp::cos:
-    case ScalarOp::tanh:
-      return 1;
+#define SCALAR_OP(op, operands) \
+  case ScalarOp::op:            \
+    return operands;
+#include "numbers/scalar_ops.def"
     default:
-      return 2;
+      return 0;
   }
 }
 
@@ -369,8 +325,7 @@ LaneCode::LaneCode(const numbers::ScalarGraph& graph, const std::vector<std::vec
   Maker maker(numbers::tape_code(graph, results, static_cast<int>(inputs), computed), *this);
   maker.make(feed_back);
   if (feed_back) maker.feed_back(*feed_back);
-  may_fault_ = std::any_of(steps_.begin(), steps_.end(),
-                           [](const LaneStep& step) { return step.is_partial; });
+  may_fault_ = std::ranges::any_of(steps_, &LaneStep::is_partial);
 }
 
 void LaneMachine::Free::operator()(double* registers) const {

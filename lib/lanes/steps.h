@@ -10,18 +10,15 @@
 #include <cstdint>
 #include <string>
 
-
 namespace gainsmith::lanes {
 
 constexpr std::size_t kLanes = 32;
 
 enum class LaneOp : std::uint8_t {
-  add,
-  add_constant,  ///< constant a + b
-  subtract,
-  multiply,
+#define LANE_OP(op, operands) op,
+#include "numbers/scalar_ops.def"
+  add_constant,       ///< constant a + b
   multiply_constant,  ///< constant a * b
-  multiply_add,       ///< a b + c
   multiply_constant_add,
   // Of the result of the step before, `last`, which stays where results are computed.
   add_last,                    ///< last + a
@@ -31,20 +28,6 @@ enum class LaneOp : std::uint8_t {
   copy,
   polynomial,  ///< of register a, with the c + 1 constants from constant b on, the highest power first;
                ///< even and odd powers by Horner's rule of the square
-  divide,
-  negate,
-  minimum,  ///< b < a ? b : a
-  maximum,  ///< a < b ? b : a
-  where_positive,
-  where_nonnegative,
-  abs,
-  sign,
-  floor,
-  sqrt,
-  exp,
-  sin,
-  cos,
-  tanh,
   one_by_one  ///< the variants stop here: the caller computes it lane by lane
 };
 

@@ -15,7 +15,6 @@
 
 #include <Eigen/Core>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "linear/sampled_system.h"

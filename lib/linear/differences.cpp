@@ -20,7 +20,7 @@ std::size_t count_of(const expr::Program& program, const std::set<std::string>& 
 const expr::Input* input_of(const expr::Program& program, int operand) {
   const expr::Instruction& one = program.code[static_cast<std::size_t>(operand)];
   if (one.op != expr::Op::input) return nullptr;
-  return &program.inputs[static_cast<std::size_t>(one.attributes[0])];
+  return &program.input_of(one);
 }
 
 }  // namespace

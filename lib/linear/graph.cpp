@@ -1,7 +1,6 @@
 #include "linear/graph.h"
 
 #include <cmath>
-#include <utility>
 
 #include "linear/block.h"
 #include "linear/error_graph.h"

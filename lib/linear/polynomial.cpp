@@ -21,7 +21,7 @@ void append_key(const Program& program, std::string& key) {
   for (const Instruction& instruction : program.code) {
     key += std::to_string(static_cast<int>(instruction.op)) + ':';
     const bool input = instruction.op == Op::input;
-    if (input) key += program.inputs[static_cast<std::size_t>(instruction.attributes[0])].name;
+    if (input) key += program.input_of(instruction).name;
     if (instruction.op == Op::constant) key += instruction.text;
     for (const int operand : instruction.operands) key += ',' + std::to_string(operand);
     if (!input)
@@ -35,25 +35,14 @@ void append_key(const Program& program, std::string& key) {
 
 /// Adds a program, inputs replaced by what `by` gives for them; the index of its result.
 int add_program(expr::Assembly& assembly, const Program& program,
-                const std::map<std::string, Program>* by) {
-  std::vector<int> moved;
-  for (const Instruction& instruction : program.code) {
-    if (instruction.op == Op::input) {
-      const expr::Input& input =
-          program.inputs[static_cast<std::size_t>(instruction.attributes[0])];
-      const Program* replaced = nullptr;
-      if (by != nullptr)
-        if (const auto found = by->find(input.name); found != by->end()) replaced = &found->second;
-      moved.push_back(replaced != nullptr
-                          ? add_program(assembly, *replaced, nullptr)
-                          : assembly.add_input(input.name, input.shape, instruction));
-      continue;
-    }
-    Instruction same = instruction;
-    for (int& operand : same.operands) operand = moved[static_cast<std::size_t>(operand)];
-    moved.push_back(assembly.add(std::move(same)));
-  }
-  return moved[static_cast<std::size_t>(program.result)];
+                const std::map<std::string, Program>& by) {
+  const auto replace = [&](const Instruction& one, const Instruction&) -> std::optional<int> {
+    if (one.op != Op::input) return std::nullopt;
+    const auto found = by.find(program.input_of(one).name);
+    if (found == by.end()) return std::nullopt;
+    return assembly.add_program(found->second);
+  };
+  return assembly.add_program(program, replace);
 }
 
 void add_term(Polynomial& sum, Word word, std::int64_t coefficient) {
@@ -89,7 +78,7 @@ Program difference(const Program& a, const Program& b) {
 
 Program replace_inputs(const Program& program, const std::map<std::string, Program>& by) {
   expr::Assembly assembly;
-  return assembly.extract(add_program(assembly, program, &by));
+  return assembly.extract(add_program(assembly, program, by));
 }
 
 int Polynomials::atom_of(const Program& program) {
@@ -207,12 +196,12 @@ Polynomial Polynomials::of_instruction(const Program& program, std::size_t at,
     expr::Assembly assembly;
     Instruction same = instruction;
     if (same.op == Op::input) {
-      const expr::Input& input = program.inputs[static_cast<std::size_t>(same.attributes[0])];
+      const expr::Input& input = program.input_of(same);
       return of_atom(
           atom_of(assembly.extract(assembly.add_input(input.name, input.shape, instruction))));
     }
     for (std::size_t i = 0; i < same.operands.size(); ++i)
-      same.operands[i] = add_program(assembly, this->program(value(i)), nullptr);
+      same.operands[i] = assembly.add_program(this->program(value(i)));
     return of_atom(atom_of(assembly.extract(assembly.add(std::move(same)))));
   };
   Polynomial result{instruction.shape, {}};

@@ -10,7 +10,6 @@
 // cancels for all of them.
 #pragma once
 
-#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <functional>

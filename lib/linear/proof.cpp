@@ -2,7 +2,6 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <utility>
 
 #include "linear/tolerances.h"
 

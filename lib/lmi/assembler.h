@@ -1,7 +1,6 @@
 // Fills a semidefinite program X = sum x_i F_i - F_0 from blocks in balanced units.
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "lmi/balance.h"

@@ -1,7 +1,6 @@
 #include "lmi/correlation.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "numbers/dense.h"
 

@@ -1,5 +1,4 @@
 // Affine forms of programs: what depends on data alone is computed in doubles, the rest as forms.
-#include <span>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -72,7 +71,7 @@ class Run {
     if (instruction.op == expr::Op::call)
       throw std::logic_error("a call of " + instruction.text + " that was not linked");
     if (instruction.op == expr::Op::input) {
-      out = input(program_.inputs[static_cast<std::size_t>(instruction.attributes[0])].name);
+      out = input(program_.input_of(instruction).name);
       return;
     }
     bool numbers = true;

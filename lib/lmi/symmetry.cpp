@@ -2,8 +2,6 @@
 
 #include <Eigen/QR>
 #include <algorithm>
-#include <cmath>
-#include <string>
 #include <vector>
 
 #include "model/function.h"

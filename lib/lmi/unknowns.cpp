@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/named.h"
+
 namespace gainsmith::lmi {
 
 std::vector<std::pair<int, int>> Unknown::places(int k) const {
@@ -51,11 +53,7 @@ Unknowns::Unknowns(const std::vector<model::UnknownMatrix>& matrices, int large)
   for (Unknown& unknown : list_) unknown.whole = some && is_matrix(unknown) && unknown.count > kFew;
 }
 
-const Unknown* Unknowns::find(const std::string& name) const {
-  for (const Unknown& unknown : list_)
-    if (unknown.name == name) return &unknown;
-  return nullptr;
-}
+const Unknown* Unknowns::find(const std::string& name) const { return find_named(list_, name); }
 
 std::string Unknowns::scalar_name(int i) const {
   for (const Unknown& unknown : list_) {

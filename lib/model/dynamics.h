@@ -13,7 +13,6 @@
 //          before the jump; a component without one keeps its states, bit by bit.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>

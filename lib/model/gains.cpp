@@ -4,7 +4,6 @@
 
 #include "base/hash.h"
 #include "base/number.h"
-#include "base/scalars.h"
 #include "model/function.h"
 #include "numbers/real.h"
 

@@ -15,7 +15,7 @@ namespace gainsmith::model {
 enum class Verdict { yes, no, undecided };
 std::string to_string(Verdict verdict);
 
-/// The answer of a campaign.
+/// The answer of a run, and of a campaign.
 enum class CampaignVerdict { held, violated, undecided };
 std::string to_string(CampaignVerdict verdict);
 

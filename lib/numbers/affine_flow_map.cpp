@@ -70,16 +70,11 @@ class Exponential {
     return inputs;
   }
   int rate_at(const std::vector<int>& inputs) {
-    std::vector<int> moved;
-    for (Instruction one : rate_.code) {
-      if (one.op == Op::input) {
-        moved.push_back(inputs[static_cast<std::size_t>(one.attributes[0])]);
-        continue;
-      }
-      for (int& operand : one.operands) operand = moved[static_cast<std::size_t>(operand)];
-      moved.push_back(assembly_.add(std::move(one)));
-    }
-    return moved[static_cast<std::size_t>(rate_.result)];
+    return assembly_.add_program(rate_, [&](const Instruction& one, const Instruction&) {
+      return one.op == Op::input
+                 ? std::optional(inputs[static_cast<std::size_t>(one.attributes[0])])
+                 : std::nullopt;
+    });
   }
 
   const Instruction& of_;

@@ -1,7 +1,5 @@
 #include "numbers/definite.h"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "numbers/definite_rules.h"

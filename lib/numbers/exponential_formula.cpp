@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "base/eigen_scalars.h"
-#include "base/scalars.h"
 #include "numbers/dense.h"
 #include "numbers/spectrum.h"
 #include "numbers/wide_dense.h"

@@ -1,5 +1,6 @@
 #include "numbers/range.h"
 
+#include <cmath>
 #include <limits>
 #include <numbers>
 

@@ -13,7 +13,6 @@
 #include "expr/number_type.h"
 #include "expr/program.h"
 #include "numbers/ball.h"
-#include "numbers/matrix.h"
 #include "numerics/rational_matrix.h"
 
 namespace gainsmith::numbers {

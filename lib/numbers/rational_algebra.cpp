@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "base/stop.h"
+#include "numbers/matrix.h"
 #include "numbers/residue.h"
 
 namespace gainsmith::numbers {

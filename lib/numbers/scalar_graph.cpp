@@ -170,22 +170,13 @@ bool ScalarGraph::is_partial(int at) const {
   }
 }
 
-int ScalarGraph::number_of(const std::shared_ptr<const expr::Program>& body) {
-  if (!body) return -1;
-  const auto found = std::ranges::find_if(
-      bodies_, [&](const auto& known) { return known == body || is_same(*known, *body); });
-  if (found != bodies_.end()) return static_cast<int>(found - bodies_.begin());
-  bodies_.push_back(body);
-  return static_cast<int>(bodies_.size()) - 1;
-}
-
 int ScalarGraph::block(Block block) {
   const expr::Instruction& instruction = block.instruction;
   std::vector<int> heights;
   for (const expr::Shape& shape : block.shapes) heights.push_back(shape.rows);
   heights.push_back(instruction.shape.rows);
   const BlockKey key{instruction.op,         block.is_slope,
-                     instruction.attributes, number_of(instruction.body),
+                     instruction.attributes, bodies_.number_of(instruction.body),
                      block.operands,         std::move(heights)};
   const auto [found, fresh] = known_blocks_.emplace(key, static_cast<int>(blocks_.size()));
   if (!fresh) return blocks_[index(found->second)].first;

@@ -24,29 +24,9 @@ enum class ScalarOp : std::uint8_t {
   input,     ///< number `a` of the stacked inputs
   constant,  ///< number `a` of the constants
   element,   ///< of the result of block `a`
-  add,
-  subtract,
-  multiply,
-  divide,
-  negate,
-  minimum,
-  maximum,
-  where_positive,     ///< a > 0 ? b : c
-  where_nonnegative,  ///< a >= 0 ? b : c
-  power,
-  mod,
-  angle,  ///< atan2(a, b)
-  abs,
-  sign,
-  floor,
-  exp,
-  log,
-  sqrt,
-  sin,
-  cos,
-  tanh,
-  multiply_add,  ///< a b + c, rounded twice; of tapes (tape.h) alone
-  block          ///< number `a` of the blocks; of tapes alone
+#define SCALAR_OP(op, operands) op,
+#include "numbers/scalar_ops.def"
+  block  ///< number `a` of the blocks; of tapes alone
 };
 
 /// The operation on doubles.
@@ -119,7 +99,6 @@ class ScalarGraph {
   int node(const Node& node);
   /// The constant that it is, if its operands are and it has a value.
   int folded(const Node& node);
-  int number_of(const std::shared_ptr<const expr::Program>& body);
 
   std::vector<Node> nodes_;
   std::vector<double> constants_;
@@ -127,7 +106,7 @@ class ScalarGraph {
   std::unordered_map<Key, int, Hash> known_;
   std::unordered_map<std::uint64_t, int> known_constants_;  ///< by their bits
   std::map<BlockKey, int> known_blocks_;
-  std::vector<std::shared_ptr<const expr::Program>> bodies_;
+  expr::Bodies bodies_;
 };
 
 }  // namespace gainsmith::numbers

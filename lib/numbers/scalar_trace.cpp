@@ -30,7 +30,7 @@ class Tracer : public NodeRules {
     values.reserve(program.code.size());
     for (const Instruction& one : program.code) {
       if (one.op == Op::input) {
-        values.push_back(input(program.inputs[static_cast<std::size_t>(one.attributes[0])]));
+        values.push_back(input(program.input_of(one)));
         continue;
       }
       TracedOperands operands;
@@ -217,38 +217,17 @@ class Tracer : public NodeRules {
   }
 
   static std::optional<ScalarOp> elementwise(Op op) {
-    switch (op) {
-      case Op::minimum:
-        return ScalarOp::minimum;
-      case Op::maximum:
-        return ScalarOp::maximum;
-      case Op::real_power:
-        return ScalarOp::power;
-      case Op::mod:
-        return ScalarOp::mod;
-      case Op::atan2:
-        return ScalarOp::angle;
-      case Op::abs:
-        return ScalarOp::abs;
-      case Op::sign:
-        return ScalarOp::sign;
-      case Op::floor:
-        return ScalarOp::floor;
-      case Op::exp:
-        return ScalarOp::exp;
-      case Op::log:
-        return ScalarOp::log;
-      case Op::sqrt:
-        return ScalarOp::sqrt;
-      case Op::sin:
-        return ScalarOp::sin;
-      case Op::cos:
-        return ScalarOp::cos;
-      case Op::tanh:
-        return ScalarOp::tanh;
-      default:
-        return std::nullopt;
-    }
+    using Pair = std::pair<Op, ScalarOp>;
+    static constexpr Pair kPairs[] = {
+        {Op::minimum, ScalarOp::minimum},  {Op::maximum, ScalarOp::maximum},
+        {Op::real_power, ScalarOp::power}, {Op::mod, ScalarOp::mod},
+        {Op::atan2, ScalarOp::angle},      {Op::abs, ScalarOp::abs},
+        {Op::sign, ScalarOp::sign},        {Op::floor, ScalarOp::floor},
+        {Op::exp, ScalarOp::exp},          {Op::log, ScalarOp::log},
+        {Op::sqrt, ScalarOp::sqrt},        {Op::sin, ScalarOp::sin},
+        {Op::cos, ScalarOp::cos},          {Op::tanh, ScalarOp::tanh}};
+    const auto found = std::ranges::find(kPairs, op, &Pair::first);
+    return found == std::end(kPairs) ? std::nullopt : std::optional(found->second);
   }
 
   /// Of a column or a row.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "expr/evaluate.h"
+#include "numbers/scalar_trace.h"
 
 namespace gainsmith::numbers {
 

@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "numbers/range.h"
-#include "numbers/scalar_trace.h"
 #include "numbers/tape_block.h"
 #include "numbers/tape_code.h"
 

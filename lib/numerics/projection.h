@@ -19,7 +19,6 @@
 
 #include <Eigen/Core>
 #include <stdexcept>
-#include <string>
 
 #include "numerics/matrix.h"
 

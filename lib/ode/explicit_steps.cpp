@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "ode/dormand_prince.h"
 #include "ode/step_control.h"
 #include "ode/tolerances.h"
 

@@ -7,7 +7,6 @@
 
 #include <Eigen/Core>
 
-#include "ode/dormand_prince.h"
 #include "ode/guarded_rate.h"
 
 namespace gainsmith::ode {

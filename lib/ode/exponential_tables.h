@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "base/eigen_scalars.h"
-#include "base/scalars.h"
 #include "numbers/matrix.h"
 
 namespace gainsmith::ode {

@@ -6,7 +6,6 @@
 #include "ode/explicit_steps.h"
 #include "ode/guarded_rate.h"
 #include "ode/implicit_steps.h"
-#include "ode/tolerances.h"
 
 namespace gainsmith::ode {
 

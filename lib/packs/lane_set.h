@@ -10,7 +10,6 @@
 #include "packs/lane_values.h"
 #include "packs/pack_lane.h"
 #include "packs/pack_runner.h"
-#include "packs/tolerances.h"
 
 namespace gainsmith::packs {
 

@@ -12,7 +12,6 @@
 #include "packs/jump_code.h"
 #include "packs/quintics.h"
 #include "packs/sharp_parts.h"
-#include "packs/tolerances.h"
 
 namespace gainsmith::packs {
 
@@ -27,8 +26,7 @@ using numbers::ScalarOp;
 
 bool runs_jumps(const Dynamics& dynamics) {
   return std::none_of(dynamics.reactions.begin(), dynamics.reactions.end(), [](const auto& one) {
-    return std::any_of(one.passes.begin(), one.passes.end(),
-                       [](const Dynamics::Pass& pass) { return pass.repeats; });
+    return std::ranges::any_of(one.passes, &Dynamics::Pass::repeats);
   });
 }
 

@@ -1,8 +1,6 @@
 // The tolerances of this room: unit | meaning | test.
 #pragma once
 
-#include <cstdint>
-
 namespace gainsmith::packs {
 
 // clang-format off

@@ -1,14 +1,11 @@
 #include "page/page.h"
 
 #include <algorithm>
-#include <array>
-#include <utility>
 
 #include "base/number.h"
 #include "base/version.h"
 #include "page/element.h"
 #include "page/style.h"
-#include "report/text.h"
 
 namespace gainsmith::page {
 

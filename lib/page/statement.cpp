@@ -1,7 +1,6 @@
 #include "page/statement.h"
 
-#include <algorithm>
-
+#include "base/named.h"
 #include "page/element.h"
 #include "page/lines.h"
 #include "page/mathml.h"
@@ -28,12 +27,6 @@ std::string shape_text(const model::ShapeText& shape, const Notation& notation) 
   const std::string kind =
       shape.structure == Structure::full ? "" : report::escaped(to_string(shape.structure)) + ", ";
   return kind + formula(rows + mo("×") + columns);
-}
-
-const model::Value* find(const std::vector<model::Value>& values, const std::string& name) {
-  const auto found = std::find_if(values.begin(), values.end(),
-                                  [&](const model::Value& one) { return one.name == name; });
-  return found == values.end() ? nullptr : &*found;
 }
 
 class Given {
@@ -70,7 +63,7 @@ class Given {
     std::string right = searched(datum.name);
     if (!right.empty()) {
       remark += (remark.empty() ? "" : "; ") + std::string("found by the search");
-    } else if (const model::Value* given = find(problem_.data, datum.name)) {
+    } else if (const model::Value* given = find_named(problem_.data, datum.name)) {
       right = value_mathml(*given, notation_);
       if (given->flat && datum.shape.is_column())  // a list is written as a row
         right = element("msup", row(right) + mo("⊤"));
@@ -79,8 +72,8 @@ class Given {
     }
     if (right.empty()) return "";  // a function: it is shown below the data
     const bool listed_members = !datum.indices.empty() &&
-                                find(problem_.data, datum.name) != nullptr &&
-                                !find(problem_.data, datum.name)->value.root;
+                                find_named(problem_.data, datum.name) != nullptr &&
+                                !find_named(problem_.data, datum.name)->value.root;
     const std::string left = listed_members ? symbol(datum.name, {row(mo("1") + mo(",") + mo("…"))})
                                             : declared(datum.name, datum.indices, notation_);
     return formula_row("", equation(left, right), remark);
@@ -94,7 +87,7 @@ class Given {
       remark += (remark.empty() ? "" : "; ") + std::string("found by the search");
     else if (found != nullptr)
       right = matrix(*found);
-    else if (const model::Value* given = find(problem_.parameters, parameter.name))
+    else if (const model::Value* given = find_named(problem_.parameters, parameter.name))
       right = value_mathml(*given, notation_);
     else if (parameter.fallback)
       right = mathml(*parameter.fallback, notation_);

@@ -7,7 +7,6 @@
 
 #include "base/number.h"
 #include "page/element.h"
-#include "report/text.h"
 
 namespace gainsmith::page {
 
@@ -28,8 +27,7 @@ constexpr std::array kGreek = {
     Letter{"Sigma", "Σ"},   Letter{"Phi", "Φ"},    Letter{"Psi", "Ψ"},    Letter{"Omega", "Ω"}};
 
 const Letter* greek(std::string_view stem) {
-  const auto found =
-      std::find_if(kGreek.begin(), kGreek.end(), [&](const Letter& l) { return l.first == stem; });
+  const auto found = std::ranges::find(kGreek, stem, &Letter::first);
   return found == kGreek.end() ? nullptr : &*found;
 }
 

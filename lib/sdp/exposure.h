@@ -4,7 +4,6 @@
 #include <Eigen/Eigenvalues>
 #include <vector>
 
-#include "base/scalars.h"
 #include "sdp/iterate.h"
 
 namespace gainsmith::sdp {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/scalars.h"
 #include "sdp/exposure.h"
 #include "sdp/report.h"
 

@@ -3,8 +3,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
-#include <vector>
 
 #include "base/eigen_scalars.h"
 #include "base/scalars.h"

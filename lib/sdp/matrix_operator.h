@@ -2,7 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <utility>
+#include <algorithm>
 #include <vector>
 
 #include "sdp/linalg.h"
@@ -54,6 +54,10 @@ class MatrixOperator {
   struct Block {
     std::vector<Term> terms;
     std::vector<Scalar> scalars;
+    /// How many terms an unknown has.
+    auto terms_of(std::size_t unknown) const {
+      return std::ranges::count(terms, unknown, &Term::unknown);
+    }
   };
   struct Row {
     Vector<double> coefficients;  ///< m
@@ -114,7 +118,7 @@ class SchurOperator {
   const MatrixOperator& of_;
   const Blocks<double>* W_ = nullptr;
   std::vector<Scaled> scaled_;
-  mutable std::vector<Matrix<double>> unknowns_, gradients_;
+  mutable std::vector<Matrix<double>> unknowns_;
 };
 
 }  // namespace gainsmith::sdp

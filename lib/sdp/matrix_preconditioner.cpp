@@ -62,14 +62,9 @@ bool Preconditioner::shares_a_side(std::size_t P, std::size_t Y, bool transposed
 
 /// Has P two terms in a block of Y? Then Y + P K leaves one that is coupled with Y all the same.
 bool Preconditioner::is_twice(std::size_t P, std::size_t Y) const {
-  for (const MatrixOperator::Block& block : of_.blocks()) {
-    const auto terms_of = [&](std::size_t unknown) {
-      return std::count_if(block.terms.begin(), block.terms.end(),
-                           [&](const auto& term) { return term.unknown == unknown; });
-    };
-    if (terms_of(Y) > 0 && terms_of(P) > 1) return true;
-  }
-  return false;
+  return std::ranges::any_of(of_.blocks(), [&](const MatrixOperator::Block& block) {
+    return block.terms_of(Y) > 0 && block.terms_of(P) > 1;
+  });
 }
 
 /// One P for each Y, the first.

@@ -30,12 +30,9 @@ std::size_t MatrixSchur::count(std::size_t unknown) const {
 }
 
 bool MatrixSchur::is_coupled(std::size_t V, std::size_t U) const {
-  const auto is_in = [&](const MatrixOperator::Block& block, std::size_t unknown) {
-    return std::any_of(block.terms.begin(), block.terms.end(),
-                       [&](const auto& term) { return term.unknown == unknown; });
-  };
-  return std::any_of(of_.blocks().begin(), of_.blocks().end(),
-                     [&](const auto& block) { return is_in(block, V) && is_in(block, U); });
+  return std::ranges::any_of(of_.blocks(), [&](const MatrixOperator::Block& block) {
+    return block.terms_of(V) > 0 && block.terms_of(U) > 0;
+  });
 }
 
 // Those with the fewest neighbours first, counted in variables.
@@ -72,14 +69,8 @@ void MatrixSchur::estimate(std::vector<std::vector<bool>> coupled) {
       const auto size = static_cast<double>(count(V));
       if (V != U) later += size;
       double common = 0;
-      for (const MatrixOperator::Block& block : of_.blocks()) {
-        const auto terms = [&](std::size_t unknown) {
-          return static_cast<double>(
-              std::count_if(block.terms.begin(), block.terms.end(),
-                            [&](const auto& term) { return term.unknown == unknown; }));
-        };
-        common += terms(U) * terms(V);
-      }
+      for (const MatrixOperator::Block& block : of_.blocks())
+        common += static_cast<double>(block.terms_of(U)) * static_cast<double>(block.terms_of(V));
       // A symmetric one has twice as many elements as scalars, and as many directions.
       const double twice = (of_.program().unknowns[U].symmetric ? 2 : 1) *
                            (of_.program().unknowns[V].symmetric ? 2 : 1);

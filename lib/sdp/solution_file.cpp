@@ -1,7 +1,6 @@
 #include "sdp/solution_file.h"
 
 #include <cstddef>
-#include <vector>
 
 #include "base/number.h"
 

@@ -13,7 +13,6 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <optional>
-#include <vector>
 
 #include "simulate/event_watch.h"
 #include "simulate/flow.h"

@@ -17,7 +17,7 @@ DueEvents::DueEvents(const hybrid::System& system, EventWatch& watch, hybrid::Ev
 
 void DueEvents::begin(const VectorXd& values, VectorField& field) {
   for (std::size_t e = 0; e < marks_.size(); ++e) {
-    field.set_due(e, clocks_.due(e));
+    field.set_clock(model::Dynamics::VariableKind::left, e, clocks_.due(e));
     if (auto& crossing = watch_->crossing[e])
       marks_[e].sign = crossing->is_noise(values) ? 0 : sign_of(e, values);
   }
@@ -83,7 +83,7 @@ void DueEvents::spend(std::size_t event, double t, VectorField& field) {
   marks_[event].crossed = false;
   if (!system_->has_clock(event)) return;
   clocks_.advance(event, t);
-  field.set_due(event, clocks_.due(event));
+  field.set_clock(model::Dynamics::VariableKind::left, event, clocks_.due(event));
 }
 
 void DueEvents::jumped(std::size_t event, const VectorXd& before, const VectorXd& values) {

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "simulate/jump_maps.h"
-
 namespace gainsmith::simulate {
 
 using Eigen::VectorXd;

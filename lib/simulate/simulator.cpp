@@ -155,7 +155,7 @@ class EventRun {
     values_ = maps_(event, lost, before, places(), state_);
     record_.flow_ends();
     due_.spend(event, t_, field_);
-    field_.set_since(event, t_);
+    field_.set_clock(model::Dynamics::VariableKind::since, event, t_);
     field_.fill_clocks(t_, values_);
     due_.jumped(event, before, values_);
     if (state_ != nullptr) state_->jumped(event, maps_.in_31_digits(), due_.clocks());

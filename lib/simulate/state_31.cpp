@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/number.h"
 #include "base/unit_roundoff.h"
 #include "ode/gauss_stages.h"
-#include "simulate/run_end.h"
 #include "simulate/tolerances.h"
 
 namespace gainsmith::simulate {

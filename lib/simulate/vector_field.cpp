@@ -1,7 +1,6 @@
 #include "simulate/vector_field.h"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 #include "base/error.h"
@@ -121,19 +120,10 @@ void VectorField::reset() {
   std::fill(largest_rate_.begin(), largest_rate_.end(), 0);
 }
 
-void VectorField::set_since(std::size_t event, double t) {
+void VectorField::set_clock(model::Dynamics::VariableKind kind, std::size_t event, double time) {
   for (std::size_t k = 0; k < clocks_.size(); ++k) {
     const auto& variable = system_->dynamics.variables[clocks_[k]];
-    if (variable.kind == model::Dynamics::VariableKind::since && variable.of == event)
-      lines_[k].time = t;
-  }
-}
-
-void VectorField::set_due(std::size_t event, double due) {
-  for (std::size_t k = 0; k < clocks_.size(); ++k) {
-    const auto& variable = system_->dynamics.variables[clocks_[k]];
-    if (variable.kind == model::Dynamics::VariableKind::left && variable.of == event)
-      lines_[k].time = due;
+    if (variable.kind == kind && variable.of == event) lines_[k].time = time;
   }
 }
 
@@ -170,9 +160,8 @@ void VectorField::require_symmetric(Entry& entry, const numbers::Matrix& rate) {
   if (rate.size() > 0) largest = std::max(largest, rate.cwiseAbs().maxCoeff());
   const double asymmetry = rate.size() > 0 ? (rate - rate.transpose()).cwiseAbs().maxCoeff() : 0;
   if (!(asymmetry > hybrid::kMeantEqual * largest)) return;
-  const auto& flow = system_->dynamics.flow;
-  const auto found = std::find_if(flow.begin(), flow.end(),
-                                  [&](const auto& one) { return one.variable == entry.variable; });
+  const auto found = std::ranges::find(system_->dynamics.flow, entry.variable,
+                                       &model::Dynamics::Assignment::variable);
   throw InputError(found->place, "the state " + system_->layout.slots[entry.variable].name +
                                      " is symmetric and its flow is not: elements differ by " +
                                      brief(asymmetry));
@@ -267,8 +256,7 @@ void VectorField::rate_at(const VectorXd& y, const VectorXd& inputs, VectorXd& r
 double VectorField::rate_of(const LinearInput& input) const {
   if (input.rests) return 0;
   const Index element = input.element;
-  const auto found = std::find_if(lines_.begin(), lines_.end(),
-                                  [&](const Line& line) { return line.element == element; });
+  const auto found = std::ranges::find(lines_, element, &Line::element);
   return found == lines_.end() ? 0 : found->rate;
 }
 

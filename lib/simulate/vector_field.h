@@ -25,10 +25,8 @@ class VectorField {
 
   /// At the start of a run: the times since events are 0.
   void reset();
-  /// since(event) runs from t on.
-  void set_since(std::size_t event, double t);
-  /// event.left runs down to 0 at `due`.
-  void set_due(std::size_t event, double due);
+  /// since(event) runs from `time` on; event.left runs down to 0 then.
+  void set_clock(model::Dynamics::VariableKind kind, std::size_t event, double time);
 
   /// Begins a flow: reads which components are frozen and the steady rates. InputError for a
   /// symmetric state whose flow is not.

@@ -27,8 +27,7 @@ std::vector<std::optional<RationalMatrix>> constants_of(const expr::Program& pro
   for (const expr::Instruction& instruction : program.code) {
     std::optional<RationalMatrix>& value = values.emplace_back();
     if (instruction.op == expr::Op::input) {
-      const auto found =
-          known.find(program.inputs[static_cast<std::size_t>(instruction.attributes[0])].name);
+      const auto found = known.find(program.input_of(instruction).name);
       if (found != known.end()) value = found->second;
       continue;
     }
@@ -58,8 +57,7 @@ constexpr auto kUnnamed = "a matrix of ";
 
 std::string name_of(const expr::Program& program, const expr::Instruction& instruction,
                     const std::string& inequality) {
-  if (instruction.op == expr::Op::input)
-    return program.inputs[static_cast<std::size_t>(instruction.attributes[0])].name;
+  if (instruction.op == expr::Op::input) return program.input_of(instruction).name;
   if (instruction.op == expr::Op::transpose)
     if (const auto& of = program.code[static_cast<std::size_t>(instruction.operands[0])];
         of.op == expr::Op::input)

@@ -1,7 +1,6 @@
 #include "verdict/exact.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <type_traits>
 

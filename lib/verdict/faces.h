@@ -16,7 +16,6 @@
 // Only exact blocks have multipliers; what they share, all solutions of all the blocks share.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>

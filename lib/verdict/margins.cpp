@@ -61,9 +61,7 @@ double distance(const std::vector<double>& x, const std::vector<Rational>& solut
 }  // namespace
 
 bool all_hold(const Margins& margins) {
-  return margins.open.empty() &&
-         std::all_of(margins.margins.begin(), margins.margins.end(),
-                     [](const model::Margin& margin) { return margin.holds; });
+  return margins.open.empty() && std::ranges::all_of(margins.margins, &model::Margin::holds);
 }
 
 namespace {

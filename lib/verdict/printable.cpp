@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
-#include "base/number.h"
 #include "numerics/lattice.h"
 
 namespace gainsmith::verdict {

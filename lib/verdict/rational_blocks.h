@@ -1,7 +1,6 @@
 // Blocks from the decimals of the file, as fractions: what exact reductions rest on.
 #pragma once
 
-#include <optional>
 #include <utility>
 #include <vector>
 

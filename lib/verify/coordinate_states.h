@@ -9,7 +9,6 @@
 
 #include "claims/claims.h"
 #include "linear/coordinates.h"
-#include "linear/sampled_system.h"
 #include "model/run_texts.h"
 
 namespace gainsmith::verify {

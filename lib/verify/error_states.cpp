@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "base/named.h"
 #include "hybrid/state_layout.h"
 #include "linear/differences.h"
 #include "model/dynamics_programs.h"
@@ -17,8 +18,7 @@ using model::Dynamics;
 namespace {
 
 bool uses(const Program& program, const std::string& name) {
-  return std::any_of(program.inputs.begin(), program.inputs.end(),
-                     [&](const expr::Input& input) { return input.name == name; });
+  return has_named(program.inputs, name);
 }
 
 Dynamics::Assignment* assignment_of(Dynamics::Reaction& reaction, std::size_t variable) {
@@ -100,8 +100,7 @@ void ErrorStates::rewrite(Program& program) {
 /// The flow of b becomes f_a - f_b.
 void ErrorStates::find_flows() {
   const auto flow_of = [&](std::size_t variable) {
-    return std::find_if(dynamics_.flow.begin(), dynamics_.flow.end(),
-                        [&](const auto& one) { return one.variable == variable; });
+    return std::ranges::find(dynamics_.flow, variable, &Dynamics::Assignment::variable);
   };
   const std::vector<Dynamics::Assignment> written = dynamics_.flow;
   for (std::size_t k = 0; k < places_.size(); ++k) {

@@ -2,11 +2,9 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "hybrid/trajectory.h"
 #include "model/gains.h"
 #include "model/instance.h"
 

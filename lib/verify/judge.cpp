@@ -16,8 +16,7 @@ using claims::Track;
 
 claims::Judgement worst_of(const std::vector<claims::Finding>& findings) {
   const auto any = [&](claims::Judgement judgement) {
-    return std::any_of(findings.begin(), findings.end(),
-                       [&](const claims::Finding& one) { return one.judgement == judgement; });
+    return std::ranges::count(findings, judgement, &claims::Finding::judgement) > 0;
   };
   if (any(claims::Judgement::violated)) return claims::Judgement::violated;
   return any(claims::Judgement::undecided) ? claims::Judgement::undecided : claims::Judgement::held;
@@ -146,8 +145,7 @@ RunVerdict Judge::operator()(std::uint64_t seed, std::uint64_t run,
   happened_.assign(event_count_, 0);
   RunVerdict verdict = verdict_on(noted(tracks_.run(seed, run, 1)), checks_);
   take_held(holds, verdict);
-  const bool open = std::any_of(verdict.findings.begin(), verdict.findings.end(),
-                                [](const claims::Finding& one) { return one.undecided(); });
+  const bool open = std::ranges::any_of(verdict.findings, &claims::Finding::undecided);
   // A run that is repeated may go on where it ended before.
   if (open || verdict.unfinished()) {
     verdict = with_decided(verdict, sharper(seed, run));

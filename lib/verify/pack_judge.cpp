@@ -23,7 +23,7 @@ void require_agreement(std::uint64_t run, Judgement packs, Judgement careful) {
   throw std::logic_error(
       fmt::format("run {}: {} as one of many runs at once, but {} as a careful run; this is a "
                   "fault of gainsmith",
-                  run, claims::to_string(packs), claims::to_string(careful)));
+                  run, to_string(packs), to_string(careful)));
 }
 
 Packs make_packs(const Setup& setup, std::uint64_t runs) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <utility>
 
 #include "base/error.h"
@@ -278,8 +277,7 @@ Replay replay_run(const Setup& setup, std::uint64_t seed, std::uint64_t run, dou
   Judge judge(setup);
   std::vector<claims::Finding> findings = judge(seed, run).findings;
   // Proofs take longer than one run.
-  if (std::any_of(findings.begin(), findings.end(),
-                  [](const auto& one) { return one.undecided(); }))
+  if (std::ranges::any_of(findings, &claims::Finding::undecided))
     if (const auto linear = make_linear_packs(setup))
       findings = verdict_on_run(judge, linear.get(), seed, run).findings;
   for (std::size_t k = 0; k < findings.size(); ++k)

@@ -65,8 +65,7 @@ void merge_sorted(const std::vector<std::uint64_t>& more, std::vector<std::uint6
 UndecidedRun undecided_run(std::uint64_t run, Termination termination, const std::string& message,
                            const std::vector<claims::Finding>& findings) {
   UndecidedRun undecided{run, termination, message, 0, {}};
-  const auto finding = std::find_if(findings.begin(), findings.end(),
-                                    [](const claims::Finding& one) { return one.undecided(); });
+  const auto finding = std::ranges::find_if(findings, &claims::Finding::undecided);
   if (finding == findings.end()) return undecided;
   undecided.check = static_cast<std::size_t>(finding - findings.begin());
   undecided.finding = *finding;

@@ -7,6 +7,7 @@
 
 #include "expr/compile.h"
 #include "expr/parser.h"
+#include "numbers/scalar_trace.h"
 #include "numbers/stacked_functions.h"
 
 namespace gainsmith::numbers {

@@ -12,7 +12,7 @@ namespace {
 
 /// One of few values each, so that many runs are equally bad.
 RunVerdict random_verdict(std::mt19937& random) {
-  using enum claims::Judgement;
+  using enum model::CampaignVerdict;
   const auto one_of = [&](const auto& list) {
     return list[std::uniform_int_distribution<std::size_t>(0, list.size() - 1)(random)];
   };
