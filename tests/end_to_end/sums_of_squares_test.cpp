@@ -19,11 +19,14 @@ std::string requirement(const std::string& inequality, const std::string& forall
   return stating("  require: {p: {forall: " + forall + ", that: \"" + inequality + "\"}}\n");
 }
 
+/// The gain file, which `certify` proves.
 nlohmann::json gains_of(const std::string& text) {
   const Folder folder;
   const Outcome outcome =
       gainsmith({"synth", folder.file("p.yaml", text), "-o", folder.path("g.json")});
   EXPECT_TRUE(outcome.exit == 0 || outcome.exit == 1) << outcome.err;
+  const Outcome certified = gainsmith({"certify", folder.path("g.json"), "--claims"});
+  EXPECT_EQ(certified.exit, 0) << certified.out;
   return nlohmann::json::parse(text_of(folder.path("g.json")));
 }
 
@@ -202,6 +205,76 @@ TEST(SumsOfSquares, AGainFileIsCheckedAtItsUnknowns) {
   first.erase("timings");
   second.erase("timings");
   EXPECT_EQ(first, second);
+}
+
+/// All solutions but 0 fail, by moments whose sum is 0: x+ = J x after [T1, T2] of x' = A x.
+TEST(SumsOfSquares, AStrictInequalityIsExcludedByMomentsThatAddUpToNothing) {
+  const auto dwell = [](const std::string& T2) {
+    return stating(
+        "  unknowns: {P: {shape: symmetric 2, of: s, degree: 2}}\n"
+        "  let: {A: \"[-1, 0.1; 0, 1.2]\", J: \"[1.2, 0; 0, 0.5]\"}\n"
+        "  require:\n"
+        "    flow: {forall: \"s in [0, " +
+        T2 +
+        "]\", by: sos,\n"
+        "      that: \"derivative(P)(s) + He(P(s)*A) < 0\"}\n"
+        "    jump: {forall: \"T in [0.1824, " +
+        T2 +
+        "]\", by: sos, that: \"J'*P(0)*J - P(T) < 0\"}\n"
+        "    positive: P(0) > 0\n");
+  };
+  EXPECT_EQ(verdict(dwell("0.5")), "yes");
+  EXPECT_EQ(verdict(dwell("0.8")), "no");
+}
+
+/// V and 1e-8 V are the same function; the program of one was not solved.
+TEST(SumsOfSquares, TheSizeOfALyapunovFunctionDoesNotMatter) {
+  for (const char* small : {"1", "1e-5", "1e-10"})
+    EXPECT_EQ(
+        verdict(stating("  unknowns: {V: {shape: scalar, of: {x: 2}, degree: [2, 4]}}\n"
+                        "  let: {f(x): \"[-x(1) - x(1)^3 - 5*x(2); 0.5*x(1) - x(2) - x(2)^3]\"}\n"
+                        "  require:\n"
+                        "    positive: {forall: x in R^2, that: \"V(x) >= " +
+                        std::string(small) +
+                        "*x'*x\"}\n"
+                        "    fall: {forall: x in R^2, that: \"jacobian(V(x), x)*f(x) <= -" +
+                        small + "*x'*x\"}\n")),
+        "yes")
+        << small;
+}
+
+TEST(SumsOfSquares, ACoefficientThatAnotherInequalityForcesIsTold) {
+  const nlohmann::json gains = gains_of(
+      stating("  parameters: {half: 1}\n"
+              "  unknowns: {V: {shape: scalar, of: {x: 2}, degree: [2, 4]}}\n"
+              "  let: {f(x): \"[-x(1) + x(1)*x(2); -x(2)]\"}\n"
+              "  require:\n"
+              "    positive: {forall: x in R^2, that: \"V(x) >= 0.01*(x'*x)^half\"}\n"
+              "    fall: {forall: x in R^2, that: \"jacobian(V(x), x)*f(x) <= -0.01*x'*x\"}\n"));
+  EXPECT_EQ(gains["verdict"], "no");
+  EXPECT_TRUE(has(gains["solver"]["message"], "'fall' leaves one value of V_")) << gains["solver"];
+}
+
+TEST(SumsOfSquares, ADegreeBelowThatOfTheInequalityIsRefused) {
+  EXPECT_TRUE(has(error_of(stating("  require: {p: {forall: x in R^2, degree: 2, that: \"x(1)^4 + "
+                                   "x(2)^2 >= 0\"}}\n")),
+                  "the degree of 'p' is 4"));
+}
+
+TEST(SumsOfSquares, APlaneShowsTheRegionAndTheField) {
+  const Folder folder;
+  ASSERT_EQ(gainsmith({"init", "region-of-attraction"}).exit, 0);
+  const std::string file = folder.file("p.yaml", gainsmith({"init", "region-of-attraction"}).out);
+  ASSERT_EQ(gainsmith({"synth", file, "-o", folder.path("g.json")}).exit, 0);
+  ASSERT_EQ(gainsmith({"simulate", folder.path("g.json"), "--runs", "0:3", "--phase", "x1,x2",
+                       "--plot", folder.path("p.svg")})
+                .exit,
+            0);
+  const std::string picture = text_of(folder.path("p.svg"));
+  EXPECT_TRUE(has(picture, "stays: 2.30")) << picture.substr(0, 2000);
+  EXPECT_TRUE(has(picture, "#b8b8b8"));
+  EXPECT_EQ(gainsmith({"report", folder.path("g.json"), "-o", folder.path("r.html")}).exit, 0);
+  EXPECT_TRUE(has(text_of(folder.path("r.html")), "As sums of squares"));
 }
 
 TEST(SumsOfSquares, ExplainNamesTheInequality) {
