@@ -2,14 +2,16 @@
 
     row'M(x; u) row = sum of g(x) z'Qz + sum of h(x) t(x, row),   Q >= 0, t any,   z: all monomials
 
-gives an equation for each monomial. Where it says that positive multiples of diagonal elements of the
-Q add up to 0, these elements are 0 in every solution, and so are their rows; what adds up to less is a
-contradiction. For the rows that are left, the file gives a number L for each equation, so that
+gives an equation for each monomial. Where it says that positive multiples of diagonal elements of
+the Q add up to 0, these elements are 0 in every solution, and so are their rows; what adds up to
+less is a contradiction. For the rows that are left, the file gives a number L for each equation, so
+that
 
     sum of L times the coefficients of each u and t is 0, and of each Q a matrix >= 0.
 
 Then the same sum of the constants, which is that of the Q, cannot be below 0. It cannot be 0 either
-where that matrix is not 0 and Q > 0, as a strict inequality asks; nor may that Q lose a constant."""
+where that matrix is not 0 and Q > 0, as a strict inequality asks; nor may that Q lose a constant.
+"""
 from collections import namedtuple
 from fractions import Fraction
 from itertools import combinations_with_replacement

@@ -1,6 +1,7 @@
 """Inequalities for all x, as sums of squares. The file gives polynomials z and Gram matrices Q >= 0
 with  M = sum of g(x) z'Qz + sum of h(x) t(x),  where g >= 0 and h = 0 by `where`. Of a matrix M the
-identity is that of row'M(x) row. Both sides are expanded, coefficient by coefficient, in fractions."""
+identity is that of row'M(x) row. Both sides are expanded, coefficient by coefficient, in fractions.
+"""
 import re
 from collections import namedtuple
 from fractions import Fraction
@@ -40,7 +41,8 @@ def parts(comparison, domain):
     ring = Polynomials(domain)
     m = inequality(comparison, ring.scope)
     pairs = [(i, j) for i in range(m.rows) for j in range(m.rows)]
-    if all(i == j or ring.is_zero(m[i, j]) for i, j in pairs): found = [m[i, i] for i in range(m.rows)]
+    if all(i == j or ring.is_zero(m[i, j]) for i, j in pairs):
+        found = [m[i, i] for i in range(m.rows)]
     else:
         ring = Polynomials(domain, m.rows)
         m = inequality(comparison, ring.scope)

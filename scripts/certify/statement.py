@@ -325,7 +325,8 @@ class Statement:
         kind = SHAPE.fullmatch(declared["shape"]).group(1) or "full"
         rows, cols = self.shape(declared["shape"])
         if "of" not in declared: return self.unknown_value(name, rows, cols, kind)
-        if isinstance(declared["of"], dict): return self.polynomial(name, declared, rows, cols, kind)
+        if isinstance(declared["of"], dict):
+            return self.polynomial(name, declared, rows, cols, kind)
         way = section(self.problem, "synthesis").get("forall")
         if "vertex_gains" in (way, way.get("way") if isinstance(way, dict) else ""):
             return self.vertex_function(name, rows, cols, kind)
@@ -507,4 +508,5 @@ def symmetric(a):
             raise Unsupported("a matrix that is not symmetric")
     return result
 def largest(x):         # of its coefficients
-    return max(abs(middle(c)) for c in (x.terms.values() if isinstance(x, Series) else [x]))
+    if isinstance(x, Series): return max(map(largest, x.terms.values()), default=Fraction(0))
+    return abs(middle(x))
