@@ -209,7 +209,7 @@ TEST(SumsOfSquares, AGainFileIsCheckedAtItsUnknowns) {
 
 /// All solutions but 0 fail, by moments whose sum is 0: x+ = J x after [T1, T2] of x' = A x.
 TEST(SumsOfSquares, AStrictInequalityIsExcludedByMomentsThatAddUpToNothing) {
-  const auto dwell = [](const std::string& T2) {
+  const auto dwell = [](const std::string& T1, const std::string& T2) {
     return stating(
         "  unknowns: {P: {shape: symmetric 2, of: s, degree: 2}}\n"
         "  let: {A: \"[-1, 0.1; 0, 1.2]\", J: \"[1.2, 0; 0, 0.5]\"}\n"
@@ -218,13 +218,13 @@ TEST(SumsOfSquares, AStrictInequalityIsExcludedByMomentsThatAddUpToNothing) {
         T2 +
         "]\", by: sos,\n"
         "      that: \"derivative(P)(s) + He(P(s)*A) < 0\"}\n"
-        "    jump: {forall: \"T in [0.1824, " +
-        T2 +
+        "    jump: {forall: \"T in [" +
+        T1 + ", " + T2 +
         "]\", by: sos, that: \"J'*P(0)*J - P(T) < 0\"}\n"
         "    positive: P(0) > 0\n");
   };
-  EXPECT_EQ(verdict(dwell("0.5")), "yes");
-  EXPECT_EQ(verdict(dwell("0.8")), "no");
+  EXPECT_EQ(verdict(dwell("0.3", "0.4")), "yes");
+  EXPECT_EQ(verdict(dwell("0.1824", "0.8")), "no");
 }
 
 /// V and 1e-8 V are the same function; the program of one was not solved.
