@@ -22,7 +22,7 @@ class Polynomials:
         x = [self.nothing.like({unit: Fraction(1)}) for unit in self.units]
         names = {"row": column(x[n:])} if rows else {}
         for i, t in zip(domain.intervals, x):
-            names[i.title] = number(t)
+            if i.title != i.name: names[i.title] = number(t)
             names[i.name] = number(t) if i.index is None else column(
                 (flat(names[i.name]) if i.index else []) + [t])
         self.count, self.variables, self.rows = n, x[:n], x[n:]
