@@ -3,7 +3,6 @@
 #include <cstdint>
 
 #include "base/stop.h"
-#include "numbers/matrix.h"
 #include "numbers/residue.h"
 
 namespace gainsmith::numbers {
