@@ -107,6 +107,11 @@ std::string unknown_functions_text(const model::Gains& gains) {
           fmt::format("{:<12}{} = ", text.empty() ? "unknowns" : "", function.signature);
       text += head + wrapped(*sum, head.size()) + "\n";
     }
+  if (!text.empty() || gains.sums_of_squares.empty()) return text;
+  for (const auto& [name, value] : gains.unknowns)
+    if (value.size() == 1)
+      text += fmt::format("{:<12}{} = {}\n", text.empty() ? "unknowns" : "", name,
+                          brief(value(0, 0), 10));
   return text;
 }
 

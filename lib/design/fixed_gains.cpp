@@ -297,6 +297,7 @@ bool check_own(const lmi::Inequalities& inequalities, const std::vector<double>&
       for (const auto& inequality : inequalities.design().inequalities)
         check.not_shown.push_back(inequality.name);
     check.margins = std::move(own.margins);
+    check.message = own.solver.message;
     return false;
   }
   using Status = forall::DomainProof::Status;
@@ -363,7 +364,10 @@ GainCheck check_gains(const model::Instance& instance, const model::Gains& gains
       check.own_unknowns = true;
       return check;
     }
-    if (nothing_unknown) {
+    // What a file without gains says is about its unknowns.
+    const bool only_unknowns =
+        instance.design->gains.empty() && has_sums_of_squares(*instance.design);
+    if (nothing_unknown || only_unknowns) {
       if (fails) check.verdict = model::Verdict::no;
       return check;
     }

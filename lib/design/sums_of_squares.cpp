@@ -60,8 +60,10 @@ class Solving {
       gains_.solver.add_message("synthesis.gain_bound is not imposed beside sums of squares");
     if (const auto contradiction = sos::reduce(program_)) return exclude(contradiction, {});
     if (stated_.objective && minimise(program_)) return;
-    const sos::Decision decision = decided(program_, std::nullopt);
+    sos::Decision decision = decided(program_, std::nullopt);
     if (decision.excluded) return exclude(decision.contradiction, decision.moments);
+    // What is 1e-9 from singular, as the value of a minimum is, needs the last digits of double.
+    if (!decision.u) decision = decided(program_, Equation{});
     if (!decision.u) return note_open();
     accept(decision);
     if (!stated_.objective || (decision.on_face && minimise(decision.program))) return;
@@ -233,7 +235,7 @@ class Solving {
                                 place_of(contradiction->key) + " " + contradiction->why);
     else
       gains_.solver.add_message(none +
-                                ", by moments in fractions; a higher 'degree' may have some");
+                                ", by moments in fractions; higher degrees may have some");
   }
 
   /// Where an inequality is false itself; empty where no such point is found.

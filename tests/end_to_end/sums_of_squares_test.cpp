@@ -277,6 +277,26 @@ TEST(SumsOfSquares, APlaneShowsTheRegionAndTheField) {
   EXPECT_TRUE(has(text_of(folder.path("r.html")), "As sums of squares"));
 }
 
+/// A bound that is edited to a false one is not solved anew: the file has no other gains.
+TEST(SumsOfSquares, AnEditedBoundIsNotConfirmed) {
+  const Folder folder;
+  const std::string file =
+      folder.file("p.yaml", stating("  unknowns: {g: scalar}\n"
+                                    "  require: {p: {forall: x in R, that: x^4 - x^2 + x >= g}}\n"
+                                    "  minimize: -g\n"));
+  const Outcome synth = gainsmith({"synth", file, "-o", folder.path("g.json")});
+  ASSERT_EQ(synth.exit, 0) << synth.err;
+  EXPECT_TRUE(has(synth.out, "unknowns    g = -1.13")) << synth.out;
+  EXPECT_EQ(gainsmith({"check", folder.path("g.json")}).exit, 0);
+  auto edited = nlohmann::json::parse(text_of(folder.path("g.json")));
+  edited["unknowns"]["g"] = -1.12;
+  edited.erase("proof");
+  if (edited.contains("decimals")) edited.erase("decimals");
+  const std::string bad = folder.file("b.json", edited.dump());
+  EXPECT_NE(gainsmith({"check", bad}).exit, 0);
+  EXPECT_NE(gainsmith({"certify", bad}).exit, 0);
+}
+
 TEST(SumsOfSquares, ExplainNamesTheInequality) {
   const Folder folder;
   const Outcome outcome = gainsmith({"explain", folder.file("p.yaml", region("2.5", "0.001"))});
