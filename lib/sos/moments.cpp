@@ -66,12 +66,17 @@ Rational value_of(const Eliminated& eliminated, const Semidefinite& posed, const
   return sum;
 }
 
-/// Whether X_j . Q_j > 0 for the matrix Q_j > 0 of a strict inequality, where X_j >= 0.
+/// Whether X_j is not 0 at a constant of a strict inequality: M - c I is a sum of squares for a c > 0,
+/// of which the moments are c tr X over the constants at least.
 bool is_above_zero(const Program& program, const std::vector<RationalMatrix>& X) {
-  for (std::size_t j = 0; j < X.size(); ++j)
-    if (program.grams[j].multiplier == 0 && program.statements[program.grams[j].statement].strict &&
-        X[j] != RationalMatrix::Zero(X[j].rows(), X[j].cols()))
-      return true;
+  for (std::size_t j = 0; j < X.size(); ++j) {
+    const Gram& gram = program.grams[j];
+    if (gram.multiplier != 0 || !program.statements[gram.statement].strict) continue;
+    for (int a = 0; a < gram.size(); ++a)
+      if (gram.basis[static_cast<std::size_t>(a)].front().first.monomial.degree() == 0 &&
+          X[j](a, a) != 0)
+        return true;
+  }
   return false;
 }
 

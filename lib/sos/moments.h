@@ -1,9 +1,9 @@
 // What moments show: multipliers y of the equations for which
 //   X_j = sum_i y_i F_ij >= 0   for each Gram matrix Q_j,
 // F_ij its coefficients in equation i with the value c_i. For all solutions 0 <= sum_j X_j . Q_j =
-// c'y, so c'y < 0 excludes them, and c'y = 0 does where X_j is not 0 for a Q_j that is to be > 0.
-// Where sum_i y_i F_ij + D_j >= 0, D the coefficients of an objective, this is at least -c'y. All in
-// fractions.
+// c'y, so c'y < 0 excludes them, and c'y = 0 does where X_j is not 0 at a constant of a strict
+// inequality. Where sum_i y_i F_ij + D_j >= 0, D the coefficients of an objective, this is at least
+// -c'y. All in fractions.
 #pragma once
 
 #include <optional>

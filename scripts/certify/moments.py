@@ -10,13 +10,14 @@ that
     sum of L times the coefficients of each u and t is 0, and of each Q a matrix >= 0.
 
 Then the same sum of the constants, which is that of the Q, cannot be below 0. It cannot be 0 either
-where that matrix is not 0 and Q > 0, as a strict inequality asks; nor may that Q lose a constant.
+where that matrix is not 0 at a constant of a strict inequality: M - c I is a sum of squares for a
+c > 0, which adds c times these elements; nor may that Q lose a constant.
 """
 from collections import namedtuple
 from fractions import Fraction
 from itertools import combinations_with_replacement
 from arithmetic import affine_terms
-from matrices import NEGATIVE, Matrix, classify, filled, flat
+from matrices import NEGATIVE, Matrix, classify, filled
 from squares import parts
 from yes import Claim, cases
 # Terms of an equation: ("u", k), ("t", ...), or ("q", gram, a, b) with a <= b. An equation has its
@@ -65,7 +66,8 @@ def prove_no_squares(statement, given, name):
         left = Matrix([[matrix[a, b] for b in kept] for a in kept], len(kept), len(kept))
         if classify(left) == NEGATIVE:
             return Claim(name, "open", "moments that are not those of squares")
-        excludes |= total == 0 and g in equations.positive and any(flat(left))
+        excludes |= total == 0 and any(equations.bases[g][a] in equations.positive.get(g, ())
+                                       and matrix[a, a] for a in kept)
     return Claim(name, "proved", "moments") if excludes else \
         Claim(name, "open", "moments that exclude nothing")
 def part_terms(part, text): return part.ring.terms(part.ring.read(text))

@@ -37,12 +37,12 @@ class Polynomials:
     def is_zero(self, f): return not any(self.terms(c) for c in affine_terms(f).values())
     def constants(self):        # the exponents of what is not 0 at x = 0
         return set(self.units[self.count:]) or {self.nothing.origin()}
-def parts(comparison, domain):
-    """One part, but of a diagonal matrix one for each element."""
+def parts(comparison, domain, are_one=False):
+    """One part, but of a diagonal matrix one for each element, if they are not one anyhow."""
     ring = Polynomials(domain)
     m = inequality(comparison, ring.scope)
     pairs = [(i, j) for i in range(m.rows) for j in range(m.rows)]
-    if all(i == j or ring.is_zero(m[i, j]) for i, j in pairs):
+    if m.rows == 1 or not are_one and all(i == j or ring.is_zero(m[i, j]) for i, j in pairs):
         found = [m[i, i] for i in range(m.rows)]
     else:
         ring = Polynomials(domain, m.rows)
@@ -68,7 +68,7 @@ def squares_of(gain, label):
     return list(groups.values())
 def prove_squares(comparison, domain, records):
     """None, or why the identities do not show the comparison."""
-    found = parts(comparison, domain)
+    found = parts(comparison, domain, len(records) == 1)
     if len(found) != len(records): return "another number of identities"
     strict = comparison.sign in ("<", ">")
     return next(filter(None, (fault_of(p, r, strict) for p, r in zip(found, records))), None)

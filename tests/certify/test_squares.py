@@ -122,6 +122,14 @@ class No(unittest.TestCase):
             found["certificate"] = {"about": "sums of squares"}
             self.assertEqual(self.claim(found).result, expected, that)
 
+    def test_moments_without_a_constant(self):
+        text = ("problem: p\nmethod:\n  require:\n"
+                "    c: {forall: x in R^2, that: \"(x(1) - x(2))^2 + 1 > 0\"}\n")
+        found = dict(problem(text, {}), verdict="no")
+        found["certificate"] = {"about": "sums of squares", "moments": [
+            {"x(1)^2": "0.5", "x(1)*x(2)": "0.5", "x(2)^2": "0.5"}]}
+        self.assertEqual(self.claim(found).result, "open")
+
     def test_a_value_that_is_set_is_not_searched(self):
         text = ("problem: p\nmethod:\n  data: {c: scalar}\n  require:\n"
                 "    c: {forall: x in R, that: x^2 - c >= 0}\nsearch: {largest: {c: [-1, 1]}}\n")

@@ -224,6 +224,10 @@ TEST(SumsOfSquares, AStrictInequalityIsExcludedByMomentsThatAddUpToNothing) {
         "    positive: P(0) > 0\n");
   };
   EXPECT_EQ(verdict(dwell("0.3", "0.4")), "yes");
+  // Moments that are not 0 say nothing where they are 0 for a constant.
+  EXPECT_EQ(verdict(requirement("(x(1) - x(2))^2 + 1 > 0")), "yes");
+  EXPECT_EQ(verdict(requirement("x(1)^4 + x(2)^4 + 1 > 2*x(1)^2*x(2)^2")), "yes");
+  EXPECT_EQ(verdict(requirement("[1, 0; 0, (x(1) - x(2))^2 + 1] > 0")), "yes");
   EXPECT_EQ(verdict(dwell("0.1824", "0.8")), "no");
 }
 
