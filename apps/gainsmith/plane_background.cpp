@@ -66,6 +66,12 @@ class PlantTexts {
     return nullptr;
   }
 
+  /// Whether its rate depends on states of the plant alone.
+  bool has_field(std::size_t variable) const {
+    const expr::Program* const rate = flow(variable);
+    return rate == nullptr || reads_states_alone(*rate);
+  }
+
   bool has_levels(const claims::Claim& claim) const {
     const bool kind = claim.kind == ClaimKind::below || claim.kind == ClaimKind::above ||
                       claim.kind == ClaimKind::nonincreasing;
@@ -100,9 +106,7 @@ class Background {
   /// See add_background().
   void add(const std::vector<DrawnRun>& runs, report::Panel& panel) {
     const std::size_t a = texts_.variable_of(across_), b = texts_.variable_of(up_);
-    for (const std::size_t k : {a, b})
-      if (const expr::Program* flow = texts_.flow(k); flow && !texts_.reads_states_alone(*flow))
-        return;
+    if (!texts_.has_field(a) || !texts_.has_field(b)) return;
     add_levels(runs);
     const auto others = others_of(runs.front().replay.columns);
     if (!others.empty() && levels_.empty()) return;
@@ -175,14 +179,14 @@ class Background {
   /// Closed curves within four times the extent of the runs whole, others as far as the runs and
   /// these reach.
   void add_curves(report::Panel& panel) const {
-    Window window = window_of(panel.curves);
+    const Window runs = window_of(panel.curves);
     std::vector<report::Curve> curves;
     std::vector<const Level*> open;
     for (const Level& level : levels_) {
       bool closed = false;
       for (const double times : {1.2, 2.0, 4.0}) {
         if (closed) break;
-        const LevelCurves found = zero_curves(level.away, widened(window_of(panel.curves), times));
+        const LevelCurves found = zero_curves(level.away, widened(runs, times));
         closed = found.inside;
         if (closed) add(level, found, curves);
       }
@@ -190,7 +194,7 @@ class Background {
     }
     std::vector<report::Curve> all = panel.curves;
     all.insert(all.end(), curves.begin(), curves.end());
-    window = window_of(all);
+    const Window window = window_of(all);
     for (const Level* level : open) add(*level, zero_curves(level->away, window), curves);
     panel.curves.insert(panel.curves.end(), curves.begin(), curves.end());
   }
@@ -258,10 +262,15 @@ std::optional<std::pair<std::string, std::string>> usual_plane(const claims::Run
                                                                const verify::Replay& replay) {
   const PlantTexts texts(setup);
   std::vector<std::string> states;
+  bool has_field = true;
   for (const Column& column : replay.columns)
-    if (texts.element(column)) states.push_back(column.name);
+    if (const auto element = texts.element(column)) {
+      states.push_back(column.name);
+      has_field = has_field && texts.has_field(texts.variable_of(*element));
+    }
   const auto has_levels = [&](const claims::Claim& claim) { return texts.has_levels(claim); };
-  if (states.size() != 2 || std::ranges::none_of(setup.claims, has_levels)) return std::nullopt;
+  if (states.size() != 2 || !has_field || std::ranges::none_of(setup.claims, has_levels))
+    return std::nullopt;
   return std::pair(states[0], states[1]);
 }
 

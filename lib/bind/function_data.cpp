@@ -89,7 +89,7 @@ bool is_function(const model::Problem& problem, const model::Declaration& datum)
 }
 
 void add_function(Binding& binding, const model::Declaration& datum) {
-  const expr::Definition function = definition(binding, datum);
+  expr::Definition function = definition(binding, datum);
   model::Dimensions& dimensions = binding.design->dimensions;
   const expr::Scope scope = inside(binding, datum, function.parameters);
   const auto expected = resolve(datum.shape, dimensions);
@@ -99,7 +99,9 @@ void add_function(Binding& binding, const model::Declaration& datum) {
                      "the values of " + declared(datum) + " are " +
                          (expected ? to_string(*expected) : datum.shape.text) + "; found " +
                          to_string(shape));
-  binding.names->known.definitions[datum.name] = function;
+  for (const std::string& parameter : function.parameters)
+    function.shapes.push_back(scope.symbols.at(parameter).shape);
+  binding.names->known.definitions[datum.name] = std::move(function);
   binding.names->known.dimensions = dimensions;
 }
 

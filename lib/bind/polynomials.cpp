@@ -73,15 +73,15 @@ void add_polynomial(Binding& binding, const model::UnknownDeclaration& unknown,
     if (monomial.degree() > 0) text += "*" + to_string(monomial, variables);
     binding.design->unknowns.push_back(std::move(coefficient));
   }
-  std::vector<std::string> parameters;
+  expr::Definition definition{{}, expr::parse(expr::Text::generated(text, unknown.place))};
   std::string signature = unknown.name + "(";
   for (const model::Argument& argument : unknown.arguments) {
-    signature += (parameters.empty() ? "" : ", ") + argument.name;
-    parameters.push_back(argument.name);
+    signature += (definition.parameters.empty() ? "" : ", ") + argument.name;
+    definition.parameters.push_back(argument.name);
+    definition.shapes.push_back(*resolve(argument.shape, binding.design->dimensions));
   }
   binding.design->polynomials.push_back({signature + ")", text});
-  scope.definitions[unknown.name] = {parameters,
-                                     expr::parse(expr::Text::generated(text, unknown.place))};
+  scope.definitions[unknown.name] = std::move(definition);
 }
 
 }  // namespace gainsmith::bind

@@ -1,5 +1,7 @@
 #include "design/sos_records.h"
 
+#include <algorithm>
+
 namespace gainsmith::design {
 
 namespace {
@@ -8,13 +10,18 @@ namespace {
 class Texts {
  public:
   Texts(const SosStatements& stated, std::size_t at)
-      : names_(stated.variables[at]), has_rows_(stated.statements[at].matrix.rows() > 1) {}
+      : names_(stated.variables[at]), has_rows_(stated.statements[at].matrix.rows() > 1) {
+    const auto is_taken = [&](const std::string& name) {
+      return name == row_ || name.starts_with(row_ + "(");
+    };
+    while (std::ranges::any_of(names_, is_taken)) row_ += '_';
+  }
 
   /// "row(1)*row(2)*x(1)^2", and of a polynomial "x(1)^2".
   std::string operator()(const std::vector<int>& rows, const sos::Monomial& monomial) const {
     std::string text;
     for (const int row : rows)
-      if (has_rows_) text += (text.empty() ? "row(" : "*row(") + std::to_string(row + 1) + ")";
+      if (has_rows_) text += (text.empty() ? "" : "*") + row_ + "(" + std::to_string(row + 1) + ")";
     if (text.empty()) return to_string(monomial, names_);
     return monomial.degree() == 0 ? text : text + "*" + to_string(monomial, names_);
   }
@@ -22,6 +29,7 @@ class Texts {
  private:
   const std::vector<std::string>& names_;
   const bool has_rows_;
+  std::string row_ = "row";  ///< row_ where a variable has this name
 };
 
 /// sum + c*term.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <stdexcept>
@@ -38,6 +39,17 @@ sos::Program posed(const lmi::Inequalities& inequalities, const SosStatements& s
   } catch (const std::length_error&) {
     throw InputError(inequalities.statements.front().stated->place,
                      "the inequalities have more than 20,000 monomials of their degree");
+  }
+}
+
+/// InputError where the program that is solved has a number that double has not.
+void within_double(const lmi::Inequalities& inequalities, const std::function<void()>& solve) {
+  try {
+    solve();
+  } catch (const std::overflow_error&) {
+    throw InputError(inequalities.statements.front().stated->place,
+                     "the coefficients of the inequalities are too large, or too far apart, for "
+                     "numbers in double: choose other units");
   }
 }
 
@@ -234,8 +246,7 @@ class Solving {
       gains_.solver.add_message(none + ": " + told_by_others(*contradiction) +
                                 place_of(contradiction->key) + " " + contradiction->why);
     else
-      gains_.solver.add_message(none +
-                                ", by moments in fractions; higher degrees may have some");
+      gains_.solver.add_message(none + ", by moments in fractions; higher degrees may have some");
   }
 
   /// Where an inequality is false itself; empty where no such point is found.
@@ -277,7 +288,8 @@ class Solving {
 
 void solve_sums_of_squares(const lmi::Inequalities& inequalities, const sdp::Options& options,
                            model::Gains& gains) {
-  Solving(inequalities, options, sos_statements(inequalities), gains).run();
+  within_double(inequalities,
+                [&] { Solving(inequalities, options, sos_statements(inequalities), gains).run(); });
 }
 
 void check_sums_of_squares(const lmi::Inequalities& inequalities, const std::vector<double>& x,
@@ -288,7 +300,8 @@ void check_sums_of_squares(const lmi::Inequalities& inequalities, const std::vec
   for (const double value : x) u.push_back(verdict::printed_fraction(value));
   for (sos::Statement& statement : stated.statements)
     for (sos::Polynomial& p : statement.matrix.reshaped()) p = with_unknowns(p, u);
-  Solving(inequalities, options, std::move(stated), gains).run();
+  within_double(inequalities,
+                [&] { Solving(inequalities, options, std::move(stated), gains).run(); });
 }
 
 SemidefiniteProgram program_of_sums_of_squares(const lmi::Inequalities& inequalities) {
@@ -303,7 +316,9 @@ SemidefiniteProgram program_of_sums_of_squares(const lmi::Inequalities& inequali
   if (eliminated.contradiction) refuse(*eliminated.contradiction);
   std::optional<Equation> least;
   if (stated.objective) least = eliminated.without_free(objective_of(*stated.objective));
-  SemidefiniteProgram result{semidefinite_program(program, eliminated, least).problem, {}};
+  SemidefiniteProgram result;
+  within_double(inequalities,
+                [&] { result.problem = semidefinite_program(program, eliminated, least).problem; });
   result.remarks = {
       "Written by gainsmith. The dual matrix Y has the Gram matrices of sums of squares "
       "as its blocks; each equation F_i . Y = c_i is that of a monomial.",

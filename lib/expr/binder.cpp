@@ -166,6 +166,11 @@ Bound Binder::bind_definition(const Expression& expression, const Node& node,
     fail(expression, node,
          "'" + name + "' takes " + std::to_string(definition.parameters.size()) +
              " arguments, not " + std::to_string(arguments.size()));
+  for (std::size_t i = 0; i < definition.shapes.size(); ++i)
+    if (!arguments[i].identity && shape(arguments[i].at) != definition.shapes[i])
+      fail(expression, *node.children[i],
+           "the argument " + definition.parameters[i] + " of '" + name + "' is " +
+               to_string(definition.shapes[i]) + "; found " + to_string(shape(arguments[i].at)));
   if (arguments.empty())
     if (const auto found = defined_.find(name); found != defined_.end()) return found->second;
   if (std::find(open_definitions_.begin(), open_definitions_.end(), name) !=

@@ -27,6 +27,7 @@ struct Symbol {
 struct Definition {
   std::vector<std::string> parameters;
   Expression body;
+  std::vector<Shape> shapes{};  ///< of the parameters; none: whatever the body takes
 };
 
 /// What binding asks of the values of known symbols.

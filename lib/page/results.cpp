@@ -318,9 +318,10 @@ std::string sections(const Results& results) {
     failed = section("No result", preformatted(results.error, "class=\"verdict no\""));
   if (results.gains.version.empty()) return failed;  // nor gains
   const Notation notation = results.problem ? notation_of(*results.problem) : Notation{};
-  return failed + verdict_section(results) + gains_section(results, notation) + margins_section(results, notation) +
-         certificate_section(results, notation) + campaign_section(results) + picture_of(results) +
-         problem_section(results, notation) + provenance_section(results);
+  return failed + verdict_section(results) + gains_section(results, notation) +
+         margins_section(results, notation) + certificate_section(results, notation) +
+         campaign_section(results) + picture_of(results) + problem_section(results, notation) +
+         provenance_section(results);
 }
 
 }  // namespace gainsmith::page

@@ -74,10 +74,12 @@ std::string squares(const model::Gains& gains, const Notation& notation) {
   if (rows.empty()) return "";
   return folded(
       "As sums of squares",
-      text_element("p",
-                   "What each inequality says is not negative, is this sum. All Q are "
-                   "positive semidefinite. g and h are the polynomials under where that "
-                   "are not negative and 0. The gain file has all numbers as fractions.") +
+      text_element(
+          "p",
+          "Beside the name of each inequality is a sum. It is the difference of the two sides, the "
+          "larger one first; of matrices M it is row'*M*row. All Q are positive "
+          "semidefinite. g_k is the k-th polynomial under where that is not negative, h_k "
+          "the k-th that is 0. The gain file has all numbers as fractions.") +
           rows);
 }
 

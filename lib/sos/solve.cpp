@@ -1,9 +1,11 @@
 #include "sos/solve.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <stdexcept>
 
 #include "base/stop.h"
 #include "numbers/residue.h"
@@ -140,6 +142,11 @@ Semidefinite semidefinite_program(const Program& program, const Eliminated& elim
   }
   result.has_margin = !objective;
   if (result.has_margin) add_margin(program, problem);
+  const auto is_finite = [](const sdp::Entry& entry) { return std::isfinite(entry.value); };
+  for (const std::vector<sdp::Entry>& f : problem.f)
+    if (!std::ranges::all_of(f, is_finite)) throw std::overflow_error("a coefficient");
+  for (const double c : problem.c)
+    if (!std::isfinite(c)) throw std::overflow_error("a coefficient");
   return result;
 }
 

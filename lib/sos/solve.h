@@ -29,7 +29,7 @@ struct Semidefinite {
 };
 
 /// Equations that follow from others, by their images modulo a prime, are left out. `objective`:
-/// terms over elements whose sum is to be least.
+/// terms over elements whose sum is to be least. std::overflow_error where a number is beyond double.
 Semidefinite semidefinite_program(const Program& program, const Eliminated& eliminated,
                                   const std::optional<Equation>& objective = std::nullopt);
 

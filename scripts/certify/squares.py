@@ -20,20 +20,22 @@ class Polynomials:
         self.nothing = Taylor({}, 0, (n + rows, ORDER))
         self.units = [tuple(int(i == j) for j in range(n + rows)) for i in range(n + rows)]
         x = [self.nothing.like({unit: Fraction(1)}) for unit in self.units]
-        names = {"row": column(x[n:])} if rows else {}
+        names = {}
         for i, t in zip(domain.intervals, x):
             if i.title != i.name: names[i.title] = number(t)
             names[i.name] = number(t) if i.index is None else column(
                 (flat(names[i.name]) if i.index else []) + [t])
         self.count, self.variables, self.rows = n, x[:n], x[n:]
-        self.scope = Scope(domain.scope, names)
+        self.scope, row = Scope(domain.scope, names), "row"
+        while row in names: row += "_"
+        self.records = Scope(None, {**names, row: column(x[n:])} if rows else names)
     def terms(self, f):
         """{exponents: fraction} of a value; Unsupported where it is no polynomial."""
         f = f if isinstance(f, Taylor) else self.nothing.lift(f)
         if f.rest or not all(map(is_exact, f.terms.values())):
             raise Unsupported("what is no polynomial with fractions")
         return {e: c for e, c in f.terms.items() if c}
-    def read(self, text): return matrix(parse(text), self.scope).number()
+    def read(self, text): return matrix(parse(text), self.records).number()
     def is_zero(self, f): return not any(self.terms(c) for c in affine_terms(f).values())
     def constants(self):        # the exponents of what is not 0 at x = 0
         return set(self.units[self.count:]) or {self.nothing.origin()}
