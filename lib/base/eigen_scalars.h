@@ -24,15 +24,24 @@ struct Eigen::NumTraits<gainsmith::DoubleDouble>
   static gainsmith::DoubleDouble dummy_precision() { return {1e-28}; }
 };
 
-template <>
-struct Eigen::NumTraits<gainsmith::Decimal100> : Eigen::GenericNumTraits<gainsmith::Decimal100> {
+namespace gainsmith {
+
+/// Of numbers that own memory: to read one costs so much.
+template <class Number, int cost>
+struct WideTraits : Eigen::GenericNumTraits<Number> {
   enum {
     IsComplex = 0,
     IsInteger = 0,
     IsSigned = 1,
     RequireInitialization = 1,
-    ReadCost = 10,
-    AddCost = 100,
-    MulCost = 200
+    ReadCost = cost,
+    AddCost = 10 * cost,
+    MulCost = 20 * cost
   };
+};
+
+}  // namespace gainsmith
+
+template <>
+struct Eigen::NumTraits<gainsmith::Decimal100> : gainsmith::WideTraits<gainsmith::Decimal100, 10> {
 };

@@ -2,8 +2,6 @@
 // instructions that it finds.
 #pragma once
 
-#include <cmath>
-
 namespace gainsmith {
 
 /// sin(x) to some units in the last place of 1, for |x| <= 1e6. Without branches: T is a double, or a

@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "expr/ast.h"
-#include "expr/program.h"
 
 namespace gainsmith::bind {
 

@@ -1,7 +1,6 @@
 #include "bind/convex_terms.h"
 
 #include <algorithm>
-#include <array>
 #include <memory>
 #include <span>
 
@@ -133,10 +132,8 @@ std::optional<KnownForm> form_at(const Binding& binding, const expr::Expression&
   }
   if (!shape(node).is_scalar()) return std::nullopt;
   const expr::Program program = expr::compile({text.text, form->column}, scope);
-  using expr::Op;
-  constexpr std::array kNotAffine = {Op::sqrt, Op::exp, Op::log,  Op::sin,  Op::cos,
-                                     Op::tanh, Op::abs, Op::sign, Op::floor};
-  if (std::ranges::find(kNotAffine, program.code.back().op) != kNotAffine.end())
+  using enum expr::Op;
+  if (is_one_of(program.code.back().op, {sqrt, exp, log, sin, cos, tanh, abs, sign, floor}))
     return std::nullopt;
   const expr::Shape column = program.shape();
   known.elements = column.size();

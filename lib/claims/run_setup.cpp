@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "expr/rewrite.h"
+#include "hybrid/rounding_terms.h"
 
 namespace gainsmith::claims {
 

@@ -1,7 +1,6 @@
 // Runs of dynamics with events as the samples that claims are judged by.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <vector>
 

@@ -1,7 +1,6 @@
 #include "claims/sample_points.h"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <iterator>
 #include <limits>

@@ -1,6 +1,5 @@
 #include "claims/text_ball.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

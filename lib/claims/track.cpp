@@ -1,17 +1,13 @@
 #include "claims/track.h"
 
+#include "base/words.h"
+
 namespace gainsmith::claims {
 
 std::string to_string(Termination termination) {
-  switch (termination) {
-    case Termination::horizon:
-      return "horizon reached";
-    case Termination::lost:
-      return "a flow that could not be integrated further";
-    case Termination::broken_off:
-      return "an end before the horizon";
-  }
-  return "?";
+  return word_of<Termination::broken_off>(
+      termination, {"horizon reached", "a flow that could not be integrated further",
+                    "an end before the horizon"});
 }
 
 void Track::clear() {

@@ -1,8 +1,8 @@
 // The best values of a few scalars, found outside the semidefinite programs.
 #pragma once
 
-#include "design/bisect.h"
 #include "design/search_request.h"
+#include "sdp/solver.h"
 #include "search/known_values.h"
 
 namespace gainsmith::design {

@@ -1,6 +1,5 @@
 #include "export/identifiers.h"
 
-#include <algorithm>
 #include <string_view>
 
 namespace gainsmith::exports {

@@ -2,24 +2,12 @@
 
 #include <utility>
 
+#include "base/words.h"
+
 namespace gainsmith::expr {
 
 std::string to_string(Relation relation) {
-  switch (relation) {
-    case Relation::less:
-      return "<";
-    case Relation::less_equal:
-      return "<=";
-    case Relation::greater:
-      return ">";
-    case Relation::greater_equal:
-      return ">=";
-    case Relation::equal:
-      return "==";
-    case Relation::not_equal:
-      return "!=";
-  }
-  return "?";
+  return word_of<Relation::not_equal>(relation, {"<", "<=", ">", ">=", "==", "!="});
 }
 
 std::string Expression::quote(const Node& node) const {

@@ -191,96 +191,14 @@ Bound Binder::bind_operation(const Expression& expression, const Node& node,
 }
 
 Bound Binder::bind_composed(const Expression& expression, const Node& node, Composed function) {
+#define CALL(method, ...) method(expression, node __VA_OPT__(, ) __VA_ARGS__)
   switch (function) {
-    case Composed::He:
-      return symmetric(expression, node);
-    case Composed::min:
-      return fold_minmax(expression, node, Op::minimum);
-    case Composed::max:
-      return fold_minmax(expression, node, Op::maximum);
-    case Composed::clip:
-      return clip(expression, node);
-    case Composed::where:
-      return where(expression, node);
-    case Composed::eye:
-    case Composed::zeros:
-    case Composed::ones:
-      return constant_matrix(expression, node, function);
-    case Composed::diag:
-      return diagonal(expression, node);
-    case Composed::blkdiag:
-      return block_diagonal(expression, node);
-    case Composed::horzcat:
-    case Composed::vertcat:
-      return concatenated(expression, node, function == Composed::horzcat);
-    case Composed::kron:
-      return kronecker(expression, node);
-    case Composed::sum:
-      return sum(expression, node);
-    case Composed::orth:
-      return basis(expression, node, Op::range_basis);
-    case Composed::null:
-      return basis(expression, node, Op::kernel_basis);
-    case Composed::complement:
-      return complement(expression, node);
-    case Composed::skew:
-      return skew(expression, node);
-    case Composed::sat:
-      return saturated(expression, node);
-    case Composed::jacobian:
-      return jacobian(expression, node);
-    case Composed::flow_map:
-      return flow_map(expression, node);
-    case Composed::project_convex:
-      return convex_projection(expression, node);
-    case Composed::maximum:
-    case Composed::minimum:
-      return extremum(expression, node, function == Composed::maximum);
-    case Composed::lambda_max:
-    case Composed::lambda_min:
-      return extreme_eigenvalue(expression, node, function == Composed::lambda_max);
-    case Composed::obsv:
-      return observability(expression, node);
-    case Composed::ctrb:
-      return controllability(expression, node);
-    case Composed::units:
-      return units(expression, node);
-    case Composed::output_gain:
-    case Composed::discrete_output_gain:
-      return output_gain(expression, node, function == Composed::discrete_output_gain);
-    case Composed::rank:
-      return rank(expression, node);
-    case Composed::chol:
-      return cholesky(expression, node);
-    case Composed::cond:
-      return condition_number(expression, node);
-    case Composed::c2d:
-      return sampled(expression, node);
-    case Composed::lyap:
-    case Composed::dlyap:
-      return lyapunov(expression, node, function == Composed::dlyap);
-    case Composed::care:
-      return riccati(expression, node, Op::continuous_riccati);
-    case Composed::dare:
-      return riccati(expression, node, Op::discrete_riccati);
-    case Composed::interp1:
-      return interpolated(expression, node);
-    case Composed::tan:
-    case Composed::asin:
-    case Composed::acos:
-    case Composed::atan:
-    case Composed::sinh:
-    case Composed::cosh:
-    case Composed::log10:
-    case Composed::ceil:
-    case Composed::round:
-      return elementary(expression, node, function);
-    case Composed::chebyshev:
-      return chebyshev(expression, node);
-    case Composed::gramian:
-    case Composed::backward_gramian:
-      return gramian(expression, node, function == Composed::backward_gramian);
+#define COMPOSED(name, method, ...) \
+  case Composed::name:              \
+    return CALL method;
+#include "expr/operations.def"
   }
+#undef CALL
   fail(expression, node, "unknown function");
 }
 

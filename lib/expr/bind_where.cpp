@@ -73,17 +73,9 @@ std::optional<double> Binder::written_number(int at) const {
   const Program program = assembly_.extract(at);
   if (!program.inputs.empty() || !program.functions.empty()) return std::nullopt;
   const bool is_whole = std::ranges::all_of(program.code, [](const Instruction& one) {
-    switch (one.op) {
-      case Op::constant:
-        return one.text.find_first_not_of("0123456789") == std::string::npos;
-      case Op::add:
-      case Op::subtract:
-      case Op::negate:
-      case Op::multiply:
-        return true;
-      default:
-        return false;
-    }
+    return one.op == Op::constant
+               ? one.text.find_first_not_of("0123456789") == std::string::npos
+               : is_one_of(one.op, {Op::add, Op::subtract, Op::negate, Op::multiply});
   });
   const double value = scope_.known->number(program);
   return is_whole || std::abs(value) >= kClear ? std::optional(value) : std::nullopt;

@@ -73,19 +73,10 @@ class BranchCollector {
   /// Whether the text of a value says so: asin, acos and atan are made of such angles.
   bool is_not_negative(int at) const {
     const Instruction& one = assembly_[at];
-    switch (one.op) {
-      case Op::sqrt:
-      case Op::abs:
-      case Op::exp:
-      case Op::norm:
-        return true;
-      case Op::constant:  // of the language: without a sign
-        return !one.text.starts_with('-');
-      case Op::fill:
-        return is_not_negative(one.operands[0]);
-      default:
-        return false;
-    }
+    // A constant of the language has no sign.
+    if (one.op == Op::constant) return !one.text.starts_with('-');
+    if (one.op == Op::fill) return is_not_negative(one.operands[0]);
+    return is_one_of(one.op, {Op::sqrt, Op::abs, Op::exp, Op::norm});
   }
 
   int made(Op op, std::vector<int> operands, const Instruction& like) {

@@ -3,20 +3,13 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/words.h"
+
 namespace gainsmith::expr {
 
 std::string to_string(Estimate estimate) {
-  switch (estimate) {
-    case Estimate::none:
-      return "";
-    case Estimate::from_below:
-      return "estimate from below";
-    case Estimate::from_above:
-      return "estimate from above";
-    case Estimate::mixed:
-      return "from estimates";
-  }
-  return "";
+  return word_of<Estimate::mixed>(
+      estimate, {"", "estimate from below", "estimate from above", "from estimates"});
 }
 
 Estimate estimate_of(const Program& program,

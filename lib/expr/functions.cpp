@@ -11,7 +11,7 @@ namespace {
 
 #define FUNCTION(op, operands, rule, name, usage, meaning, example, value) \
   Function{Op::op, name, operands, operands, usage, meaning, example, value},
-#define COMPOSED(name, fewest, most, usage, meaning, example, value) \
+#define COMPOSED(name, method, fewest, most, usage, meaning, example, value) \
   Function{Composed::name, #name, fewest, most, usage, meaning, example, value},
 constexpr std::array kFunctions = {
 #include "expr/operations.def"

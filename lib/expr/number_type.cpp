@@ -32,15 +32,9 @@ void no_error_bound(Op op) {
 }
 
 std::string said_of(const Instruction& instruction, const std::string& found) {
-  switch (instruction.op) {
-    case Op::divide:
-    case Op::elementwise_quotient:
-    case Op::log:
-    case Op::sqrt:
-      return instruction.text.empty() ? found : instruction.text;
-    default:
-      return found;
-  }
+  using enum Op;
+  const bool says = is_one_of(instruction.op, {divide, elementwise_quotient, log, sqrt});
+  return says && !instruction.text.empty() ? instruction.text : found;
 }
 
 void beyond_range(const Instruction& constant) {

@@ -2,7 +2,9 @@
 // the language.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
@@ -19,6 +21,11 @@ enum class Op {
 #define FUNCTION(op, ...) op,
 #include "expr/operations.def"
 };
+
+/// Whether it is one of these.
+constexpr bool is_one_of(Op op, std::initializer_list<Op> list) {
+  return std::find(list.begin(), list.end(), op) != list.end();
+}
 
 /// What the operands must be, and the shape of the result. A, B are operands of any shape, s
 /// a 1 x 1 one, M a square one; r x c is the shape of A.

@@ -1,7 +1,6 @@
 #include "flights/flight_runner.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "base/stop.h"

@@ -24,115 +24,6 @@ using numbers::Matrix;
 
 namespace {
 
-/// Makes the sizes of the terms of instructions: of sums, of products with them, and of parts of
-/// such vectors. A form of a sum, (x - z)'*P*(x - z), is a term: its rounding is small where it is.
-class TermSizes {
- public:
-  /// `of_sign`: of what is compared with 0, where the rounding inside of a function counts.
-  explicit TermSizes(Program& program, bool of_sign = false)
-      : program_(program), of_sign_(of_sign) {}
-
-  int of(int at) {
-    const Instruction here = program_.code[static_cast<std::size_t>(at)];
-    const std::vector<int>& operands = here.operands;
-    switch (here.op) {
-      case Op::negate:
-        return of(operands[0]);
-      case Op::add:
-      case Op::subtract:
-        return made(Op::add, {of(operands[0]), of(operands[1])}, here);
-      case Op::scale:
-      case Op::elementwise_product:
-        return made(here.op, {of(operands[0]), of(operands[1])}, here);
-      case Op::divide:
-        return made(Op::divide, {of(operands[0]), made(Op::abs, {operands[1]}, here)}, here);
-      case Op::multiply:
-        if (is_product_of_numbers(here) || has_sum(operands[0]) != has_sum(operands[1]))
-          return made(Op::multiply, {of(operands[0]), of(operands[1])}, here);
-        break;
-      case Op::index:
-      case Op::transpose:
-      case Op::blocks:
-        if (has_sum(at)) return rearranged(here);
-        break;
-      case Op::abs:
-      case Op::sin:
-      case Op::tanh:  // they round as their arguments do
-        if (of_sign_) return of(operands[0]);
-        break;
-      case Op::atan2:  // by (|dy| + |dx|)/(|y| + |x|), but for a factor
-        if (!of_sign_ || !here.shape.is_scalar()) break;
-        return made(
-            Op::divide,
-            {made(Op::add, {of(operands[0]), of(operands[1])}, here),
-             made(Op::add, {made(Op::abs, {operands[0]}, here), made(Op::abs, {operands[1]}, here)},
-                  here)},
-            here);
-      default:
-        break;
-    }
-    return is_never_negative(at) ? at : made(Op::abs, {at}, here);
-  }
-
- private:
-  /// An abs of it would be one more branch.
-  bool is_never_negative(int at) const {
-    const Instruction& here = program_.code[static_cast<std::size_t>(at)];
-    switch (here.op) {
-      case Op::abs:
-      case Op::exp:
-      case Op::norm:
-      case Op::singular_values:
-      case Op::sqrt:
-        return true;
-      case Op::index:
-        return is_never_negative(here.operands[0]);
-      default:
-        return false;
-    }
-  }
-  bool is_product_of_numbers(const Instruction& product) const {
-    return std::all_of(product.operands.begin(), product.operands.end(), [&](int at) {
-      return program_.code[static_cast<std::size_t>(at)].shape.is_scalar();
-    });
-  }
-  /// Whether its elements are sums whose terms may cancel.
-  bool has_sum(int at) const {
-    const Instruction& here = program_.code[static_cast<std::size_t>(at)];
-    switch (here.op) {
-      case Op::add:
-      case Op::subtract:
-        return true;
-      case Op::negate:
-      case Op::scale:
-      case Op::divide:
-      case Op::multiply:
-      case Op::index:
-      case Op::transpose:
-      case Op::blocks:
-        return std::any_of(here.operands.begin(), here.operands.end(),
-                           [&](int operand) { return has_sum(operand); });
-      default:
-        return false;
-    }
-  }
-  /// The sizes of the elements, at their new places.
-  int rearranged(Instruction here) {
-    for (int& operand : here.operands) operand = of(operand);
-    program_.code.push_back(std::move(here));
-    return static_cast<int>(program_.code.size()) - 1;
-  }
-  int made(Op op, std::vector<int> operands, const Instruction& like) {
-    const auto shape =
-        op == Op::abs ? program_.code[static_cast<std::size_t>(operands[0])].shape : like.shape;
-    program_.code.push_back({op, std::move(operands), shape, {}, {}, like.origin, like.offset});
-    return static_cast<int>(program_.code.size()) - 1;
-  }
-
-  Program& program_;
-  bool of_sign_;
-};
-
 /// An element of a function; not a number where it has no value.
 double element(PointFunction& function, const VectorXd& x, Index e) {
   try {
@@ -228,32 +119,11 @@ void merge(std::vector<ode::Break>& breaks, double from, double to) {
 }  // namespace
 
 bool may_wave(const Program& program) {
-  return std::any_of(program.code.begin(), program.code.end(), [](const Instruction& one) {
-    switch (one.op) {
-      case Op::sin:
-      case Op::cos:
-      case Op::tanh:
-      case Op::exp:
-      case Op::matrix_exponential:
-      case Op::mod:
-      case Op::floor:
-      case Op::atan2:
-      case Op::flow_map:
-        return true;
-      default:
-        return false;
-    }
+  using enum Op;
+  return std::ranges::any_of(program.code, [](const Instruction& one) {
+    return is_one_of(one.op,
+                     {sin, cos, tanh, exp, matrix_exponential, mod, floor, atan2, flow_map});
   });
-}
-
-Program absolute_terms(Program program) {
-  program.result = TermSizes(program).of(program.result);
-  return program;
-}
-
-Program terms_of_sign(Program program) {
-  program.result = TermSizes(program, true).of(program.result);
-  return program;
 }
 
 Breaks::Breaks(const Program& program, const StateLayout& layout, const numbers::Values& constants,

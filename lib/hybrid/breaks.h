@@ -56,8 +56,4 @@ class Breaks {
 /// like of them. Then some of its values say nothing of those between them.
 bool may_wave(const expr::Program& program);
 
-/// The sum of the absolute values of the terms of a program, those of products with sums multiplied
-/// out: its rounding is that of its terms.
-expr::Program absolute_terms(expr::Program program);
-
 }  // namespace gainsmith::hybrid

@@ -1,37 +1,14 @@
 #include "hybrid/trajectory.h"
 
+#include "base/words.h"
 #include "ode/chebyshev.h"
 
 namespace gainsmith::hybrid {
 
 std::string to_string(Ending ending) {
-  switch (ending) {
-    case Ending::horizon:
-      return "horizon";
-    case Ending::escaped:
-      return "escaped";
-    case Ending::undefined:
-      return "undefined";
-    case Ending::left:
-      return "left";
-    case Ending::stuck:
-      return "stuck";
-    case Ending::zeno:
-      return "zeno";
-    case Ending::chattering:
-      return "chattering";
-    case Ending::sliding:
-      return "sliding";
-    case Ending::full:
-      return "full";
-    case Ending::passes:
-      return "passes";
-    case Ending::interrupted:
-      return "interrupted";
-    case Ending::lost:
-      break;
-  }
-  return "lost";
+  return word_of<Ending::lost>(
+      ending, {"horizon", "escaped", "undefined", "left", "stuck", "zeno", "chattering", "sliding",
+               "full", "passes", "interrupted", "lost"});
 }
 
 Eigen::VectorXd DenseStep::operator()(double t) const {

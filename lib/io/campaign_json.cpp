@@ -1,6 +1,5 @@
 #include "io/campaign_json.h"
 
-#include <array>
 
 #include "base/hash.h"
 #include "io/figures_json.h"

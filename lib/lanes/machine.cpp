@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <map>
 #include <new>
@@ -18,7 +17,7 @@ namespace {
 
 std::optional<LaneOp> lane_op(ScalarOp op) {
   switch (op) {
-#define LANE_OP(op, operands) \
+#define LANE_OP(op, operands, ...) \
   case ScalarOp::op:          \
     return LaneOp::op;
 #include "numbers/scalar_ops.def"
@@ -29,7 +28,7 @@ std::optional<LaneOp> lane_op(ScalarOp op) {
 
 int operands_of(ScalarOp op) {
   switch (op) {
-#define SCALAR_OP(op, operands) \
+#define SCALAR_OP(op, operands, ...) \
   case ScalarOp::op:            \
     return operands;
 #include "numbers/scalar_ops.def"

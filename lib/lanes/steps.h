@@ -15,7 +15,7 @@ namespace gainsmith::lanes {
 constexpr std::size_t kLanes = 32;
 
 enum class LaneOp : std::uint8_t {
-#define LANE_OP(op, operands) op,
+#define LANE_OP(op, operands, ...) op,
 #include "numbers/scalar_ops.def"
   add_constant,       ///< constant a + b
   multiply_constant,  ///< constant a * b

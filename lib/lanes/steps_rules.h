@@ -204,6 +204,9 @@ inline void each(const LaneStep& step, double* registers, Last& last, const Oper
   store(step, registers, last);
 }
 
+inline V sine_of(V x) { return sine<false>(x); }
+inline V cosine_of(V x) { return sine<true>(x); }
+
 /// Even and odd powers apart, so that twice as many sums are under way: `chunk` vectors at a time.
 inline void polynomial(const LaneStep& step, const double* constants, double* registers,
                        Last& last) {
@@ -320,23 +323,18 @@ const LaneStep* run(const LaneStep* step, const LaneStep* end, const double* con
            [&](V, V b, V c, V before) { return operation(k, b, c, before); });
     };
     switch (step->op) {
-      case LaneOp::add:
-        over([](V a, V b, V, V) { return a + b; });
-        break;
+#define LANE_OP(op, operands, ...)                                                 \
+  case LaneOp::op:                                                                 \
+    over([]([[maybe_unused]] V a, [[maybe_unused]] V b, [[maybe_unused]] V c, V) { \
+      return __VA_ARGS__;                                                          \
+    });                                                                            \
+    break;
+#include "numbers/scalar_ops.def"
       case LaneOp::add_constant:
         over_constant([](V k, V b, V, V) { return k + b; });
         break;
-      case LaneOp::subtract:
-        over([](V a, V b, V, V) { return a - b; });
-        break;
-      case LaneOp::multiply:
-        over([](V a, V b, V, V) { return a * b; });
-        break;
       case LaneOp::multiply_constant:
         over_constant([](V k, V b, V, V) { return k * b; });
-        break;
-      case LaneOp::multiply_add:
-        over([](V a, V b, V c, V) { return multiply_add(a, b, c); });
         break;
       case LaneOp::multiply_constant_add:
         over_constant([](V k, V b, V c, V) { return multiply_add(k, b, c); });
@@ -358,50 +356,6 @@ const LaneStep* run(const LaneStep* step, const LaneStep* end, const double* con
         break;
       case LaneOp::polynomial:
         polynomial(*step, constants, registers, last);
-        break;
-      case LaneOp::divide:
-        over([](V a, V b, V, V) { return a / b; });
-        break;
-      case LaneOp::negate:
-        over([](V a, V, V, V) { return -a; });
-        break;
-      case LaneOp::minimum:
-        over([](V a, V b, V, V) { return b < a ? b : a; });
-        break;
-      case LaneOp::maximum:
-        over([](V a, V b, V, V) { return a < b ? b : a; });
-        break;
-      case LaneOp::where_positive:
-        over([](V a, V b, V c, V) { return a > all(0.0) ? b : c; });
-        break;
-      case LaneOp::where_nonnegative:
-        over([](V a, V b, V c, V) { return a >= all(0.0) ? b : c; });
-        break;
-      case LaneOp::abs:
-        over([](V a, V, V, V) { return abs_of(a); });
-        break;
-      case LaneOp::sign:
-        over([](V a, V, V, V) {
-          return a > all(0.0) ? all(1.0) : a < all(0.0) ? all(-1.0) : all(0.0);
-        });
-        break;
-      case LaneOp::floor:
-        over([](V a, V, V, V) { return floor_of(a); });
-        break;
-      case LaneOp::sqrt:
-        over([](V a, V, V, V) { return sqrt_of(a); });
-        break;
-      case LaneOp::exp:
-        over([](V a, V, V, V) { return exp_of(a); });
-        break;
-      case LaneOp::sin:
-        over([](V a, V, V, V) { return sine<false>(a); });
-        break;
-      case LaneOp::cos:
-        over([](V a, V, V, V) { return sine<true>(a); });
-        break;
-      case LaneOp::tanh:
-        over([](V a, V, V, V) { return tanh_of(a); });
         break;
       case LaneOp::one_by_one:
         return step;

@@ -1,7 +1,6 @@
 #include "linear/coordinates.h"
 
 #include <algorithm>
-#include <functional>
 #include <map>
 #include <set>
 #include <stdexcept>

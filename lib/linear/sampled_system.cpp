@@ -48,24 +48,9 @@ bool is_sampled(const hybrid::System& system) {
 
 bool is_without_wide_value(expr::Op op) {
   using enum expr::Op;
-  switch (op) {
-    case project_polytope:
-    case project_ellipsoid:
-    case project_affine:
-    case project_convex:
-    case flow_map:
-    case extremum:
-    case eigenvalues:
-    case continuous_riccati:
-    case discrete_riccati:
-    case pseudo_inverse:
-    case range_basis:
-    case kernel_basis:
-    case determinant:
-      return true;
-    default:
-      return false;
-  }
+  return is_one_of(op, {project_polytope, project_ellipsoid, project_affine, project_convex,
+                        flow_map, extremum, eigenvalues, continuous_riccati, discrete_riccati,
+                        pseudo_inverse, range_basis, kernel_basis, determinant});
 }
 
 bool is_affine_flow(const std::vector<MapEntry>& map, const hybrid::StateLayout& layout) {

@@ -347,22 +347,11 @@ struct AffineRules {
 /// Whether the operation takes products with matrix unknowns as they are.
 bool keeps_products(const expr::Instruction& instruction,
                     std::span<const AffineForm* const> operands) {
-  using Op = expr::Op;
-  switch (instruction.op) {
-    case Op::add:
-    case Op::subtract:
-    case Op::negate:
-    case Op::multiply:
-    case Op::divide:
-    case Op::transpose:
-    case Op::blocks:
-    case Op::index:
-      return true;
-    case Op::scale:  // a scalar that is a product is at many places
-      return operands[0]->products.empty();
-    default:
-      return false;
-  }
+  using enum expr::Op;
+  // A scalar that is a product is at many places.
+  if (instruction.op == scale) return operands[0]->products.empty();
+  return is_one_of(instruction.op,
+                   {add, subtract, negate, multiply, divide, transpose, blocks, index});
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "base/hash.h"
 #include "base/number.h"
+#include "base/words.h"
 #include "model/function.h"
 #include "numbers/real.h"
 
@@ -19,15 +20,7 @@ const numbers::Matrix* Gains::find(const std::string& name) const {
 }
 
 std::string to_string(GainFunction::Kind kind) {
-  switch (kind) {
-    case GainFunction::Kind::polynomial:
-      return "polynomial";
-    case GainFunction::Kind::vertices:
-      return "vertices";
-    case GainFunction::Kind::formula:
-      return "formula";
-  }
-  return "?";
+  return word_of<GainFunction::Kind::formula>(kind, {"polynomial", "vertices", "formula"});
 }
 
 std::string subject_of(const CertificateRecord& certificate) {

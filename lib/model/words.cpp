@@ -1,91 +1,32 @@
 #include "model/words.h"
 
+#include "base/words.h"
+
 namespace gainsmith::model {
 
 std::string to_string(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::yes:
-      return "yes";
-    case Verdict::no:
-      return "no";
-    case Verdict::undecided:
-      return "undecided";
-  }
-  return "?";
+  return word_of<Verdict::undecided>(verdict, {"yes", "no", "undecided"});
 }
 
 std::string to_string(CampaignVerdict verdict) {
-  switch (verdict) {
-    case CampaignVerdict::held:
-      return "held";
-    case CampaignVerdict::violated:
-      return "violated";
-    case CampaignVerdict::undecided:
-      return "undecided";
-  }
-  return "?";
+  return word_of<CampaignVerdict::undecided>(verdict, {"held", "violated", "undecided"});
 }
 
 std::string to_string(Way way) {
-  switch (way) {
-    case Way::automatic:
-      return "auto";
-    case Way::hull:
-      return "hull";
-    case Way::exchange:
-      return "exchange";
-    case Way::vertex_gains:
-      return "vertex_gains";
-  }
-  return "?";
+  return word_of<Way::vertex_gains>(way, {"auto", "hull", "exchange", "vertex_gains"});
 }
 
 std::string to_string(LawKind kind) {
-  switch (kind) {
-    case LawKind::constant:
-      return "constant";
-    case LawKind::uniform:
-      return "uniform";
-    case LawKind::extremes:
-      return "extremes";
-    case LawKind::sinusoid:
-      return "sinusoid";
-    case LawKind::list:
-      return "list";
-    case LawKind::golden:
-      return "golden";
-  }
-  return "?";
+  return word_of<LawKind::golden>(
+      kind, {"constant", "uniform", "extremes", "sinusoid", "list", "golden"});
 }
 
 std::string to_string(ClaimKind kind) {
-  switch (kind) {
-    case ClaimKind::nonincreasing:
-      return "nonincreasing";
-    case ClaimKind::cost:
-      return "cost";
-    case ClaimKind::shrinks:
-      return "shrinks";
-    case ClaimKind::below:
-      return "below";
-    case ClaimKind::above:
-      return "above";
-  }
-  return "?";
+  return word_of<ClaimKind::above>(kind, {"nonincreasing", "cost", "shrinks", "below", "above"});
 }
 
 std::string to_string(Structure structure) {
-  switch (structure) {
-    case Structure::full:
-      return "full";
-    case Structure::symmetric:
-      return "symmetric";
-    case Structure::diagonal:
-      return "diagonal";
-    case Structure::scalar:
-      return "scalar";
-  }
-  return "?";
+  return word_of<Structure::scalar>(structure, {"full", "symmetric", "diagonal", "scalar"});
 }
 
 std::optional<double> SynthesisOptions::share_of_bound(const std::string& gain) const {

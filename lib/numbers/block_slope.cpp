@@ -25,17 +25,9 @@ void singular_slopes(const Matrix& M, const Matrix& dM, Matrix& slope) {
 }  // namespace
 
 bool has_block_slope(Op op) {
-  switch (op) {
-    case Op::singular_values:
-    case Op::determinant:
-    case Op::pseudo_inverse:
-    case Op::multiply:
-    case Op::power:
-    case Op::project_convex:
-      return true;
-    default:
-      return false;
-  }
+  using enum Op;
+  return is_one_of(op,
+                   {singular_values, determinant, pseudo_inverse, multiply, power, project_convex});
 }
 
 bool block_slope(const expr::Instruction& instruction, expr::Operands<Matrix> operands,

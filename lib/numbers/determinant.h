@@ -6,7 +6,6 @@
 
 #include "base/stop.h"
 #include "numbers/householder.h"
-#include "numbers/matrix.h"
 
 namespace gainsmith::numbers {
 

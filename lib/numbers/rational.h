@@ -5,8 +5,6 @@
 // throws as in every number type.
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <map>
 #include <string>
 
@@ -21,28 +19,27 @@ using numerics::RationalMatrix;
 
 /// Operations whose results are no fractions, but for a few operands.
 constexpr bool is_irrational(expr::Op op) {
-  using expr::Op;
-  constexpr std::array kOperations = {Op::real_power,
-                                      Op::log,
-                                      Op::sqrt,
-                                      Op::atan2,
-                                      Op::norm,
-                                      Op::pseudo_inverse,
-                                      Op::singular_values,
-                                      Op::range_basis,
-                                      Op::kernel_basis,
-                                      Op::complement_basis,
-                                      Op::jacobian,
-                                      Op::project_polytope,
-                                      Op::project_ellipsoid,
-                                      Op::project_affine,
-                                      Op::project_convex,
-                                      Op::flow_map,
-                                      Op::extremum,
-                                      Op::eigenvalues,
-                                      Op::continuous_riccati,
-                                      Op::discrete_riccati};
-  return std::find(kOperations.begin(), kOperations.end(), op) != kOperations.end();
+  using enum expr::Op;
+  return is_one_of(op, {real_power,
+                        log,
+                        sqrt,
+                        atan2,
+                        norm,
+                        pseudo_inverse,
+                        singular_values,
+                        range_basis,
+                        kernel_basis,
+                        complement_basis,
+                        jacobian,
+                        project_polytope,
+                        project_ellipsoid,
+                        project_affine,
+                        project_convex,
+                        flow_map,
+                        extremum,
+                        eigenvalues,
+                        continuous_riccati,
+                        discrete_riccati});
 }
 
 struct RationalNumbers {

@@ -11,52 +11,26 @@
 
 namespace gainsmith::numbers {
 
+namespace {
+
+double all(double x) { return x; }
+double abs_of(double x) { return std::abs(x); }
+double floor_of(double x) { return std::floor(x); }
+double exp_of(double x) { return std::exp(x); }
+double sqrt_of(double x) { return std::sqrt(x); }
+double sine_of(double x) { return std::sin(x); }
+double cosine_of(double x) { return std::cos(x); }
+double tanh_of(double x) { return std::tanh(x); }
+double multiply_add(double a, double b, double c) { return a * b + c; }
+
+}  // namespace
+
 double apply(ScalarOp op, double a, double b, double c) {
   switch (op) {
-    case ScalarOp::add:
-      return a + b;
-    case ScalarOp::subtract:
-      return a - b;
-    case ScalarOp::multiply:
-      return a * b;
-    case ScalarOp::divide:
-      return a / b;
-    case ScalarOp::negate:
-      return -a;
-    case ScalarOp::minimum:
-      return b < a ? b : a;
-    case ScalarOp::maximum:
-      return a < b ? b : a;
-    case ScalarOp::where_positive:
-      return a > 0 ? b : c;
-    case ScalarOp::where_nonnegative:
-      return a >= 0 ? b : c;
-    case ScalarOp::power:
-      return std::pow(a, b);
-    case ScalarOp::mod:
-      return b == 0 ? std::numeric_limits<double>::quiet_NaN() : mod(a, b);
-    case ScalarOp::angle:
-      return angle(a, b);
-    case ScalarOp::abs:
-      return std::abs(a);
-    case ScalarOp::sign:
-      return a > 0 ? 1 : a < 0 ? -1 : 0;
-    case ScalarOp::floor:
-      return std::floor(a);
-    case ScalarOp::exp:
-      return std::exp(a);
-    case ScalarOp::log:
-      return std::log(a);
-    case ScalarOp::sqrt:
-      return std::sqrt(a);
-    case ScalarOp::sin:
-      return std::sin(a);
-    case ScalarOp::cos:
-      return std::cos(a);
-    case ScalarOp::tanh:
-      return std::tanh(a);
-    case ScalarOp::multiply_add:
-      return a * b + c;
+#define SCALAR_OP(op, operands, ...) \
+  case ScalarOp::op:                 \
+    return __VA_ARGS__;
+#include "numbers/scalar_ops.def"
     default:
       break;
   }

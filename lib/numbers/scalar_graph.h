@@ -12,7 +12,6 @@
 #include <array>
 #include <cstdint>
 #include <map>
-#include <memory>
 #include <unordered_map>
 #include <vector>
 
@@ -24,7 +23,7 @@ enum class ScalarOp : std::uint8_t {
   input,     ///< number `a` of the stacked inputs
   constant,  ///< number `a` of the constants
   element,   ///< of the result of block `a`
-#define SCALAR_OP(op, operands) op,
+#define SCALAR_OP(op, operands, ...) op,
 #include "numbers/scalar_ops.def"
   block  ///< number `a` of the blocks; of tapes alone
 };

@@ -1,21 +1,14 @@
 // Dense matrices of fractions.
 #pragma once
 
+#include <Eigen/Core>
+
+#include "base/eigen_scalars.h"
 #include "base/rational.h"
 #include "numerics/matrix.h"
 
 template <>
-struct Eigen::NumTraits<gainsmith::Rational> : Eigen::GenericNumTraits<gainsmith::Rational> {
-  enum {
-    IsComplex = 0,
-    IsInteger = 0,
-    IsSigned = 1,
-    RequireInitialization = 1,
-    ReadCost = 10,
-    AddCost = 100,
-    MulCost = 200
-  };
-};
+struct Eigen::NumTraits<gainsmith::Rational> : gainsmith::WideTraits<gainsmith::Rational, 10> {};
 
 namespace gainsmith::numerics {
 

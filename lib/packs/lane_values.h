@@ -1,7 +1,6 @@
 // Values of all lanes: row k is the kLanes numbers of value k, and those that the texts have there.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>

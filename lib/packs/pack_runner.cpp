@@ -2,28 +2,17 @@
 
 #include <algorithm>
 
+#include "base/words.h"
 #include "packs/lane_set.h"
 
 namespace gainsmith::packs {
 
 std::string to_string(Why why) {
-  switch (why) {
-    case Why::claim:
-      return "a claim is not certain at their accuracy";
-    case Why::sign:
-      return "the sign of a condition is not certain";
-    case Why::order:
-      return "it is not certain which event comes first";
-    case Why::no_value:
-      return "a text has no value";
-    case Why::range:
-      return "a value leaves its range";
-    case Why::steps:
-      return "steps are short, or many";
-    case Why::jumps:
-      return "jumps follow each other at once";
-  }
-  return "?";
+  return word_of<Why::jumps>(
+      why,
+      {"a claim is not certain at their accuracy", "the sign of a condition is not certain",
+       "it is not certain which event comes first", "a text has no value",
+       "a value leaves its range", "steps are short, or many", "jumps follow each other at once"});
 }
 
 bool PackVerdict::violated() const {

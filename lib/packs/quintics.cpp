@@ -1,7 +1,5 @@
 #include "packs/quintics.h"
 
-#include <algorithm>
-#include <cmath>
 #include <vector>
 
 namespace gainsmith::packs {

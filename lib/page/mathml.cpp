@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/words.h"
 #include "expr/functions.h"
 #include "page/element.h"
 #include "page/symbol.h"
@@ -60,21 +61,9 @@ bool is_flat(const Node& node) {
 }
 
 std::string relation_text(Relation relation, bool of_matrices) {
-  switch (relation) {
-    case Relation::less:
-      return of_matrices ? "≺" : "<";
-    case Relation::less_equal:
-      return of_matrices ? "⪯" : "≤";
-    case Relation::greater:
-      return of_matrices ? "≻" : ">";
-    case Relation::greater_equal:
-      return of_matrices ? "⪰" : "≥";
-    case Relation::equal:
-      return "=";
-    case Relation::not_equal:
-      return "≠";
-  }
-  return "?";
+  constexpr auto kLast = Relation::not_equal;
+  if (of_matrices) return word_of<kLast>(relation, {"≺", "⪯", "≻", "⪰", "=", "≠"});
+  return word_of<kLast>(relation, {"<", "≤", ">", "≥", "=", "≠"});
 }
 
 class Printer {

@@ -1,7 +1,6 @@
 #include "polynomial/polynomial_numbers.h"
 
 #include <algorithm>
-#include <array>
 
 #include "base/stop.h"
 #include "expr/evaluate.h"
@@ -46,17 +45,11 @@ bool is_number(const PolynomialMatrix& x) {
 
 /// Operations that a polynomial has no value of.
 constexpr bool leaves_polynomials(Op op) {
-  constexpr std::array kOperations = {Op::abs,     Op::minimum,
-                                      Op::maximum, Op::where,
-                                      Op::sign,    Op::determinant,
-                                      Op::inverse, Op::floor,
-                                      Op::mod,     Op::sin,
-                                      Op::tanh,    Op::exp,
-                                      Op::cos,     Op::matrix_exponential,
-                                      Op::constant};
-  return op != Op::jacobian && op != Op::real_power &&
+  using enum Op;
+  return !is_one_of(op, {jacobian, real_power}) &&
          (numbers::is_irrational(op) ||
-          std::find(kOperations.begin(), kOperations.end(), op) != kOperations.end());
+          is_one_of(op, {abs, minimum, maximum, where, sign, determinant, inverse, floor, mod, sin,
+                         tanh, exp, cos, matrix_exponential, constant}));
 }
 
 struct Rules : numbers::RingRules<Polynomial> {

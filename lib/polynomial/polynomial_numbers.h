@@ -17,17 +17,7 @@
 
 template <>
 struct Eigen::NumTraits<gainsmith::polynomial::Polynomial>
-    : Eigen::GenericNumTraits<gainsmith::polynomial::Polynomial> {
-  enum {
-    IsComplex = 0,
-    IsInteger = 0,
-    IsSigned = 1,
-    RequireInitialization = 1,
-    ReadCost = 100,
-    AddCost = 1000,
-    MulCost = 10000
-  };
-};
+    : gainsmith::WideTraits<gainsmith::polynomial::Polynomial, 100> {};
 
 namespace gainsmith::polynomial {
 

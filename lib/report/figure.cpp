@@ -10,7 +10,6 @@
 #include "report/legend.h"
 #include "report/marks.h"
 #include "report/panel.h"
-#include "report/text.h"
 
 namespace gainsmith::report {
 

@@ -3,40 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/words.h"
+
 namespace gainsmith::sdp {
 
 std::string to_string(Status status) {
-  switch (status) {
-    case Status::optimal:
-      return "optimal";
-    case Status::primal_infeasible:
-      return "primal-infeasible";
-    case Status::dual_infeasible:
-      return "dual-infeasible";
-    case Status::undecided:
-      return "undecided";
-  }
-  return "undecided";
+  return word_of<Status::undecided>(
+      status, {"optimal", "primal-infeasible", "dual-infeasible", "undecided"});
 }
 
 std::string to_string(Cause cause) {
-  switch (cause) {
-    case Cause::converged:
-      return "converged";
-    case Cause::certificate:
-      return "certificate";
-    case Cause::enough:
-      return "enough";
-    case Cause::iteration_limit:
-      return "iteration-limit";
-    case Cause::interrupted:
-      return "interrupted";
-    case Cause::stalled:
-      return "stalled";
-    case Cause::numerical_breakdown:
-      return "numerical-breakdown";
-  }
-  return "numerical-breakdown";
+  return word_of<Cause::numerical_breakdown>(
+      cause, {"converged", "certificate", "enough", "iteration-limit", "interrupted", "stalled",
+              "numerical-breakdown"});
 }
 
 double worst(const Solution& solution) {

@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "base/number.h"
+#include "base/words.h"
 
 namespace gainsmith::sdp {
 namespace {
@@ -52,18 +53,8 @@ std::string braced(const Problem& problem, const BlockMatrix& matrix) {
 }
 
 /// The word that SDPA has for a status.
-const char* phase(Status status) {
-  switch (status) {
-    case Status::optimal:
-      return "pdOPT";
-    case Status::primal_infeasible:
-      return "pINF_dFEAS";
-    case Status::dual_infeasible:
-      return "pFEAS_dINF";
-    case Status::undecided:
-      return "noINFO";
-  }
-  return "noINFO";
+std::string phase(Status status) {
+  return word_of<Status::undecided>(status, {"pdOPT", "pINF_dFEAS", "pFEAS_dINF", "noINFO"});
 }
 
 }  // namespace
@@ -79,7 +70,7 @@ std::string csdp_solution(const Problem& problem, const Solution& solution) {
 }
 
 std::string sdpa_solution(const Problem& problem, const Solution& solution) {
-  return std::string("phase.value  = ") + phase(solution.status) +
+  return "phase.value  = " + phase(solution.status) +
          "\nobjValPrimal = " + decimal17(solution.primal_objective) +
          "\nobjValDual   = " + decimal17(solution.dual_objective) + "\nxVec = \n" +
          braced(solution.x.data(), solution.x.size(), 1) + "\nxMat = \n" +

@@ -8,7 +8,6 @@
 
 #include "hybrid/event_functions.h"
 #include "simulate/last_places.h"
-#include "simulate/run_end.h"
 #include "simulate/state_31.h"
 
 namespace gainsmith::simulate {

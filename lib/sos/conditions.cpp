@@ -1,6 +1,5 @@
 // What the equations of a program say of the unknowns u alone.
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 #include "base/stop.h"

@@ -4,20 +4,13 @@
 #include <boost/math/special_functions/gamma.hpp>
 #include <limits>
 
+#include "base/words.h"
+
 namespace gainsmith::statistics {
 
 std::string to_string(Fit fit) {
-  switch (fit) {
-    case Fit::consistent:
-      return "consistent";
-    case Fit::too_optimistic:
-      return "too optimistic";
-    case Fit::too_pessimistic:
-      return "too pessimistic";
-    case Fit::undecided:
-      return "undecided";
-  }
-  return "?";
+  return word_of<Fit::undecided>(fit,
+                                 {"consistent", "too optimistic", "too pessimistic", "undecided"});
 }
 
 void SquaredErrors::add(const claims::Squares& run) {

@@ -1,7 +1,6 @@
 #include "verdict/implied_equations.h"
 
 #include <Eigen/SparseCore>
-#include <algorithm>
 #include <cmath>
 #include <optional>
 

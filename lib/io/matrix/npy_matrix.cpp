@@ -1,6 +1,5 @@
 #include "io/matrix/npy_matrix.h"
 
-#include <algorithm>
 #include <cctype>
 #include <string_view>
 #include <vector>
