@@ -80,16 +80,18 @@ std::optional<Rational> parse_rational(std::string_view text) {
 Integer nearest_integer(const Rational& x) { return floor_of(Rational(x + Rational(1, 2))); }
 
 double nearest_double(const Rational& x) {
+  const auto* fraction = x.backend().data();
+  const auto is_exact = [](const auto* whole) { return mpz_sizeinbase(whole, 2) <= 53; };
+  // A quotient of two doubles is rounded once.
+  if (is_exact(mpq_numref(fraction)) && is_exact(mpq_denref(fraction)))
+    return mpz_get_d(mpq_numref(fraction)) / mpz_get_d(mpq_denref(fraction));
   // What is below every double becomes 0.
   const double towards_zero = x.convert_to<double>();
-  double best = towards_zero;
-  for (const double end : {-kInfinity, kInfinity}) {
-    const double other = std::nextafter(towards_zero, end);
-    if (std::isfinite(other) && std::isfinite(best) &&
-        abs(Rational(x - Rational(other))) < abs(Rational(x - Rational(best))))
-      best = other;
-  }
-  return best;
+  const double other = std::nextafter(towards_zero, x < 0 ? -kInfinity : kInfinity);
+  if (!std::isfinite(towards_zero) || !std::isfinite(other)) return towards_zero;
+  return abs(Rational(2 * x)) > abs(Rational(Rational(towards_zero) + Rational(other)))
+             ? other
+             : towards_zero;
 }
 
 DoubleDouble nearest_double_double(const Rational& x) {
