@@ -23,20 +23,25 @@ struct Dependence {
   Wide N;
 };
 
+double largest_of(const Wide& Q) {
+  double largest = 0;
+  for (const DoubleDouble& x : Q.diagonal()) largest = std::max(largest, x.hi());
+  return largest;
+}
+
 /// By Gauss and Jordan's elimination with the largest pivots of the diagonal, in the units of that of
-/// Q.
-Dependence dependence_of(const Wide& Q) {
-  constexpr double kNothing = 1e-5, kNoRow = 1e-6;
+/// Q; `of_all`: the largest element of all Gram matrices, beside which Q may be 0.
+Dependence dependence_of(const Wide& Q, double of_all) {
+  constexpr double kNothing = 1e-5, kNoRow = 1e-6, kNoMatrix = 1e-7;
   Dependence result;
   result.dependent.resize(static_cast<std::size_t>(Q.rows()));
   std::iota(result.dependent.begin(), result.dependent.end(), Index(0));
-  double largest = 0;
-  for (const DoubleDouble& x : Q.diagonal()) largest = std::max(largest, x.hi());
+  const double largest = largest_of(Q);
   Wide M = Q;
   const auto share = [&](Index i) {
     return Q(i, i).hi() > kNoRow * largest ? M(i, i).hi() / Q(i, i).hi() : 0.0;
   };
-  while (!result.dependent.empty()) {
+  while (!result.dependent.empty() && largest > kNoMatrix * of_all) {
     const auto best = std::ranges::max_element(result.dependent, {}, share);
     const Index k = *best;
     if (!(share(k) > kNothing)) break;
@@ -124,7 +129,9 @@ std::optional<Gram> restricted(const Gram& gram, const Dependence& rows, int dig
 
 std::optional<Program> restricted_to_faces(const Program& program, const Point& point) {
   std::vector<Dependence> rows;
-  for (const auto& Q : point.balanced) rows.push_back(dependence_of(Q));
+  double of_all = 0;
+  for (const auto& Q : point.balanced) of_all = std::max(of_all, largest_of(Q));
+  for (const auto& Q : point.balanced) rows.push_back(dependence_of(Q, of_all));
   if (std::ranges::all_of(rows, [](const auto& one) { return one.dependent.empty(); }))
     return std::nullopt;
   for (const int digits : {4, 7, 11, 16, 21}) {

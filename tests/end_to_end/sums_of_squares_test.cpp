@@ -259,6 +259,14 @@ TEST(SumsOfSquares, ACoefficientThatAnotherInequalityForcesIsTold) {
   EXPECT_TRUE(has(gains["solver"]["message"], "'fall' leaves one value of V_")) << gains["solver"];
 }
 
+TEST(SumsOfSquares, AnInequalityMayBeOneOfItsSet) {
+  EXPECT_EQ(verdict(stating("  require: {p: {forall: x in R, where: x >= 1, that: x >= 1}}\n")),
+            "yes");
+  EXPECT_EQ(verdict(stating("  require: {p: {forall: \"x in [0, 1]\", by: sos, that: "
+                            "\"x*(1 - x) >= 0\"}}\n")),
+            "yes");
+}
+
 TEST(SumsOfSquares, ADegreeBelowThatOfTheInequalityIsRefused) {
   EXPECT_TRUE(has(error_of(stating("  require: {p: {forall: x in R^2, degree: 2, that: \"x(1)^4 + "
                                    "x(2)^2 >= 0\"}}\n")),
