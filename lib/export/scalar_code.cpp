@@ -192,23 +192,18 @@ class Writer {
         return dialect_.language == Language::c ? library("fabs", one) : call("abs", one);
       case ScalarOp::sign:
         return dialect_.language == Language::matlab ? call("sign", one) : helper("sign", one);
-      case ScalarOp::floor:
-        return library("floor", one);
-      case ScalarOp::exp:
-        return library("exp", one);
-      case ScalarOp::log:
-        return library("log", one);
-      case ScalarOp::sqrt:
-        return library("sqrt", one);
-      case ScalarOp::sin:
-        return library("sin", one);
-      case ScalarOp::cos:
-        return library("cos", one);
-      case ScalarOp::tanh:
-        return library("tanh", one);
       default:
         break;
     }
+    using enum ScalarOp;
+    for (const auto& [op, name] : {std::pair(floor, "floor"),
+                                   {exp, "exp"},
+                                   {log, "log"},
+                                   {sqrt, "sqrt"},
+                                   {sin, "sin"},
+                                   {cos, "cos"},
+                                   {tanh, "tanh"}})
+      if (op == one.op) return library(name, one);
     throw std::logic_error("a node that is no operation");
   }
 

@@ -27,6 +27,25 @@ constexpr bool is_one_of(Op op, std::initializer_list<Op> list) {
   return std::find(list.begin(), list.end(), op) != list.end();
 }
 
+/// Whether its value is that of a problem: a projection, a search, a flow, an equation. Number types
+/// with bounds have none.
+constexpr bool is_without_bounds(Op op) {
+  using enum Op;
+  return is_one_of(op, {project_polytope, project_ellipsoid, project_affine, project_convex,
+                        flow_map, extremum, eigenvalues, continuous_riccati, discrete_riccati});
+}
+
+/// Whether it is no polynomial in its operands, and no choice between them.
+constexpr bool is_function(Op op) {
+  using enum Op;
+  const bool of_numbers = is_one_of(op, {real_power, exp, log, sqrt, sin, cos, tanh, atan2, abs,
+                                         sign, floor, mod, minimum, maximum});
+  const bool of_matrices =
+      is_one_of(op, {inverse, pseudo_inverse, matrix_exponential, norm, singular_values,
+                     range_basis, kernel_basis, complement_basis, determinant});
+  return of_numbers || of_matrices || is_without_bounds(op);
+}
+
 /// What the operands must be, and the shape of the result. A, B are operands of any shape, s
 /// a 1 x 1 one, M a square one; r x c is the shape of A.
 enum class ShapeRule {

@@ -48,9 +48,8 @@ bool is_sampled(const hybrid::System& system) {
 
 bool is_without_wide_value(expr::Op op) {
   using enum expr::Op;
-  return is_one_of(op, {project_polytope, project_ellipsoid, project_affine, project_convex,
-                        flow_map, extremum, eigenvalues, continuous_riccati, discrete_riccati,
-                        pseudo_inverse, range_basis, kernel_basis, determinant});
+  return is_without_bounds(op) ||
+         is_one_of(op, {pseudo_inverse, range_basis, kernel_basis, determinant});
 }
 
 bool is_affine_flow(const std::vector<MapEntry>& map, const hybrid::StateLayout& layout) {

@@ -331,14 +331,10 @@ struct AffineRules {
   }
   /// Not affine in what moves: no value.
   template <Op op>
-  requires expr::OneOf<op, Op::constant, Op::zeros, Op::real_power, Op::log, Op::sqrt, Op::tanh,
-                       Op::floor, Op::mod, Op::atan2, Op::complement_basis, Op::abs, Op::sign,
-                       Op::minimum, Op::maximum, Op::where, Op::norm, Op::inverse,
-                       Op::pseudo_inverse, Op::singular_values, Op::range_basis, Op::kernel_basis,
-                       Op::project_polytope, Op::project_ellipsoid, Op::project_affine,
-                       Op::project_convex, Op::flow_map, Op::extremum, Op::determinant,
-                       Op::eigenvalues, Op::continuous_riccati, Op::discrete_riccati>
-  void operator()(Is<op>, const At& at, AffineForm&) const {
+  requires(expr::is_one_of(op, {Op::constant, Op::zeros, Op::where}) ||
+           (expr::is_function(op) &&
+            !expr::is_one_of(op, {Op::exp, Op::sin, Op::cos, Op::matrix_exponential}))) void
+  operator()(Is<op>, const At& at, AffineForm&) const {
     for (const AffineForm* operand : at.operands)
       if (!operand->is_constant()) rules.refuse(op, *operand);
   }

@@ -51,14 +51,10 @@ struct DegreeRules {
     out = at[0] == 0 ? largest(at.operands) : kNotAffine;
   }
   template <Op op>
-  requires expr::OneOf<
-      op, Op::constant, Op::zeros, Op::real_power, Op::inverse, Op::floor, Op::mod, Op::atan2,
-      Op::complement_basis, Op::pseudo_inverse, Op::matrix_exponential, Op::exp, Op::log, Op::sqrt,
-      Op::sin, Op::cos, Op::tanh, Op::abs, Op::sign, Op::minimum, Op::maximum, Op::norm,
-      Op::range_basis, Op::kernel_basis, Op::singular_values, Op::project_polytope,
-      Op::project_ellipsoid, Op::project_affine, Op::project_convex, Op::flow_map, Op::extremum,
-      Op::determinant, Op::eigenvalues, Op::continuous_riccati, Op::discrete_riccati>
-  void operator()(Is<op>, const At&, Degree& out) const { out = kNotAffine; }
+  requires(expr::is_function(op) || expr::is_one_of(op, {Op::constant, Op::zeros})) void operator()(
+      Is<op>, const At&, Degree& out) const {
+    out = kNotAffine;
+  }
 };
 
 }  // namespace

@@ -219,10 +219,9 @@ struct EnclosureRules {
     if (0 < count && count < at[0].cols()) out = enclosed::kernel_basis<S>(at[0], count);
   }
   template <Op op>
-  requires expr::OneOf<op, Op::project_polytope, Op::project_ellipsoid, Op::project_affine,
-                       Op::project_convex, Op::flow_map, Op::extremum, Op::eigenvalues,
-                       Op::continuous_riccati, Op::discrete_riccati>
-  void operator()(Is<op>, const At&, Value&) const { expr::fault::no_error_bound(op); }
+  requires(expr::is_without_bounds(op)) void operator()(Is<op>, const At&, Value&) const {
+    expr::fault::no_error_bound(op);
+  }
   void operator()(Is<Op::complement_basis>, const At& at, Value& out) const {
     const Value& a = at[0];
     const auto basis =

@@ -289,10 +289,9 @@ struct JetRules {
     out.derivatives[1] = jets::slope_of_jacobian(at.instruction, at.operands);
   }
   template <Op op>
-  requires expr::OneOf<op, Op::project_polytope, Op::project_ellipsoid, Op::project_affine,
-                       Op::project_convex, Op::flow_map, Op::extremum, Op::eigenvalues,
-                       Op::continuous_riccati, Op::discrete_riccati>
-  void operator()(Is<op>, const At&, Jet&) const { expr::fault::no_error_bound(op); }
+  requires(expr::is_without_bounds(op)) void operator()(Is<op>, const At&, Jet&) const {
+    expr::fault::no_error_bound(op);
+  }
 
  private:
   /// The instruction applied to the k-th derivatives.

@@ -20,26 +20,9 @@ using numerics::RationalMatrix;
 /// Operations whose results are no fractions, but for a few operands.
 constexpr bool is_irrational(expr::Op op) {
   using enum expr::Op;
-  return is_one_of(op, {real_power,
-                        log,
-                        sqrt,
-                        atan2,
-                        norm,
-                        pseudo_inverse,
-                        singular_values,
-                        range_basis,
-                        kernel_basis,
-                        complement_basis,
-                        jacobian,
-                        project_polytope,
-                        project_ellipsoid,
-                        project_affine,
-                        project_convex,
-                        flow_map,
-                        extremum,
-                        eigenvalues,
-                        continuous_riccati,
-                        discrete_riccati});
+  return is_without_bounds(op) ||
+         is_one_of(op, {real_power, log, sqrt, atan2, norm, pseudo_inverse, singular_values,
+                        range_basis, kernel_basis, complement_basis, jacobian});
 }
 
 struct RationalNumbers {
