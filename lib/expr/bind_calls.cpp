@@ -18,6 +18,8 @@ int value_of(const std::vector<int>& sizes, std::size_t at) { return sizes[at]; 
 
 Bound Binder::bind_call(const Expression& expression, const Node& node) {
   const std::string& name = node.text;
+  if (name.starts_with('.'))
+    return part_of_system(expression, node, bind_system(expression, *node.children[0]), name[1]);
   if (scope_.read) scope_.read->insert(name);
   if (const auto found = member_of_mode(expression, node)) return *found;
   if (const auto found = member(expression, node)) {
@@ -38,7 +40,7 @@ Bound Binder::bind_call(const Expression& expression, const Node& node) {
     if (found->second.parameters.empty())
       return index(expression, node, bind_definition(expression, node, name, {}), 0);
     std::vector<Bound> arguments;
-    for (const NodePtr& child : node.children) arguments.push_back(bind(expression, *child));
+    for (const NodePtr& child : node.children) arguments.push_back(bind_value(expression, *child));
     return bind_definition(expression, node, name, std::move(arguments));
   }
   if (const auto found = scope_.functions.find(name); found != scope_.functions.end()) {

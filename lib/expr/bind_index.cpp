@@ -106,6 +106,7 @@ std::pair<int, int> Binder::index_range(const Expression& expression, const Node
 }
 
 Bound Binder::index(const Expression& expression, const Node& node, Bound base, std::size_t first) {
+  if (base.is_system()) refuse_system(expression, node);
   const int at = sized(expression, node, base);
   const Shape from = shape(at);
   const std::size_t count = node.children.size() - first;

@@ -53,6 +53,12 @@ bool Binder::is_zero(Bound value) const {
 }
 
 Bound Binder::bind(const Expression& expression, const Node& node) {
+  const Bound value = bind_value(expression, node);
+  if (value.is_system()) refuse_system(expression, node);
+  return value;
+}
+
+Bound Binder::bind_value(const Expression& expression, const Node& node) {
   // Definitions and sums may build on each other in towers that no formula needs. Outside of them
   // an operation is written in the text.
   constexpr int kDeepest = 1000;
@@ -68,6 +74,7 @@ Bound Binder::bind(const Expression& expression, const Node& node) {
 
 Bound Binder::bind_kind(const Expression& expression, const Node& node) {
   const auto child = [&](std::size_t i) { return bind(expression, *node.children[i]); };
+  const auto value = [&](std::size_t i) { return bind_value(expression, *node.children[i]); };
   switch (node.kind) {
     case NodeKind::number:
       return {number(expression, node, node.text)};
@@ -81,20 +88,27 @@ Bound Binder::bind_kind(const Expression& expression, const Node& node) {
       if (const auto value = bind_member_call(expression, node)) return *value;
       return index(expression, node, child(0), 1);
     case NodeKind::negate: {
-      const Bound a = child(0);
+      const Bound a = value(0);
+      if (a.is_system())
+        return pair_of_systems(expression, node, Composed::series, a,
+                               {number(expression, node, "-1"), true});
       return {emit(expression, node, Op::negate, {a.at}, shape(a.at)), a.identity};
     }
     case NodeKind::transpose:
       return transpose(expression, node, child(0));
     case NodeKind::add:
     case NodeKind::subtract: {
-      const Bound a = child(0);
-      const Bound b = child(1);
+      const Bound a = value(0);
+      const Bound b = value(1);
+      if (a.is_system() || b.is_system()) return sum_of_systems(expression, node, a, b);
       return add(expression, node, node.kind == NodeKind::add ? Op::add : Op::subtract, a, b);
     }
     case NodeKind::multiply: {
-      const Bound a = child(0);
-      return multiply(expression, node, a, child(1));
+      const Bound a = value(0);
+      const Bound b = value(1);
+      if (a.is_system() || b.is_system())
+        return pair_of_systems(expression, node, Composed::series, b, a);
+      return multiply(expression, node, a, b);
     }
     case NodeKind::divide: {
       const Bound a = child(0);
@@ -154,6 +168,7 @@ Bound Binder::bind_name(const Expression& expression, const Node& node) {
     return {number(expression, node, std::to_string(found->second))};
   if (name == "I") return {number(expression, node, "1"), true};
   if (name == "pi") return {number(expression, node, "pi")};
+  if (const auto part = part_of_name(expression, node)) return *part;
   if (const Function* function = find_function(name))
     fail(expression, node, "'" + name + "' is a function: write " + std::string(function->usage));
   unknown_name(expression, node);
@@ -181,7 +196,7 @@ Bound Binder::bind_definition(const Expression& expression, const Node& node,
     inner.emplace(definition.parameters[i], arguments[i]);
   std::swap(environment_, inner);
   open_definitions_.push_back(name);
-  const Bound value = bind(definition.body, *definition.body.root);
+  const Bound value = bind_value(definition.body, *definition.body.root);
   open_definitions_.pop_back();
   std::swap(environment_, inner);
   if (arguments.empty()) defined_.emplace(name, value);
@@ -352,6 +367,15 @@ Program compile(const Expression& expression, const Scope& scope, std::optional<
   const int at = expected ? binder.materialise(expression, root, value, *expected)
                           : binder.sized(expression, root, value);
   return binder.extract(at);
+}
+
+CompiledSystem compile_system(const Expression& expression, const Scope& scope) {
+  count_bound();
+  Binder binder(scope);
+  const Bound value = binder.bind_system(expression, *expression.root);
+  CompiledSystem system{binder.extract(value.at), value.states, std::nullopt};
+  if (value.step >= 0) system.step = binder.extract(value.step);
+  return system;
 }
 
 namespace {

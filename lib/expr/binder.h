@@ -18,10 +18,15 @@
 namespace gainsmith::expr {
 
 /// The value of a subexpression: an instruction or, when `identity`, the instruction's 1 x 1 value
-/// times an identity whose size is not known yet.
+/// times an identity whose size is not known yet. A system x' = A x + B u, y = C x + D u, sampled
+/// x+ = ... with a `step`, is the matrix [A, B; C, D] with the number of its states.
 struct Bound {
   int at = -1;
   bool identity = false;
+  int states = -1;  ///< of a system; -1: of none
+  int step = -1;    ///< the instruction of its sampling time; -1: continuous, or without states
+
+  bool is_system() const { return states >= 0; }
 };
 
 /// What is said of != anywhere else.
@@ -38,7 +43,12 @@ class Binder {
  public:
   explicit Binder(const Scope& scope) : scope_(scope) {}
 
+  /// A matrix or a multiple of I; a system is refused.
   Bound bind(const Expression& expression, const Node& node);
+  /// A system too.
+  Bound bind_value(const Expression& expression, const Node& node);
+  /// A system; a matrix is one without states.
+  Bound bind_system(const Expression& expression, const Node& node);
   /// Gives a multiple of I or a zero the shape `shape`; other values must have it already.
   int materialise(const Expression& expression, const Node& node, Bound value, Shape shape);
   /// The instruction of a value whose shape is known; `I` alone is an error.
@@ -215,6 +225,22 @@ class Binder {
   std::optional<double> written_number(int at) const;
   Bound branch(const Expression& expression, const Node& node, int difference, bool strict,
                Bound yes, Bound no);
+  // bind_systems.cpp: linear systems.
+  [[noreturn]] void refuse_system(const Expression& expression, const Node& node) const;
+  Bound as_system(const Expression& expression, const Node& node, Bound value, int size = 0);
+  /// "G.A", or nothing when G is no system.
+  std::optional<Bound> part_of_name(const Expression& expression, const Node& node);
+  Bound part_of_system(const Expression& expression, const Node& node, Bound system, char part);
+  Bound state_space(const Expression& expression, const Node& node);
+  Bound transfer_function(const Expression& expression, const Node& node);
+  Bound joined(const Expression& expression, const Node& node, Composed how);
+  Bound pair_of_systems(const Expression& expression, const Node& node, Composed how, Bound first,
+                        Bound second);
+  Bound sum_of_systems(const Expression& expression, const Node& node, Bound a, Bound b);
+  Bound feedback(const Expression& expression, const Node& node);
+  Bound linear_fraction(const Expression& expression, const Node& node);
+  Bound augmented(const Expression& expression, const Node& node);
+  Bound pade(const Expression& expression, const Node& node);
   // bind_gramian.cpp
   Bound gramian(const Expression& expression, const Node& node, bool backward);
   // bind_projections.cpp

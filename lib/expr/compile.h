@@ -21,6 +21,16 @@ namespace gainsmith::expr {
 Program compile(const Expression& expression, const Scope& scope,
                 std::optional<Shape> expected = std::nullopt);
 
+/// A linear system as one matrix.
+struct CompiledSystem {
+  Program matrix;               ///< [A, B; C, D]
+  int states = 0;               ///< the first rows and columns
+  std::optional<Program> step;  ///< the sampling time; none: continuous
+};
+
+/// The program of a system; a matrix is one without states. InputError as of compile().
+CompiledSystem compile_system(const Expression& expression, const Scope& scope);
+
 /// The ends of the range of an index, whole numbers over dimensions: numbers, +, - and *.
 /// InputError at what is none, and for more than 100,000 values.
 std::pair<int, int> range_of(const Index& index, const Scope& scope);

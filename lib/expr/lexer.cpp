@@ -51,6 +51,13 @@ std::size_t name_end(std::string_view text, std::size_t at) {
   return end;
 }
 
+/// Whether .A, .B, .C or .D of a system in parentheses is here.
+bool is_part(std::string_view text, std::size_t at) {
+  return at > 0 && text[at - 1] == ')' && text[at] == '.' && at + 1 < text.size() &&
+         text[at + 1] >= 'A' && text[at + 1] <= 'D' &&
+         (at + 2 == text.size() || !is_name_part(text[at + 2]));
+}
+
 #define SYMBOL(token, spelling) Symbol{spelling, TokenKind::token},
 using Symbol = std::pair<std::string_view, TokenKind>;
 constexpr std::array kSymbols = {
@@ -137,6 +144,8 @@ std::vector<Token> tokenize(const Text& text) {
       push(TokenKind::number, number_end(source, at));
     } else if (is_name_start(c)) {
       push(TokenKind::name, name_end(source, at));
+    } else if (is_part(source, at)) {
+      push(TokenKind::part, at + 2);
     } else {
       const std::string_view rest = source.substr(at);
       for (const auto& [spelling, advice] : kForeign)

@@ -12,6 +12,7 @@ namespace gainsmith::expr {
 enum class TokenKind {
   number,
   name,
+  part,  ///< ".A" behind a parenthesis: of a system
 #define SYMBOL(token, spelling) token,
 #include "expr/operations.def"
   end

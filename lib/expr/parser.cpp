@@ -259,6 +259,11 @@ class Parser : TokenCursor {
             make(whole ? NodeKind::power : NodeKind::elementwise_power, begin, {value, exponent});
       } else if (accept(TokenKind::open)) {
         value = apply(begin, value);
+      } else if (peek() == TokenKind::part) {
+        const std::string part = next().text;
+        auto call = make(NodeKind::call, begin, {value});
+        call->text = part;
+        value = call;
       } else {
         return value;
       }

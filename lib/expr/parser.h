@@ -7,7 +7,7 @@
 //   sum        := term (("+" | "-") term)*
 //   term       := sign (("*" | "/" | ".*" | "./") sign)*
 //   sign       := ("-" | "+") sign | postfix
-//   postfix    := primary ("'" | "(" arguments ")" | ("^" | ".^") exponent)*
+//   postfix    := primary ("'" | "(" arguments ")" | ("^" | ".^") exponent | ".A" ... ".D")*
 //                 (left to right, as in MATLAB)
 //   exponent   := ("-" | "+") exponent | primary
 //   primary    := number | name | "(" condition ")" | "[" row (";" row)* "]"

@@ -1,4 +1,4 @@
-// Internal to numbers: matrix functions with bounds of their errors, instantiated by one source a
+// Matrix functions with bounds of their errors, instantiated by one source a
 // scalar.
 #pragma once
 

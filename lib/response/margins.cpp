@@ -1,0 +1,70 @@
+#include "response/margins.h"
+
+#include <cmath>
+#include <complex>
+#include <functional>
+#include <numbers>
+#include <vector>
+
+namespace gainsmith::response {
+
+namespace {
+
+using Complex = std::complex<double>;
+
+/// Where f, of another sign at both ends, is 0: by halving, in log w.
+double root(const std::function<double(double)>& f, double a, double b) {
+  const bool rises = f(b) > 0;
+  for (int k = 0; k < 100; ++k) {
+    const double middle = std::sqrt(a) * std::sqrt(b);
+    if (middle <= a || middle >= b) break;
+    ((f(middle) > 0) == rises ? b : a) = middle;
+  }
+  return std::sqrt(a) * std::sqrt(b);
+}
+
+/// The frequencies at which f changes its sign.
+std::vector<double> crossings(const Sweep& sweep, const std::function<double(const Complex&)>& f,
+                              const FrequencyResponse& response) {
+  std::vector<double> found;
+  const auto at = [&](double w) { return f(response.at(w)(0, 0)); };
+  for (std::size_t k = 0; k + 1 < sweep.frequency.size(); ++k) {
+    const double a = f(sweep.response[k](0, 0)), b = f(sweep.response[k + 1](0, 0));
+    if (a == 0)
+      found.push_back(sweep.frequency[k]);
+    else if (b != 0 && (a > 0) != (b > 0))
+      found.push_back(root(at, sweep.frequency[k], sweep.frequency[k + 1]));
+  }
+  return found;
+}
+
+}  // namespace
+
+Margins margins(const StateSpace& loop, const Sweep& sweep) {
+  Margins result;
+  const FrequencyResponse response(loop);
+  const auto at = [&](double w) { return response.at(w)(0, 0); };
+  const auto nearer = [](std::optional<Margin>& best, double value, double w, auto&& size) {
+    if (!best || size(value) < size(best->value)) best = {value, w};
+  };
+  const auto decibels = [](double factor) { return std::abs(std::log(factor)); };
+  const auto plain = [](double value) { return std::abs(value); };
+  const auto imaginary = [](const Complex& l) { return l.imag(); };
+  const auto size = [](const Complex& l) { return std::log(std::abs(l)); };
+  for (const double w : crossings(sweep, imaginary, response)) {
+    const Complex l = at(w);
+    // A pole on the axis changes the sign too, at infinity.
+    if (l.real() < 0 && std::isfinite(l.real()) && std::abs(l.imag()) < 1e-3 * std::abs(l.real()))
+      nearer(result.gain, -1 / l.real(), w, decibels);
+  }
+  for (const double w : crossings(sweep, size, response)) {
+    const double angle = std::arg(-at(w));  // 0 at -1
+    nearer(result.phase, angle * 180 / std::numbers::pi, w, plain);
+    const double lag = angle >= 0 ? angle : angle + 2 * std::numbers::pi;
+    nearer(result.delay, lag / w, w, plain);
+  }
+  result.stable = loop.D(0, 0) != -1 && is_stable(with_unit_feedback(loop));
+  return result;
+}
+
+}  // namespace gainsmith::response

@@ -1,0 +1,43 @@
+#include "response/state_space.h"
+
+#include <cmath>
+#include <complex>
+
+#include "numbers/spectrum.h"
+
+namespace gainsmith::response {
+
+StateSpace state_space(const Matrix& whole, int states, double step) {
+  const Eigen::Index n = states, m = whole.cols() - n, p = whole.rows() - n;
+  return {whole.topLeftCorner(n, n), whole.topRightCorner(n, m), whole.bottomLeftCorner(p, n),
+          whole.bottomRightCorner(p, m), step};
+}
+
+Matrix poles(const StateSpace& system) {
+  if (system.states() == 0) return Matrix(0, 2);
+  return numbers::real_eigenvalues<double>(system.A);
+}
+
+bool is_stable(const StateSpace& system) {
+  const Matrix all = poles(system);
+  for (Eigen::Index k = 0; k < all.rows(); ++k) {
+    const bool inside = system.is_sampled() ? std::hypot(all(k, 0), all(k, 1)) < 1 : all(k, 0) < 0;
+    if (!inside) return false;
+  }
+  return true;
+}
+
+StateSpace with_unit_feedback(const StateSpace& loop) {
+  const double through = 1 / (1 + loop.D(0, 0));
+  return {loop.A - through * loop.B * loop.C, through * loop.B, through * loop.C, through * loop.D,
+          loop.step};
+}
+
+Mode mode_of(double real, double imaginary, double step) {
+  std::complex<double> s(real, imaginary);
+  if (step > 0) s = std::log(s) / step;
+  const double frequency = std::abs(s);
+  return {frequency, frequency > 0 ? -s.real() / frequency : 1};
+}
+
+}  // namespace gainsmith::response
