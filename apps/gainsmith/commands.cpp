@@ -15,7 +15,7 @@ Program all_commands() {
       "2 the command line or a file is wrong; 3 undecided or stopped; 70 a fault of the program.\n"
       "Each subcommand has --help with examples.",
       {synth_command(), bisect_command(), scan_command(), optimize_command(), explain_command(),
-       verify_command(), merge_command(), simulate_command(), run_command(), report_command(),
+       verify_command(), merge_command(), simulate_command(), plot_command(), run_command(), report_command(),
        check_command(), certify_command(), export_command(), solve_command(), methods_command(),
        init_command(), schema_command(), completions_command(), manual_command()}};
 }

@@ -13,6 +13,7 @@ Command explain_command();
 Command verify_command();
 Command merge_command();
 Command simulate_command();
+Command plot_command();
 Command run_command();
 Command report_command();
 Command check_command();

@@ -9,8 +9,11 @@
 #include "base/nearest.h"
 #include "base/number.h"
 #include "bind/bind.h"
+#include "bind/instance.h"
 #include "bind/stated.h"
+#include "design/optimize.h"
 #include "design/synthesize.h"
+#include "gainsmith/search_wanted.h"
 #include "io/gains_json.h"
 #include "methods/methods.h"
 #include "model/stated.h"
@@ -209,17 +212,27 @@ LoadedGains load_gains(const std::filesystem::path& path) {
   return {std::move(gains), std::move(stated)};
 }
 
-LoadedGains load_run(const std::filesystem::path& path, const std::vector<std::string>& set) {
+namespace {
+
+/// The gain file at `path`; nothing for a problem file.
+std::optional<LoadedGains> load_if_gains(const std::filesystem::path& path,
+                                         const std::vector<std::string>& set) {
   const std::string text = read_text(path);
   const std::size_t begin = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
-  if (begin == std::string::npos || text[begin] == '{') {
-    if (!set.empty())
-      throw InputError({"--set"},
-                       "the problem of a gain file stays as it was solved; set values "
-                       "when it is synthesized, or in a problem without unknowns");
-    LoadedGains loaded = load_gains(path);
-    refuse_without_campaign(*loaded.stated.design, path.string());
-    return loaded;
+  if (begin != std::string::npos && text[begin] != '{') return std::nullopt;
+  if (!set.empty())
+    throw InputError({"--set"},
+                     "the problem of a gain file stays as it was solved; set values "
+                     "when it is synthesized, or in a problem without unknowns");
+  return load_gains(path);
+}
+
+}  // namespace
+
+LoadedGains load_run(const std::filesystem::path& path, const std::vector<std::string>& set) {
+  if (auto loaded = load_if_gains(path, set)) {
+    refuse_without_campaign(*loaded->stated.design, path.string());
+    return std::move(*loaded);
   }
   const model::Instance instance = load_problem(path, set);
   if (!instance.design->unknowns.empty() || !instance.design->open.empty())
@@ -233,6 +246,13 @@ LoadedGains load_run(const std::filesystem::path& path, const std::vector<std::s
     throw InputError({path.string()}, "its inequalities do not hold: 'gainsmith synth " +
                                           path.string() + "' says why");
   return {std::move(gains), instance};
+}
+
+LoadedGains load_designed(const std::filesystem::path& path, const std::vector<std::string>& set) {
+  if (auto loaded = load_if_gains(path, set)) return std::move(*loaded);
+  const model::Instance instance = load_problem(path, set);
+  model::Gains gains = design::synthesize_searched(instance, wanted_search(instance), 1, {});
+  return {gains, bind::evaluate(instance.design, gains.searched)};
 }
 
 }  // namespace gainsmith::app

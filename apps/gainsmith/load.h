@@ -51,4 +51,9 @@ LoadedGains load_gains(const std::filesystem::path& path);
 /// whose gains must be searched, and for values to be set in a gain file.
 LoadedGains load_run(const std::filesystem::path& path, const std::vector<std::string>& set = {});
 
+/// A gain file, or a problem file, whose gains are synthesized: without a solution they have no
+/// values. InputError for values to be set in a gain file.
+LoadedGains load_designed(const std::filesystem::path& path,
+                          const std::vector<std::string>& set = {});
+
 }  // namespace gainsmith::app

@@ -17,6 +17,7 @@
 #include "gainsmith/run_table.h"
 #include "gainsmith/search_text.h"
 #include "gainsmith/summary.h"
+#include "gainsmith/system_figures.h"
 #include "io/campaign_json.h"
 #include "io/gains_json.h"
 #include "io/result_json.h"
@@ -58,11 +59,25 @@ void add_problem(const fs::path& gains, const fs::path& problem_file, page::Resu
   }
 }
 
+/// The figures of linear systems that the problem asks for.
+void add_figures(const fs::path& path, page::Results& results) {
+  if (!results.problem || results.problem->figures.empty()) return;
+  try {
+    for (const SystemResult& one : system_results(load_gains(path))) {
+      page::SystemFigure& figure = results.figures.emplace_back(one.name, one.svg, one.facts);
+      if (!one.missing.empty()) figure.facts.push_back("No picture: " + one.missing + ".");
+    }
+  } catch (const InputError& error) {
+    results.figures.push_back({"Figures", "", {error.message()}});
+  }
+}
+
 /// What the gain file at `path` says.
 page::Results results_of_gains(const fs::path& path, const fs::path& problem_file = {}) {
   page::Results results;
   results.gains = read_gains(path);
   add_problem(path, problem_file, results);
+  add_figures(path, results);
   const model::Gains& gains = results.gains;
   results.name = gains.problem_name;
   results.verdict_line = verdict_line(gains);

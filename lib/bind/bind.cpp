@@ -14,6 +14,7 @@
 #include "bind/shown.h"
 #include "bind/simulation.h"
 #include "bind/stated.h"
+#include "bind/system_figures.h"
 #include "expr/work.h"
 #include "model/gains.h"
 
@@ -86,6 +87,7 @@ model::Instance bound(Binding binding) {
   bind_campaign(binding);
   bind_expectation(binding);
   bind_comparison(binding);
+  bind_system_figures(binding);
   check_shown(binding);
   finish_dynamics(binding);
   binding.design->ranks = binding.recorder->ranks;

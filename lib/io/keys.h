@@ -76,7 +76,7 @@ inline constexpr Key kLognormalKey = {"lognormal", "matrix | lognormal",
 namespace keys {
 extern const Level problem, data, data_file, synthesis, way, campaign, law, accuracy, start,
     ellipsoid, normal, lognormal, expectation, expected_value, expected_figure, limits, figure,
-    moment, search, uncertain;
+    moment, system_figure, search, uncertain;
 extern const Level method, declaration, parameter, unknown, requirement, claim, cost;
 extern const Level component, map, loop, output, flow_set, state, log_plant, log, log_output,
     measured_input, measured_times, event, lost, noise, sinusoid, timer;

@@ -10,8 +10,10 @@
 namespace gainsmith::io {
 
 /// `problem`: the name of the problem that contains the method, which is its own name where it
-/// gives none; empty for a method file, which needs one.
-model::Method method_from(const YamlFile& file, const YAML::Node& node, const std::string& problem);
+/// gives none; empty for a method file, which needs one. One that states neither inequalities nor
+/// dynamics nor a report is an error, unless it may.
+model::Method method_from(const YamlFile& file, const YAML::Node& node, const std::string& problem,
+                          bool may_state_nothing = false);
 
 /// The reason of "no campaign", which is not empty.
 std::string reason(const YamlFile& file, const YamlItem& item);

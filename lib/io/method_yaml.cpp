@@ -272,8 +272,8 @@ model::Forall parse_forall(const expr::Text& text) {
 
 constexpr const char* kOfProblem = "it belongs to the problem, beside 'method'";
 
-model::Method method_from(const YamlFile& file, const YAML::Node& node,
-                          const std::string& problem) {
+model::Method method_from(const YamlFile& file, const YAML::Node& node, const std::string& problem,
+                          bool may_state_nothing) {
   YamlMap map(file, node, "method", keys::method);
   model::Method method;
   method.file = file.file(node);
@@ -323,10 +323,12 @@ model::Method method_from(const YamlFile& file, const YAML::Node& node,
               {"campaign", kOfProblem},
               {"compare", kOfProblem},
               {"expect", kOfProblem},
+              {"figures", kOfProblem},
               {"negotiable", kOfProblem},
               {"search", kOfProblem},
               {"synthesis", kOfProblem}});
-  if (method.require.empty() && !method.minimize && !method.has_dynamics && method.report.empty())
+  if (!may_state_nothing && method.require.empty() && !method.minimize && !method.has_dynamics &&
+      method.report.empty())
     throw InputError(map.place(), "the method '" + method.name +
                                       "' has no inequality under 'require' and no dynamics");
   model::check_names(method);

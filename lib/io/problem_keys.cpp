@@ -37,6 +37,7 @@ constexpr std::array kProblem = {
     Key{"units", "{text | [text]+}?", "units of states and signals, for pictures and tables"},
     Key{"covariance", "{text}?", "for an estimate: the state that is the covariance of its error"},
     Key{"compare", "[figure]", "figures of runs, side by side for each observer"},
+    Key{"figures", "{system figure}?", "pictures of linear systems, by name"},
     Key{"expect", "expectation", "what gainsmith run compares the results with"}};
 constexpr std::array kProblemRules = {Rule::at_most_one("campaign,no campaign")};
 
@@ -91,6 +92,18 @@ constexpr std::array kStartRules = {Rule::exactly_one("box,list,ellipsoid,normal
 constexpr std::array kEllipsoid = {Key{"center", "matrix"},
                                    Key{"matrix", "matrix", "P of e'*P*e <= level", kRequired},
                                    Key{"level", "matrix", "a number, or [low, high]"}};
+
+constexpr std::array kSystemFigure = {
+    Key{"bode", "systems", "size and phase over the frequency"},
+    Key{"singular values", "systems", "over the frequency"},
+    Key{"nyquist", "systems", "in the complex plane, one input and one output"},
+    Key{"step", "systems", "outputs over time, for each input"},
+    Key{"impulse", "systems", "the same of impulses"},
+    Key{"poles", "systems", "poles and zeros in the complex plane"},
+    Key{"over", "range", "of the frequency in radians per unit of time, or of the time"}};
+constexpr std::array kSystemFigureRules = {
+    Rule::exactly_one("bode,singular values,nyquist,step,impulse,poles"),
+    Rule::excludes("over", "poles")};
 
 constexpr std::array kExpectation = {
     Key{"verdict", "'yes' | 'no' | 'undecided'"},
@@ -197,6 +210,8 @@ const Level ellipsoid = {"ellipsoid", "Starts in an ellipsoid", kEllipsoid};
 const Level normal = {"normal", "A normal distribution", kNormal, kSpreadRules};
 const Level lognormal = {"lognormal", "Its logarithm is normal, with this deviation or covariance",
                          kLognormal, kSpreadRules};
+const Level system_figure = {"system figure", "A picture of linear systems", kSystemFigure,
+                             kSystemFigureRules};
 const Level expectation = {"expectation", "What results are compared with", kExpectation};
 const Level expected_value = {"expected value", "A value with its tolerance, or bounds",
                               kExpectedValue, kExpectedValueRules};
@@ -209,49 +224,15 @@ const Level search = {"search", "Scalars that are searched", kSearch, kSearchRul
 const Level uncertain = {"uncertain", "A datum that differs from run to run", kUncertain,
                          kUncertainRules};
 
-constexpr std::array kProblemLevels = {&problem,
-                                       &data,
-                                       &data_file,
-                                       &synthesis,
-                                       &way,
-                                       &campaign,
-                                       &law,
-                                       &accuracy,
-                                       &start,
-                                       &ellipsoid,
-                                       &normal,
-                                       &lognormal,
-                                       &expectation,
-                                       &expected_value,
-                                       &expected_figure,
-                                       &limits,
-                                       &figure,
-                                       &moment,
-                                       &search,
-                                       &uncertain,
-                                       &method,
-                                       &declaration,
-                                       &parameter,
-                                       &unknown,
-                                       &requirement,
-                                       &claim,
-                                       &cost,
-                                       &component,
-                                       &map,
-                                       &loop,
-                                       &output,
-                                       &flow_set,
-                                       &state,
-                                       &log_plant,
-                                       &log,
-                                       &log_output,
-                                       &measured_input,
-                                       &measured_times,
-                                       &event,
-                                       &lost,
-                                       &noise,
-                                       &sinusoid,
-                                       &timer};
+constexpr std::array kProblemLevels = {
+    &problem,       &data,           &data_file,       &synthesis, &way,         &campaign,
+    &law,           &accuracy,       &start,           &ellipsoid, &normal,      &lognormal,
+    &expectation,   &expected_value, &expected_figure, &limits,    &figure,      &moment,
+    &system_figure, &search,         &uncertain,       &method,    &declaration, &parameter,
+    &unknown,       &requirement,    &claim,           &cost,      &component,   &map,
+    &loop,          &output,         &flow_set,        &state,     &log_plant,   &log,
+    &log_output,    &measured_input, &measured_times,  &event,     &lost,        &noise,
+    &sinusoid,      &timer};
 
 }  // namespace keys
 
@@ -274,6 +255,7 @@ std::span<const NamedForm> problem_forms() {
       NamedForm{"range", "[text, text]"},
       NamedForm{"ends", "text | [matrix, matrix]"},
       NamedForm{"texts", "text | [text]"},
+      NamedForm{"systems", "text | [text]+ | {text}+"},
       NamedForm{"ways", "'auto' | 'hull' | 'exchange' | 'vertex_gains'"},
       NamedForm{"one law", "'uniform' | 'extremes' | 'sinusoid' | 'golden' | law"},
       NamedForm{"laws", "one law | [one law]+"},

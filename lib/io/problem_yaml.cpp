@@ -18,6 +18,7 @@
 #include "io/setting.h"
 #include "io/sources.h"
 #include "io/synthesis_yaml.h"
+#include "io/system_figure_yaml.h"
 #include "io/variant_yaml.h"
 
 namespace gainsmith::io {
@@ -26,9 +27,9 @@ namespace {
 
 std::shared_ptr<const model::Method> method_of(const YamlFile& file, const YamlItem& item,
                                                const std::string& problem,
-                                               const MethodLibrary& library) {
+                                               const MethodLibrary& library, bool has_figures) {
   if (item.value.IsMap())
-    return std::make_shared<model::Method>(method_from(file, item.value, problem));
+    return std::make_shared<model::Method>(method_from(file, item.value, problem, has_figures));
   const std::string name = file.string(item.value, "method");
   const auto text = library.text(name);
   if (!text) throw InputError(file.place(item.value), unknown_method(name, library.names));
@@ -355,7 +356,7 @@ model::Problem parse_problem(const std::string& text, const std::string& file,
   problem.name = yaml.string(map.require("problem").value, "problem", "");
   const YamlItem method = map.require("method");
   problem.method_place = method.place;
-  problem.method = method_of(yaml, method, problem.name, library);
+  problem.method = method_of(yaml, method, problem.name, library, map.find("figures").has_value());
   problem.method_name = problem.method->name;
   read_data(yaml, map.find("data"), problem);
   for (const YamlItem& item : items_of(yaml, map.find("let"), "let"))
@@ -378,6 +379,8 @@ model::Problem parse_problem(const std::string& text, const std::string& file,
   problem.campaign = campaign(yaml, campaign_item, *problem.method);
   if (const auto expect = map.find("expect")) problem.expect = expectation_from(yaml, *expect);
   if (const auto compare = map.find("compare")) problem.compare = figures(yaml, *compare);
+  for (const YamlItem& item : items_of(yaml, map.find("figures"), "figures"))
+    problem.figures.push_back(system_figure(yaml, item));
   for (const YamlItem& item : items_of(yaml, map.find("report"), "report"))
     problem.report.push_back({item.key, yaml.expression(item.value, item.key), item.place});
   for (const YamlItem& item : items_of(yaml, map.find("uncertain"), "uncertain"))

@@ -30,6 +30,7 @@
 #include "model/figure.h"
 #include "model/formula.h"
 #include "model/stated_file.h"
+#include "model/system_figure.h"
 #include "model/words.h"
 
 namespace gainsmith::bind {
@@ -319,6 +320,7 @@ struct Design {
   std::optional<Quotient> quotient;  ///< instead of an objective
   std::vector<Gain> gains;
   std::vector<NamedFormula> report;
+  std::vector<SystemFigure> pictures;  ///< of linear systems
   /// The data, parameters, gains and reports that rest on a search over a box; others are not here.
   std::map<std::string, expr::Estimate> estimates;
 

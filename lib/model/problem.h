@@ -12,6 +12,7 @@
 #include "model/figure.h"
 #include "model/method.h"
 #include "model/stated_file.h"
+#include "model/system_figure.h"
 
 namespace gainsmith::model {
 
@@ -156,6 +157,7 @@ struct Problem {
   std::string no_campaign;  ///< why there is none; empty: see the method's
   std::optional<Expectation> expect;
   std::vector<FigureText> compare;  ///< figures shown for all observers side by side
+  std::vector<SystemFigureText> figures{};  ///< pictures of linear systems
   std::vector<Let> let;             ///< definitions of the problem, beside those of the method
   std::vector<Named> report;        ///< what is shown beside the method's report
   std::vector<UncertainText> uncertain;

@@ -310,6 +310,19 @@ std::string picture_of(const Results& results) {
          "\n";
 }
 
+std::string figures_section(const Results& results) {
+  if (results.figures.empty()) return "";
+  std::string text;
+  for (const SystemFigure& figure : results.figures) {
+    text += text_element("h4", figure.title);
+    if (!figure.svg.empty())
+      text += element("figure", element("div", figure.svg, "class=\"picture\""));
+    for (const std::string& fact : figure.facts) text += paragraph(fact);
+    text += "\n";
+  }
+  return section("Figures", text);
+}
+
 }  // namespace
 
 std::string sections(const Results& results) {
@@ -320,8 +333,8 @@ std::string sections(const Results& results) {
   const Notation notation = results.problem ? notation_of(*results.problem) : Notation{};
   return failed + verdict_section(results) + gains_section(results, notation) +
          margins_section(results, notation) + certificate_section(results, notation) +
-         campaign_section(results) + picture_of(results) + problem_section(results, notation) +
-         provenance_section(results);
+         campaign_section(results) + picture_of(results) + figures_section(results) +
+         problem_section(results, notation) + provenance_section(results);
 }
 
 }  // namespace gainsmith::page

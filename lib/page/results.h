@@ -13,6 +13,13 @@
 
 namespace gainsmith::page {
 
+/// A picture of linear systems that the problem asks for.
+struct SystemFigure {
+  std::string title;
+  std::string svg;                 ///< empty: the facts say why
+  std::vector<std::string> facts;  ///< sentences
+};
+
 /// Everything that a page says of one problem. Sentences are plain text.
 struct Results {
   std::string name;   ///< in the table: the folder, or the name of the problem
@@ -37,6 +44,7 @@ struct Results {
   std::optional<double> seconds;         ///< of everything
   std::string picture;                   ///< SVG; empty with a title: left out of a large page
   std::string picture_title;             ///< "Run 627 of seed 1"
+  std::vector<SystemFigure> figures;
   std::vector<std::pair<std::string, std::string>> files;  ///< name and SHA-256
 };
 

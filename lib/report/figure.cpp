@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "report/axis.h"
 #include "report/drawing.h"
@@ -73,13 +74,46 @@ Axis time_axis(const Figure& figure, double room) {
   return axis_below(times, figure.logarithmic, margin_at_ends, room);
 }
 
-Axis across_axis(const Panel& plane, double room) {
-  constexpr double margin_of_plane = 0.05;
-  Extent values;
+constexpr double kMarginAcross = 0.05, kMarginUp = 0.1;
+
+/// What a plane shows of both quantities.
+std::pair<Extent, Extent> extents_of(const Panel& plane) {
+  std::pair<Extent, Extent> values;
   for (const Curve& curve : plane.curves)
     for (std::size_t k = 0; k < curve.t.size(); ++k)
-      if (Axis().shows(curve.t[k]) && Axis().shows(curve.value[k])) values.add(curve.t[k]);
-  return axis_below(values, false, margin_of_plane, room);
+      if (Axis().shows(curve.t[k]) && Axis().shows(curve.value[k])) {
+        values.first.add(curve.t[k]);
+        values.second.add(curve.value[k]);
+      }
+  return values;
+}
+
+/// As wide as `half` to both sides.
+Extent widened(const Extent& values, double half) {
+  if (values.empty()) return values;
+  const double middle = (values.low + values.high) / 2;
+  return {middle - half, middle + half, false};
+}
+
+double half_of(const Extent& values, double margin) {
+  return (values.high - values.low) / 2 * (1 + margin);
+}
+
+/// Of a plane with equal units in a box of this form, what is shown of the vertical axis.
+Extent equal_up(const Panel& plane, double height, double width) {
+  const auto [across, up] = extents_of(plane);
+  const double half =
+      std::max(half_of(up, kMarginUp), half_of(across, kMarginAcross) * height / width);
+  return widened(up, half / (1 + kMarginUp));
+}
+
+Axis across_axis(const Panel& plane, const Axis& up, const Box& box) {
+  Extent values = extents_of(plane).first;
+  if (plane.equal) {
+    const double half = (up.high - up.low) / 2 * box.width / box.height;
+    values = widened(values, half / (1 + kMarginAcross));
+  }
+  return axis_below(values, false, kMarginAcross, box.width);
 }
 
 /// With the bands, as far as they do not make the curves small.
@@ -105,8 +139,9 @@ Axis value_axis(const Panel& panel, double height) {
     for (std::size_t k = 0; k < curve.value.size(); ++k)
       if (shown.shows(curve.value[k]) && Axis().shows(curve.t[k])) values.add(curve.value[k]);
   if (!panel.bands.empty()) values = with_bands(panel, shown, values);
+  if (panel.equal) values = equal_up(panel, height, figure_width - 4 * right_margin);
   const int most = std::clamp(static_cast<int>(height / 22), 5, 10);
-  return panel.logarithmic ? logarithmic_axis(values, most) : linear_axis(values, 0.1, most);
+  return panel.logarithmic ? logarithmic_axis(values, most) : linear_axis(values, kMarginUp, most);
 }
 
 }  // namespace
@@ -134,11 +169,11 @@ std::string svg(const Figure& figure) {
   double y = figure_margin + (figure.title.empty() ? 0 : title_height);
   for (std::size_t k = 0; k < figure.panels.size(); ++k) {
     const Panel& panel = figure.panels[k];
-    const Axis below = panel.across ? across_axis(panel, box.width) : time;
     const Legend above = legend(panel, box.width);
     text += drawn(above, box.left, y);
     box.top = y + above.height;
     box.height = heights[k];
+    const Axis below = panel.across ? across_axis(panel, values[k], box) : time;
     text += drawn(panel, below, values[k], box);
     if (!panel.across) text += marks(figure.marks, time, box);
     y = box.bottom() + figure_margin;

@@ -48,10 +48,11 @@ struct Panel {
   /// Words instead of numbers at the axis, from the top: value k is in row k.
   std::vector<std::string> rows{};
   /// A plane: t of its curves is another quantity of this name, in any order, with an axis of its
-  /// own. A dot is at the start of each curve, a ring at its end.
+  /// own. A dot is at the start of each joined curve, a ring at its end.
   std::optional<std::string> across{};
   /// Of a plane: at a place in it the rates of both quantities, drawn as arrows behind the curves.
   std::function<std::pair<double, double>(double across, double up)> field{};
+  bool equal = false;  ///< of a plane: a unit is as long on both axes
   bool bars =
       false;  ///< a plane whose curves are outlines of bars: as high as other panels, no ends
 };

@@ -241,8 +241,8 @@ std::string drawn(const Panel& panel, const Axis& time, const Axis& values, cons
     for (std::size_t k = 0; k < traces.size(); ++k)
       text += circles(traces[k].jumps, colour_name(panel.curves[k].colour));
   for (const Curve& curve : panel.curves)
-    text += panel.across && !panel.bars ? end_marks(curve, time, values, box)
-                                        : marks(curve, time, values, box);
+    text += panel.across && !panel.bars && curve.joined ? end_marks(curve, time, values, box)
+                                                        : marks(curve, time, values, box);
   return text;
 }
 

@@ -26,6 +26,10 @@ std::vector<double> features(const StateSpace& system) {
       for (const double w : {std::abs(s), std::abs(s.imag())})
         if (w > 0 && std::isfinite(w)) all.push_back(w);
     }
+  // What rounding has made of a root at 0 is none.
+  constexpr double kNothing = 1e-11;
+  const double most = all.empty() ? 0 : *std::max_element(all.begin(), all.end());
+  std::erase_if(all, [&](double w) { return w < kNothing * most; });
   return all;
 }
 

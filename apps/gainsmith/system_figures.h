@@ -1,0 +1,25 @@
+// The pictures of linear systems that a problem asks for, and the numbers that one reads from them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gainsmith/load.h"
+#include "io/json_text.h"
+
+namespace gainsmith::app {
+
+/// A picture that is made.
+struct SystemResult {
+  std::string name;
+  std::string svg;                 ///< empty: see `missing`
+  std::vector<std::string> facts;  ///< a line each: margins, peaks, what a step does, modes
+  std::string missing;             ///< why there is none: a gain has no value
+  io::Json data;                   ///< the curves and the facts
+};
+
+/// All figures of the design, in its order. InputError at the place of one whose range or matrices
+/// are no numbers of use.
+std::vector<SystemResult> system_results(const LoadedGains& loaded);
+
+}  // namespace gainsmith::app

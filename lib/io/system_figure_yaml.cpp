@@ -1,0 +1,70 @@
+#include "io/system_figure_yaml.h"
+
+#include <array>
+
+#include "base/nearest.h"
+
+namespace gainsmith::io {
+
+namespace {
+
+using model::SystemPicture;
+
+constexpr std::array kKinds = {SystemPicture::bode,    SystemPicture::singular_values,
+                               SystemPicture::nyquist, SystemPicture::step,
+                               SystemPicture::impulse, SystemPicture::poles};
+
+/// A text, a list of them, or texts with labels.
+std::vector<model::SystemFigureText::System> systems(const YamlFile& file, const YamlItem& item) {
+  std::vector<model::SystemFigureText::System> found;
+  const auto add = [&](const YAML::Node& node) {
+    found.push_back({file.string(node, item.key), file.expression(node, item.key)});
+  };
+  if (item.value.IsMap()) {
+    for (const YamlItem& one : items_of(file, item, item.key))
+      found.push_back({one.key, file.expression(one.value, one.key)});
+  } else if (item.value.IsSequence()) {
+    for (const YAML::Node& one : item.value) add(one);
+  } else {
+    add(item.value);
+  }
+  if (found.empty())
+    throw InputError(file.place(item.value),
+                     item.key + ": expected a system, such as tf(1, [1, 2])");
+  return found;
+}
+
+}  // namespace
+
+model::SystemFigureText system_figure(const YamlFile& file, const YamlItem& item) {
+  YamlMap map(file, item.value, "figures: " + item.key, keys::system_figure);
+  model::SystemFigureText figure;
+  figure.name = item.key;
+  figure.place = item.place;
+  std::optional<YamlItem> chosen;
+  for (const SystemPicture kind : kKinds) {
+    const auto found = map.find(to_string(kind));
+    if (!found) continue;
+    if (chosen)
+      throw InputError(found->place, "figures: " + item.key + ": either '" + chosen->key +
+                                         "' or '" + found->key + "': two pictures have two names");
+    chosen = found;
+    figure.kind = kind;
+    figure.systems = systems(file, *found);
+  }
+  const auto over = map.find("over");
+  map.finish();
+  if (!chosen)
+    throw InputError(item.place, "figures: " + item.key +
+                                     ": expected bode, singular values, nyquist, step, impulse or "
+                                     "poles, and a system");
+  if (!over) return figure;
+  if (figure.kind == SystemPicture::poles)
+    throw InputError(over->place, "figures: " + item.key + ": poles have no range");
+  if (!over->value.IsSequence() || over->value.size() != 2)
+    throw InputError(file.place(over->value), "over: expected a range [low, high]");
+  figure.over = {file.expression(over->value[0], "over"), file.expression(over->value[1], "over")};
+  return figure;
+}
+
+}  // namespace gainsmith::io
