@@ -164,8 +164,10 @@ function source = source_of(subject)
     source.text = subject.text;
     source.folder = subject.folder;
   elseif isstruct(subject) || isa(subject, 'containers.Map')
-    [lines, source.keys] = lines_of(subject, '', '', sprintf('\n'));
-    source.text = [lines{:}];
+    [lines, keys] = lines_of(subject, '', '', sprintf('\n'));
+    % Without this line 'verify' and 'simulate' take a text that begins with { for a gain file.
+    source.text = [sprintf('# A struct.\n'), lines{:}];
+    source.keys = [{''}, keys];
   elseif ischar(subject) && any(subject == sprintf('\n'))
     source.text = subject;
   elseif ischar(subject)

@@ -116,7 +116,7 @@ def export(
         source,
     )
     if done.code != 0:
-        raise InputError(done.err.strip())
+        raise _program.error_of(done.err, source)
     return done.out if path is None else None
 
 

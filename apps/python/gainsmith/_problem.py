@@ -13,6 +13,9 @@ from collections.abc import Mapping
 from . import _matrices
 from ._errors import InputError
 
+# Without this line `verify` and `simulate` take a text that begins with { for a gain file.
+HEAD = "# A dict of Python.\n"
+
 
 def plain(value, key=""):
     """value with NumPy's arrays and numbers as lists and numbers.
@@ -36,7 +39,7 @@ def plain(value, key=""):
     if hasattr(value, "toarray"):  # sparse matrices of SciPy
         value = value.toarray()
     if _matrices.numpy is not None and hasattr(value, "__array__"):
-        return _of_array(_matrices.numpy.asarray(value), key)
+        return _of_array(_matrices.numpy.asanyarray(value), key)
     raise InputError(
         f"a {type(value).__name__} is neither a number, a matrix, a text, a list nor a dict",
         key=key,
@@ -44,16 +47,17 @@ def plain(value, key=""):
 
 
 def text_of(problem):
-    """The text of a problem that is a dict."""
+    """The text of a problem, or of a gain file, that is a dict."""
     try:
-        return "".join(line for line, _, _ in _lines(plain(problem), ""))
+        head = "" if "gainsmith" in problem else HEAD
+        return head + "".join(line for line, _, _ in _lines(plain(problem), ""))
     except RecursionError:
         raise InputError("this dict contains itself") from None
 
 
 def place_in(problem, line, column):
     """The key in a line of text_of(problem), and the column in the formula there, or None."""
-    for number, (_, key, formula_from) in enumerate(_lines(plain(problem), ""), 1):
+    for number, (_, key, formula_from) in enumerate(_lines(plain(problem), ""), 2):
         if number == line:
             inside = column - formula_from + 1 if formula_from and column else None
             return key, inside if inside is not None and inside > 0 else None
@@ -123,6 +127,8 @@ def _of_array(array, key):
         raise InputError(
             f"this matrix is empty ({' x '.join(str(size) for size in array.shape)})", key=key
         )
+    if _matrices.numpy.ma.is_masked(array):
+        raise InputError("this matrix has elements that are masked", key=key)
     if array.dtype.kind == "c":
         raise InputError(
             "complex numbers are not allowed; the real and the imaginary part are matrices", key=key

@@ -6,8 +6,9 @@ import inspect
 
 def nearest(word, known):
     """What to say behind an unknown word."""
-    close = difflib.get_close_matches(str(word), list(known), 1, 0.5)
-    return f"did you mean '{close[0]}'?" if close else "known: " + ", ".join(known)
+    names = {name.lower(): name for name in known}
+    close = difflib.get_close_matches(str(word).lower(), list(names), 1, 0.5)
+    return f"did you mean '{names[close[0]]}'?" if close else "known: " + ", ".join(known)
 
 
 def known_options(function):
