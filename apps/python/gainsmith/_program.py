@@ -32,10 +32,11 @@ def find():
             raise ProgramError(f"GAINSMITH={stated}: there is no such program")
         return os.path.abspath(found)
     # PREFIX/lib/python3/dist-packages/gainsmith/_program.py
-    prefix = os.path.abspath(__file__)
-    for _ in range(5):
-        prefix = os.path.dirname(prefix)
-    found = shutil.which(os.path.join(prefix, "bin", "gainsmith")) or shutil.which("gainsmith")
+    parts = os.path.abspath(__file__).split(os.sep)
+    found = None
+    if parts[-3] in ("dist-packages", "site-packages"):
+        found = shutil.which(os.sep.join([*parts[:-5], "bin", "gainsmith"]))
+    found = found or shutil.which("gainsmith")
     if not found:
         raise ProgramError(
             "the program gainsmith was not found: put it on PATH, or its path into the environment "
