@@ -408,6 +408,7 @@ end
 function text = text_json(value)
   value = strrep(strrep(value, '\', '\\'), '"', '\"');
   value = strrep(strrep(value, sprintf('\n'), '\n'), sprintf('\t'), '\t');
+  value = strrep(value, sprintf('\r'), '\r');
   text = ['"', value, '"'];
 end
 

@@ -23,8 +23,16 @@ def stable(matrix):
 class Arrays(unittest.TestCase):
     def test_a_problem_has_arrays_of_any_kind(self):
         gain = gs.synth(spring()).gains["L"]
-        for a in (A, A.tolist(), np.asfortranarray(A), np.matrix(A), list(A), np.array(A, dtype=object),
-                  np.ma.masked_array(A), A.astype(np.longdouble)):
+        for a in (
+            A,
+            A.tolist(),
+            np.asfortranarray(A),
+            np.matrix(A),
+            list(A),
+            np.array(A, dtype=object),
+            np.ma.masked_array(A),
+            A.astype(np.longdouble),
+        ):
             np.testing.assert_array_equal(gs.synth(spring(data={"A": a, "C": C})).gains["L"], gain)
         self.assertEqual(gain.shape, (2, 1))
         self.assertLess(stable(A - gain @ C), -3 + 1e-6)
@@ -38,12 +46,16 @@ class Arrays(unittest.TestCase):
 
     def test_a_column_and_a_row_may_be_flat(self):
         flat = gs.synth({"problem": "p", "method": "lqr", "data": {"A": A, "B": np.array([0, 1])}})
-        column = gs.synth({"problem": "p", "method": "lqr", "data": {"A": A, "B": np.array([[0], [1]])}})
+        column = gs.synth(
+            {"problem": "p", "method": "lqr", "data": {"A": A, "B": np.array([[0], [1]])}}
+        )
         np.testing.assert_array_equal(flat.gains["K"], column.gains["K"])
 
     def test_an_array_of_three_dimensions_is_a_family(self):
         vertices = np.array([[[-1, 0.5], [0, -2]], [[-1, 0], [0.5, -2]]])
-        design = gs.synth({"problem": "p", "method": "quadratic-stability", "data": {"A": vertices}})
+        design = gs.synth(
+            {"problem": "p", "method": "quadratic-stability", "data": {"A": vertices}}
+        )
         self.assertEqual(design.verdict, "yes")
         P = design.unknowns["P"]
         for vertex in vertices:
@@ -52,17 +64,25 @@ class Arrays(unittest.TestCase):
     def test_what_is_not_finite_has_its_place(self):
         wrong = A.copy()
         wrong[1, 0] = np.nan
-        for value, key in ((wrong, "data.A(2, 1)"), (np.array([A, wrong]), "data.A(2, 2, 1)"),
-                           (np.array([0, np.inf]), "data.A(2)"), (np.float64("nan"), "data.A")):
+        for value, key in (
+            (wrong, "data.A(2, 1)"),
+            (np.array([A, wrong]), "data.A(2, 2, 1)"),
+            (np.array([0, np.inf]), "data.A(2)"),
+            (np.float64("nan"), "data.A"),
+        ):
             with self.assertRaises(gs.InputError) as caught:
                 gs.synth(spring(data={"A": value, "C": C}))
             self.assertEqual(caught.exception.key, key)
             self.assertIn("a number must be finite", caught.exception.message)
 
     def test_what_is_no_matrix(self):
-        for value, message in ((np.zeros((2, 0)), r"empty \(2 x 0\)"), (np.zeros(0), r"empty \(0\)"),
-                               (A + 1j, "complex"), (np.array(["2020"], dtype="datetime64"), "a date is neither"),
-                               (np.ma.masked_equal(A, 1), "masked")):
+        for value, message in (
+            (np.zeros((2, 0)), r"empty \(2 x 0\)"),
+            (np.zeros(0), r"empty \(0\)"),
+            (A + 1j, "complex"),
+            (np.array(["2020"], dtype="datetime64"), "a date is neither"),
+            (np.ma.masked_equal(A, 1), "masked"),
+        ):
             with self.assertRaisesRegex(gs.InputError, message) as caught:
                 gs.synth(spring(data={"A": value, "C": C}))
             self.assertRegex(caught.exception.key, r"^data\.A")
@@ -87,8 +107,10 @@ class Results(unittest.TestCase):
         design = gs.synth({"problem": "p", "method": "lqr", "data": {"A": A, "B": [[0], [1]]}})
         K = design["K"]
         self.assertEqual(K.shape, (1, 2))
-        X = np.linalg.solve(np.kron(np.eye(2), (A + [[0], [1]] @ K).T) + np.kron((A + [[0], [1]] @ K).T, np.eye(2)),
-                            -(np.eye(2) + K.T @ K).ravel()).reshape(2, 2)
+        X = np.linalg.solve(
+            np.kron(np.eye(2), (A + [[0], [1]] @ K).T) + np.kron((A + [[0], [1]] @ K).T, np.eye(2)),
+            -(np.eye(2) + K.T @ K).ravel(),
+        ).reshape(2, 2)
         self.assertAlmostEqual(np.trace(X), design.objective, places=5)  # the cost over all starts
 
     def test_a_run_has_arrays(self):
@@ -99,7 +121,9 @@ class Results(unittest.TestCase):
         self.assertTrue((np.diff(run.t) >= 0).all())
         exact = A - gs.synth(spring()).gains["L"] @ C
         values, vectors = np.linalg.eig(exact)
-        at_end = (vectors @ np.diag(np.exp(values * run.t[-1])) @ np.linalg.inv(vectors) @ run["e"][0]).real
+        at_end = (
+            vectors @ np.diag(np.exp(values * run.t[-1])) @ np.linalg.inv(vectors) @ run["e"][0]
+        ).real
         np.testing.assert_allclose(run["e"][-1], at_end, atol=1e-8)
 
     def test_a_scan_over_evenly_spaced_values(self):

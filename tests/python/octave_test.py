@@ -17,7 +17,13 @@ if not OCTAVE:
 
 
 def octave(*arguments, folder=None):
-    return subprocess.run([OCTAVE, "--no-init-file", *arguments], capture_output=True, text=True, check=False, cwd=folder)
+    return subprocess.run(
+        [OCTAVE, "--no-init-file", *arguments],
+        capture_output=True,
+        text=True,
+        check=False,
+        cwd=folder,
+    )
 
 
 class Octave(unittest.TestCase):
@@ -28,11 +34,14 @@ class Octave(unittest.TestCase):
 
     def test_the_example_of_the_page(self):
         with open(os.path.join(TREE, "docs/python.md"), encoding="utf-8") as file:
-            example, = re.findall(r"```matlab\n(.*?)```", file.read(), re.S)
+            (example,) = re.findall(r"```matlab\n(.*?)```", file.read(), re.S)
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "example.m")
             with open(path, "w", encoding="utf-8") as file:
-                file.write(f"addpath('{TREE}/apps/matlab')\n" + example.replace("plot(run.t, [", "disp([run.t, "))
+                file.write(
+                    f"addpath('{TREE}/apps/matlab')\n"
+                    + example.replace("plot(run.t, [", "disp([run.t, ")
+                )
             done = octave(path)
         for line in re.findall(r"% prints (.*)", example):
             self.assertIn(line, done.stdout, done.stderr)
@@ -40,10 +49,18 @@ class Octave(unittest.TestCase):
 
     def test_temporary_files_are_removed(self):
         with tempfile.TemporaryDirectory() as folder:
-            code = (f"addpath('{TREE}/apps/matlab'); try, gainsmith('synth', struct('problem', 'a')), catch e, end; "
-                    "gainsmith('solve', sprintf('1\\n1\\n1\\n1\\n1 1 1 1 1\\n'));")
-            done = subprocess.run([OCTAVE, "--no-init-file", "--eval", code], env={**os.environ, "TMPDIR": folder},
-                                  capture_output=True, text=True, check=False)
+            code = (
+                f"addpath('{TREE}/apps/matlab'); "
+                "try, gainsmith('synth', struct('problem', 'a')), catch e, end; "
+                "gainsmith('solve', sprintf('1\\n1\\n1\\n1\\n1 1 1 1 1\\n'));"
+            )
+            done = subprocess.run(
+                [OCTAVE, "--no-init-file", "--eval", code],
+                env={**os.environ, "TMPDIR": folder},
+                capture_output=True,
+                text=True,
+                check=False,
+            )
             self.assertEqual((done.returncode, os.listdir(folder)), (0, []), done.stderr)
 
 

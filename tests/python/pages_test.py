@@ -1,4 +1,4 @@
-"""docs/coming-from.md: the number in bold of each problem is what gainsmith gives, and what NumPy gives without it.
+"""docs/coming-from.md: the number in bold of each problem is that of gainsmith, and of NumPy alone.
 
     pages_test.py TREE GAINSMITH
 
@@ -29,14 +29,18 @@ def problem_of(number):
 
 def printed_by(number):
     """The variables of the Python of gainsmith in a section, once it ran."""
-    code = next(block for block in re.findall(r"```python\n(.*?)```", section(number), re.S) if "import gainsmith" in block)
+    code = next(
+        block
+        for block in re.findall(r"```python\n(.*?)```", section(number), re.S)
+        if "import gainsmith" in block
+    )
     names = {"print": lambda *_: None}
     exec(code, names)  # pylint: disable=exec-used
     return names
 
 
 def riccati(A, B, Q, R):
-    """The stabilising X of A'X + XA - X B inv(R) B'X + Q = 0, from the stable eigenvectors of the Hamiltonian matrix."""
+    """X of A'X + XA - X B inv(R) B'X + Q = 0, from the stable eigenvectors of the Hamiltonian."""
     n = len(A)
     values, vectors = np.linalg.eig(np.block([[A, -B @ np.linalg.inv(R) @ B.T], [-Q, -A.T]]))
     stable = vectors[:, values.real < 0]
@@ -55,25 +59,37 @@ def rate(P, vertices):
 
 class ComingFrom(unittest.TestCase):
     def both_give(self, number, ours, theirs, tolerance=1e-6):
-        shown, = re.findall(r"\*\*([\d.]+)\*\*", section(number))
+        (shown,) = re.findall(r"\*\*([\d.]+)\*\*", section(number))
         digits = 10.0 ** -len(shown.partition(".")[2])
         for value in (ours, theirs):
-            self.assertAlmostEqual(value, float(shown), delta=0.51 * digits + tolerance, msg=section(number)[:40])
+            self.assertAlmostEqual(
+                value, float(shown), delta=0.51 * digits + tolerance, msg=section(number)[:40]
+            )
 
     def test_eight_problems(self):
-        self.assertEqual([text[:2] for text in SECTIONS if text[0].isdigit()], [f"{i}." for i in range(1, 9)])
+        self.assertEqual(
+            [text[:2] for text in SECTIONS if text[0].isdigit()], [f"{i}." for i in range(1, 9)]
+        )
 
     def test_lyapunov(self):
         A = np.array([[0, 1], [-2, -3]])
-        P = np.linalg.solve(np.kron(np.eye(2), A.T) + np.kron(A.T, np.eye(2)), -np.eye(2).ravel()).reshape(2, 2)
+        P = np.linalg.solve(
+            np.kron(np.eye(2), A.T) + np.kron(A.T, np.eye(2)), -np.eye(2).ravel()
+        ).reshape(2, 2)
         self.both_give(1, gs.synth(problem_of(1)).objective, np.trace(P))
 
     def test_polytope(self):
         vertices = [np.array([[-1, -1], [1, -1]]), np.array([[-1, -4], [0.25, -1]])]
         best, width = np.array([0.0, 0.0]), 2.0  # P = [1, b; b, b^2 + exp(c)], up to a factor
         for _ in range(40):
-            grid = [best + width * np.array([x, y]) for x in np.linspace(-1, 1, 9) for y in np.linspace(-1, 1, 9)]
-            best = max(grid, key=lambda p: rate(symmetric([1, p[0], p[0] ** 2 + np.exp(p[1])]), vertices))
+            grid = [
+                best + width * np.array([x, y])
+                for x in np.linspace(-1, 1, 9)
+                for y in np.linspace(-1, 1, 9)
+            ]
+            best = max(
+                grid, key=lambda p: rate(symmetric([1, p[0], p[0] ** 2 + np.exp(p[1])]), vertices)
+            )
             width *= 0.7
         largest = rate(symmetric([1, best[0], best[0] ** 2 + np.exp(best[1])]), vertices)
         found = gs.bisect(problem_of(2), largest={"alpha": (0, 1)})
@@ -82,7 +98,9 @@ class ComingFrom(unittest.TestCase):
 
     def test_hinf_norm(self):
         s = 1j * np.linspace(0.9, 1.1, 200001)
-        self.both_give(3, gs.synth(problem_of(3)).objective, np.abs(1 / (s**2 + 0.2 * s + 1)).max())
+        self.both_give(
+            3, gs.synth(problem_of(3)).objective, np.abs(1 / (s**2 + 0.2 * s + 1)).max()
+        )
 
     def test_h2_state_feedback(self):
         A, B = np.array([[0, 1], [0, 0]]), np.array([[0], [1]])
@@ -105,7 +123,7 @@ class ComingFrom(unittest.TestCase):
         np.testing.assert_allclose(names["design"]["L"], P @ C.T, atol=1e-3)
 
     def test_dwell_time(self):
-        """The P of gainsmith solve the inequalities in NumPy; just below, its multipliers show in NumPy that none does."""
+        """NumPy checks the P of gainsmith, and just below the multipliers that exclude all P."""
         found = gs.bisect(problem_of(7), smallest={"T": (1, 5)}, tolerance=1e-5)
         A = [np.array([[0, 1], [-10, -1]]), np.array([[0, 1], [-0.1, -0.5]])]
         P = [found["P_1"], found["P_2"]]
@@ -114,17 +132,27 @@ class ComingFrom(unittest.TestCase):
             for matrix in (P[i], -(P[i] @ A[i] + A[i].T @ P[i]), P[i] - E.T @ P[1 - i] @ E):
                 self.assertGreater(np.linalg.eigvalsh(matrix).min(), 0)
         below = found.search["beyond"]
-        Y = {name: np.array(value) for name, value in found.search["certificate"]["multipliers"].items()}
+        Y = {
+            name: np.array(value)
+            for name, value in found.search["certificate"]["multipliers"].items()
+        }
         E = [self.exponential(a * below) for a in A]
         basis = [np.array(b) for b in ([[1, 0], [0, 0]], [[0, 1], [1, 0]], [[0, 0], [0, 1]])]
         for i, j in ((0, 1), (1, 0)):
+
             def inner(name, matrix):
                 return np.sum(Y[name] * matrix)
+
             for b in basis:  # the sum of all inequalities, each with its multiplier, has no P_i
-                total = (inner(f"positive at i = {i + 1}", b) - inner(f"flow at i = {i + 1}", b @ A[i] + A[i].T @ b)
-                         + inner(f"switch at i = {i + 1}, j = {j + 1}", b)
-                         - inner(f"switch at i = {j + 1}, j = {i + 1}", E[j].T @ b @ E[j]))
-                self.assertAlmostEqual(total, 0, delta=1e-6 * max(abs(value).max() for value in Y.values()))
+                total = (
+                    inner(f"positive at i = {i + 1}", b)
+                    - inner(f"flow at i = {i + 1}", b @ A[i] + A[i].T @ b)
+                    + inner(f"switch at i = {i + 1}, j = {j + 1}", b)
+                    - inner(f"switch at i = {j + 1}, j = {i + 1}", E[j].T @ b @ E[j])
+                )
+                self.assertAlmostEqual(
+                    total, 0, delta=1e-6 * max(abs(value).max() for value in Y.values())
+                )
         for value in Y.values():
             self.assertGreater(np.linalg.eigvalsh(value).min(), 0)
         self.both_give(7, found.search["value"], below, 1e-5)
@@ -135,7 +163,7 @@ class ComingFrom(unittest.TestCase):
         return (vectors @ np.diag(np.exp(values)) @ np.linalg.inv(vectors)).real
 
     def test_pentagon(self):
-        """The Lovász number of a graph whose edges are all alike: -n least/(largest - least), of the eigenvalues."""
+        """Of a graph whose edges are all alike: -n least/(largest - least), of the eigenvalues."""
         adjacent = np.roll(np.eye(5), 1, axis=0) + np.roll(np.eye(5), -1, axis=0)
         values = np.linalg.eigvalsh(adjacent)
         solution = printed_by(8)["solution"]

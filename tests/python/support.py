@@ -40,12 +40,19 @@ def with_numpy():
     """Goes on in an interpreter that has NumPy, or skips."""
     try:
         import numpy  # noqa: F401
+
         return
     except ImportError:
         pass
     debian = "/usr/bin/python3"
-    has = os.path.exists(debian) and subprocess.run([debian, "-c", "import numpy"], capture_output=True, check=False)
-    if not has or has.returncode != 0 or os.path.realpath(debian) == os.path.realpath(sys.executable):
+    has = os.path.exists(debian) and subprocess.run(
+        [debian, "-c", "import numpy"], capture_output=True, check=False
+    )
+    if (
+        not has
+        or has.returncode != 0
+        or os.path.realpath(debian) == os.path.realpath(sys.executable)
+    ):
         skip("python3-numpy is not installed")
     os.execv(debian, [debian, "-B", *sys.argv])
 

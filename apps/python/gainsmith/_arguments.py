@@ -1,6 +1,7 @@
 """Options of functions as words of a command line."""
 
 import os
+from collections.abc import Mapping
 
 from . import _problem
 from ._errors import InputError
@@ -23,7 +24,7 @@ def of_set(values):
     """--set NAME=VALUE for each name."""
     return [
         word
-        for name, value in (values or {}).items()
+        for name, value in _pairs("set", values or {})
         for word in ("--set", f"{name}={_problem.one_line(value, f'set.{name}')}")
     ]
 
@@ -41,15 +42,23 @@ def number(value):
 
 
 def ranges(wanted):
-    return (
-        None
-        if wanted is None
-        else [f"{name}={number(low)}:{number(high)}" for name, (low, high) in wanted.items()]
-    )
+    """NAME=LOW:HIGH of {name: (low, high)}."""
+    if wanted is None:
+        return None
+    return [
+        f"{name}={number(low)}:{number(high)}" for name, (low, high) in _pairs("a range", wanted)
+    ]
 
 
 def grid(over):
-    return [f"{name}={_values(name, values)}" for name, values in over.items()]
+    """NAME=LOW:HIGH:COUNT of the points of a scan."""
+    return [f"{name}={_values(name, values)}" for name, values in _pairs("over", over)]
+
+
+def _pairs(option, values):
+    if not isinstance(values, Mapping):
+        raise TypeError(f"{option} is a dict of names and values, not {values!r}")
+    return values.items()
 
 
 def _values(name, values):

@@ -72,25 +72,20 @@ def report(
     path      where to write the page
     campaign  what verify said of the design
     """
-    if not isinstance(results, Design):
-        source = _sources.gains_source(results)
-        page = _program.run(["report", source.argument, *_arguments.flags(time=time)], source).out
-    else:
-        with tempfile.TemporaryDirectory(prefix="gainsmith-") as folder:
-            results.save(os.path.join(folder, "gains.json"))
-            if campaign is not None:
-                with open(os.path.join(folder, "campaign.json"), "w", encoding="utf-8") as file:
-                    json.dump(campaign.file, file)
-            page = _program.run(
-                [
-                    "report",
-                    folder if campaign is not None else os.path.join(folder, "gains.json"),
-                    *_arguments.flags(time=time),
-                ]
-            ).out
+    source = _sources.gains_source(results)
+    with tempfile.TemporaryDirectory(prefix="gainsmith-") as folder:
+        where = source.argument
+        if source.text is not None:  # `report` does not read standard input
+            where = os.path.join(folder, "gains.json")
+            _results.write(where, source.text)
+        if campaign is not None:
+            if source.text is None:
+                _results.write(os.path.join(folder, "gains.json"), _results.read(where))
+            _results.write(os.path.join(folder, "campaign.json"), json.dumps(campaign.file))
+            where = folder
+        page = _program.run(["report", where, *_arguments.flags(time=time)]).out
     if path is not None:
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(page)
+        _results.write(path, page)
     return page
 
 

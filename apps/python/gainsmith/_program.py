@@ -59,7 +59,9 @@ def run(arguments, source=None):
             stdin=subprocess.PIPE if text is not None else subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
-            cwd=source.folder if source and source.folder else None,
+            cwd=source.folder
+            if source and source.folder and os.path.isdir(source.folder)
+            else None,
         )
     except OSError as error:
         if error.errno == errno.E2BIG:

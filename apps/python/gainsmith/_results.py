@@ -1,7 +1,6 @@
 """Results of commands: a design with its gains, a campaign, and records of the rest."""
 import html
 import json
-import os
 from typing import Any, Dict, List, Optional, Union
 
 from . import _matrices
@@ -182,8 +181,7 @@ class Design:
 
     def save(self, path) -> None:
         """Writes the gain file, for every command of the program."""
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(self.text)
+        write(path, self.text)
 
     def verify(self, **options):
         """verify(self, ...)"""
@@ -262,9 +260,14 @@ def in_frame(page: str) -> str:
     )
 
 
-def read(path: str) -> str:
-    with open(os.path.expanduser(path), encoding="utf-8") as file:
+def read(path) -> str:
+    with open(path, encoding="utf-8") as file:
         return file.read()
+
+
+def write(path, text: str) -> None:
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text)
 
 
 def _commands():
