@@ -79,6 +79,24 @@ class Problems(unittest.TestCase):
             self.assertEqual(design.gains, gs.synth(spring()).gains)
             self.assertEqual(design.verify(runs=20).verdict, "held")
 
+    def test_a_log_is_beside_the_file(self):
+        with tempfile.TemporaryDirectory() as folder:
+            with open(os.path.join(folder, "log.csv"), "w", encoding="utf-8") as file:
+                file.write("t,y\n0,1\n0.5,3\n1,2\n")
+            path = os.path.join(folder, "filter.yaml")
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(
+                    "problem: filter\nmethod:\n  like: kalman\n  noise: none\n  signals: none\n"
+                    "  claims: none\n"
+                    "  plant: {state: none, flow: none, log: log.csv, output: {y: y}}\n"
+                    "data: {A: [[0, 1], [0, -2]], C: [[1, 0]]}\ncampaign: {initial: {xh: 0}}\n"
+                )
+            design = gs.synth(path)
+            run = design.simulate()
+            self.assertEqual((run["y"][0], run["y"][-1], run.t[-1]), (1, 3, 1))  # held
+            design.save(os.path.join(folder, "gains.json"))
+            self.assertEqual(gs.load(os.path.join(folder, "gains.json")).simulate()["y"], run["y"])
+
     def test_a_large_matrix(self):
         n = 200
         method = {"data": {"A": "n x n"}, "report": {"t": "trace(A)"}}

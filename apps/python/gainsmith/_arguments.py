@@ -36,8 +36,6 @@ def full(path):
 
 def number(value):
     value = _problem.plain(value)
-    if isinstance(value, float) and value.is_integer() and abs(value) < 1e15:
-        value = int(value)  # runs=1e6 is a whole number
     return str(value)
 
 
