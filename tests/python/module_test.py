@@ -10,6 +10,7 @@ import inspect
 import json
 import os
 import pickle
+import re
 import signal
 import subprocess
 import sys
@@ -365,6 +366,16 @@ class Results(unittest.TestCase):
         with self.assertRaisesRegex(AttributeError, "did you mean 'runs'"):
             held.rnus
 
+    def test_runs_by_probability_and_kept(self):
+        design = gs.synth(spring())
+        # 0.9^n <= 0.1 from n = 22 on.
+        self.assertEqual(design.verify(probability=0.1, confidence=0.9).runs, 22)
+        with tempfile.TemporaryDirectory() as folder:
+            kept = os.path.join(folder, "kept")
+            first = design.verify(runs=64, resume=kept)
+            self.assertTrue(os.listdir(kept))
+            self.assertEqual(design.verify(runs=64, resume=kept).claims, first.claims)
+
     def test_a_violated_claim(self):
         claim = {"small": {"below": "norm(x)", "bound": 0.5}}
         free = {
@@ -502,6 +513,24 @@ class Results(unittest.TestCase):
             for j, value in enumerate(row):
                 self.assertAlmostEqual(solution.X[0][i][j], value, places=6)
         self.assertEqual([round(value, 6) for value in solution.x], [1, 1])
+
+    def test_the_semidefinite_program_of_a_problem(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "spring.dat-s")
+            design = gs.synth(spring(), sdpa=path)
+            with open(path, encoding="utf-8") as file:
+                factor = float(re.search(r"\(c'x\)/([\d.e+-]+)", file.read())[1].rstrip("."))
+            solution = gs.solve(path)
+        optimum = solution.primal_objective / factor
+        self.assertAlmostEqual(optimum, design.objective, delta=1e-4 * design.objective)
+
+    def test_infeasible_programs(self):
+        # x >= 1 and x <= 0.
+        solution = gs.solve("1\n1\n-2\n0\n0 1 1 1 1\n1 1 1 1 1\n1 1 2 2 -1\n")
+        self.assertEqual(solution.status, "primal-infeasible")
+        # Minimise x with x >= 1, x >= -2: the block is diagonal.
+        diagonal = gs.solve("1\n1\n-2\n1\n0 1 1 1 1\n0 1 2 2 -2\n1 1 1 1 1\n1 1 2 2 1\n")
+        self.assertEqual([round(value, 6) for value in diagonal.X[0]], [0, 3])
 
     def test_every_function_is_explained(self):
         for name in gs.__all__:

@@ -37,6 +37,14 @@ class Arrays(unittest.TestCase):
         self.assertEqual(gain.shape, (2, 1))
         self.assertLess(stable(A - gain @ C), -3 + 1e-6)
 
+    def test_a_sparse_matrix(self):
+        class Sparse:  # as those of SciPy
+            def toarray(self):
+                return A
+
+        design = gs.synth(spring(data={"A": Sparse(), "C": C}))
+        np.testing.assert_array_equal(design.gains["L"], gs.synth(spring()).gains["L"])
+
     def test_numbers_of_numpy(self):
         for alpha in (np.float64(3), np.int32(3), np.array(3), np.array(3.0), np.float32(3)):
             self.assertEqual(gs.synth(spring(parameters={"alpha": alpha}))["alpha"], 3)

@@ -92,6 +92,9 @@ check(~isempty(strfind(gainsmith('export', d, 'to', 'matlab'), 'function')), 'ex
 sdp = gainsmith('solve', sprintf('2\n1\n2\n1 1\n0 1 1 2 -1\n1 1 1 1 1\n2 1 2 2 1\n'));
 check(strcmp(sdp.status, 'optimal') && norm(sdp.X{1} - ones(2)) < 1e-6, 'solve');
 
+diagonal = gainsmith('solve', sprintf('1\n1\n-2\n1\n0 1 1 1 1\n0 1 2 2 -2\n1 1 1 1 1\n1 1 2 2 1\n'));
+check(norm(diagonal.X{1}(:) - [0; 3]) < 1e-6, 'a diagonal block');
+
 % Errors with their places.
 wrong = p;
 wrong.data.A = [0, NaN; 1, 2];

@@ -15,6 +15,11 @@ def matrix(value):
     return numpy.array(rows, dtype=float).reshape(len(rows), -1 if rows else 0)
 
 
+def block(value):
+    """A block of a semidefinite program: a matrix, or the diagonal (n,) of a diagonal one."""
+    return matrix(value) if value and isinstance(value[0], list) else column(value)
+
+
 def matrices(values):
     """The same of a mapping of names."""
     return {name: matrix(value) for name, value in values.items()}

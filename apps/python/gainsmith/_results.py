@@ -84,14 +84,15 @@ class Solution(Record):
 
     status: 'optimal', 'primal-infeasible', 'dual-infeasible' or 'undecided'
     primal_objective, dual_objective, dimacs_errors, ...: docs/gain-file.md
-    x: the unknowns (m,); X, Y: list of the blocks of the primal and the dual matrix
+    x: the unknowns (m,)
+    X, Y: list of the blocks of the primal and the dual matrix; of a diagonal block its diagonal
     """
 
     def __init__(self, file: dict, point: dict):
         super().__init__(file, f"{file['status']}, objective {file.get('primal_objective')}")
         self.x = _matrices.column(point.get("x", []))
-        self.X = [_matrices.matrix(block) for block in point.get("X", [])]
-        self.Y = [_matrices.matrix(block) for block in point.get("Y", [])]
+        self.X = [_matrices.block(each) for each in point.get("X", [])]
+        self.Y = [_matrices.block(each) for each in point.get("Y", [])]
 
 
 class GainFunction:
