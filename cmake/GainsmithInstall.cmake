@@ -55,6 +55,10 @@ install(DIRECTORY scripts/certify DESTINATION "${share}/scripts" COMPONENT progr
 install(FILES README.md CHANGELOG.md CONTRIBUTING.md LICENSE DESTINATION "${share}" COMPONENT program)
 install(FILES "${made}/problem.schema.json" "${made}/method.schema.json" "${made}/gains.schema.json" DESTINATION "${share}/schemas"
         COMPONENT program)
+# Where Debian's Python and Octave look, below the prefix /usr.
+install(DIRECTORY apps/python/gainsmith DESTINATION lib/python3/dist-packages COMPONENT program FILES_MATCHING PATTERN "*.py"
+        PATTERN "__pycache__" EXCLUDE)
+install(FILES apps/matlab/gainsmith.m DESTINATION "${CMAKE_INSTALL_DATADIR}/octave/site/m" COMPONENT program)
 install(FILES cmake/copyright DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT program)
 
 set(package "${CMAKE_INSTALL_LIBDIR}/cmake/gainsmith")
@@ -117,6 +121,8 @@ gains from the text of a problem, gain files.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME gainsmith)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "${nlopt_package}, ${ipopt_package}")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "python3, python3-yaml, python3-numpy, octave")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_CONTROL_EXTRA "${PROJECT_SOURCE_DIR}/cmake/prerm")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME gainsmith-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "cmake, g++, make, pkg-config, libyaml-cpp-dev, libmpfr-dev, nettle-dev, zlib1g-dev")

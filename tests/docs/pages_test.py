@@ -54,14 +54,14 @@ def check(text):
 
 
 def transcripts(page):
-    """What a page shows of a shell, as pairs of a command and the lines that it prints, and the files that it shows: problems, and C with
-    its name in the first line."""
+    """What a page shows of a shell, as pairs of a command and the lines that it prints, and the files that it shows: problems, and C and
+    Python with their names in the first line."""
     problems = {}
     found = []
-    for fenced, indented in re.findall(r"```(?:yaml|c)\n(.*?)```|((?:^    [^\n]*\n)+)", read(page), re.M | re.S):
+    for fenced, indented in re.findall(r"```(?:yaml|c|python)\n(.*?)```|((?:^    [^\n]*\n)+)", read(page), re.M | re.S):
         if fenced.startswith("problem:"):
             problems[fenced.splitlines()[0].split()[-1].split("/")[-1] + ".yaml"] = fenced
-        elif fenced.startswith("/* "):
+        elif fenced.startswith("/* ") or re.match(r"# \w+\.py\n", fenced):
             problems[fenced.split()[1]] = fenced
         lines = [line[4:].rstrip() for line in indented.splitlines()]
         for line in lines if indented.startswith("    $ ") else []:
@@ -70,6 +70,14 @@ def transcripts(page):
             else:
                 found[-1][1].append(line)
     return problems, found
+
+
+def python_with_numpy():
+    """An interpreter that has NumPy, which the examples in Python use."""
+    for interpreter in (sys.executable, "/usr/bin/python3"):
+        if subprocess.run([interpreter, "-c", "import numpy"], capture_output=True, check=False).returncode == 0:
+            return interpreter
+    raise AssertionError("python3-numpy is not installed")
 
 
 def prints(shown, printed):
@@ -151,8 +159,14 @@ class OfCommands:
                     with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
                         file.write(text)
                 path = os.path.dirname(os.path.abspath(PROGRAM)) + os.pathsep + os.environ["PATH"]
+                if any(command.startswith("python3 ") for command, _ in found):
+                    os.makedirs(os.path.join(folder, "bin"))
+                    os.symlink(python_with_numpy(), os.path.join(folder, "bin", "python3"))
+                    path = os.path.join(folder, "bin") + os.pathsep + path
+                environment = {**os.environ, "PATH": path, "PYTHONPATH": os.path.abspath(os.path.join(TREE, "apps", "python")),
+                               "PYTHONDONTWRITEBYTECODE": "1", "GAINSMITH": os.path.abspath(PROGRAM)}
                 for command, shown in found:
-                    printed = subprocess.run(["bash", "-c", command + " 2>&1"], cwd=folder, env={**os.environ, "PATH": path},
+                    printed = subprocess.run(["bash", "-c", command + " 2>&1"], cwd=folder, env=environment,
                                              capture_output=True, text=True, check=False).stdout
                     printed = "\n".join(line.rstrip() for line in printed.strip("\n").splitlines())
                     self.assertTrue(prints(shown, printed), f"{page}: {command}\n{printed}")

@@ -85,6 +85,9 @@ class Program(OfPackages, unittest.TestCase):
         share = "/usr/share/gainsmith"
         commands = ["gainsmith --version", f"test -s /usr/share/man/man1/gainsmith.1.gz && test -s {share}/LICENSE",
                     f"cd /srv && gainsmith run {share}/problems/ferrante-seuret-2021/t2-0.70.yaml -o /srv/results",
+                    f"python3 -c \"import gainsmith; print(gainsmith.synth(\\\"{share}/problems/designs/lqr.yaml\\\"))\"",
+                    # As it is where root used the module; the package removes it again.
+                    "python3 -m compileall -q /usr/lib/python3/dist-packages/gainsmith",
                     f"GAINSMITH_TEST_PAGES=README.md python3 /srv/pages_test.py {share} /usr/bin/gainsmith Commands"]
         self.try_in_clean_debian("gainsmith", ["tests/docs/pages_test.py"], commands)
 

@@ -6,6 +6,7 @@ import json
 import os
 import re
 import shutil
+import sys
 import tempfile
 import unittest
 
@@ -47,7 +48,8 @@ class Tree(unittest.TestCase):
                      "share/zsh/site-functions/_gainsmith", "share/fish/vendor_completions.d/gainsmith.fish",
                      "share/gainsmith/README.md", "share/gainsmith/LICENSE", "share/gainsmith/docs/tutorial.md",
                      "share/gainsmith/schemas/problem.schema.json", "share/doc/gainsmith/copyright",
-                     "include/gainsmith/gainsmith.h"):
+                     "include/gainsmith/gainsmith.h",
+                     "lib/python3/dist-packages/gainsmith/__init__.py", "share/octave/site/m/gainsmith.m"):
             self.assertIn(path, there)
         problems = {path for path in below(os.path.join(TREE, "problems"))}
         self.assertEqual(problems, below(os.path.join(self.prefix, "share/gainsmith/problems")))
@@ -61,6 +63,17 @@ class Tree(unittest.TestCase):
             text = re.sub(r"`[^`\n]*`", "", self.read(os.path.join("share/gainsmith", page)))
             for target in re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", text):
                 self.assertTrue(os.path.exists(os.path.join(share, os.path.dirname(page), target)), f"{page}: {target}")
+
+    def test_the_modules_of_python_and_octave_find_the_program(self):
+        environment = {name: value for name, value in os.environ.items() if name != "GAINSMITH"}
+        environment.update(PATH="/usr/bin:/bin", PYTHONPATH=os.path.join(self.prefix, "lib/python3/dist-packages"))
+        problem = os.path.join(self.prefix, "share/gainsmith/problems/designs/lqr.yaml")
+        code = "import sys, gainsmith; print(gainsmith.synth(sys.argv[1]).verdict)"
+        self.assertEqual(run(sys.executable, "-B", "-c", code, problem, env=environment).stdout, "yes\n")
+        if not has("octave-cli"):
+            self.skipTest("octave is not installed")
+        code = f"addpath('{self.prefix}/share/octave/site/m'); disp(gainsmith('synth', '{problem}').verdict)"
+        self.assertEqual(run("octave-cli", "--no-init-file", "--eval", code, env=environment).stdout, "yes\n")
 
     def test_problems_run_from_there(self):
         problem = os.path.join(self.prefix, "share/gainsmith/problems/ferrante-seuret-2021/t2-0.70.yaml")
