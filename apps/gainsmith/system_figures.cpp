@@ -133,7 +133,7 @@ void add_margins(const DrawnSystem& drawn, std::vector<std::string>& facts, io::
 void add_peak(const DrawnSystem& drawn, std::vector<std::string>& facts, io::Json& json) {
   const response::Peak& of = *drawn.peak;
   std::string text = drawn.label + ": largest gain " + brief(of.value) + at_frequency(of.frequency);
-  const auto number = [](const std::optional<double>& value) {
+  const auto end = [](const std::optional<double>& value) {
     return value ? io::Json(*value) : io::Json();
   };
   if (of.low && of.high)
@@ -143,8 +143,8 @@ void add_peak(const DrawnSystem& drawn, std::vector<std::string>& facts, io::Jso
   facts.push_back(text);
   json["peak"] = {{"value", of.value},
                   {"frequency", std::isfinite(of.frequency) ? io::Json(of.frequency) : io::Json()},
-                  {"low", number(of.low)},
-                  {"high", number(of.high)}};
+                  {"low", end(of.low)},
+                  {"high", end(of.high)}};
 }
 
 void add_step(const DrawnSystem& drawn, std::vector<std::string>& facts, io::Json& json) {
@@ -153,6 +153,16 @@ void add_step(const DrawnSystem& drawn, std::vector<std::string>& facts, io::Jso
     return;
   }
   const response::StepFacts of = response::step_facts(drawn.system, drawn.time.front());
+  constexpr double kNothing = 1e-9;
+  Eigen::Index at = 0;
+  const double most = drawn.time.front().y.row(0).cwiseAbs().maxCoeff(&at);
+  if (std::abs(of.final_value) <= kNothing * most) {
+    const double t = drawn.time.front().t[static_cast<std::size_t>(at)];
+    facts.push_back(
+        fmt::format("{}: ends at 0, largest size {} at {}", drawn.label, brief(most), brief(t)));
+    json["step"] = {{"final_value", 0.0}, {"largest", most}, {"at", t}};
+    return;
+  }
   facts.push_back(fmt::format("{}: ends at {}, overshoot {} %, rises in {}, settles to 2 % at {}",
                               drawn.label, brief(of.final_value), brief(100 * of.overshoot),
                               brief(of.rise), brief(of.settling)));
@@ -174,11 +184,14 @@ void add_modes(const DrawnSystem& drawn, const response::Matrix& roots, const ch
   }
 }
 
+/// null for what is not finite.
+io::Json number(double value) { return std::isfinite(value) ? io::Json(value) : io::Json(); }
+
 io::Json rows_of(const response::Matrix& matrix) {
   io::Json rows = io::Json::array();
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
     io::Json row = io::Json::array();
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j) row.push_back(matrix(i, j));
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j) row.push_back(number(matrix(i, j)));
     rows.push_back(std::move(row));
   }
   return rows;
@@ -198,8 +211,8 @@ io::Json data_of(const DrawnSystem& drawn, SystemPicture kind) {
         for (Eigen::Index j = 0; j < drawn.system.inputs(); ++j) {
           io::Json real = io::Json::array(), imaginary = io::Json::array();
           for (const auto& response : drawn.sweep.response) {
-            real.push_back(response(i, j).real());
-            imaginary.push_back(response(i, j).imag());
+            real.push_back(number(response(i, j).real()));
+            imaginary.push_back(number(response(i, j).imag()));
           }
           data["response"].push_back({{"output", i + 1},
                                       {"input", j + 1},

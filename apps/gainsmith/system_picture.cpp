@@ -48,22 +48,25 @@ void add_margins(const DrawnSystem& drawn, int colour, report::Panel& size, repo
   if (!drawn.margins) return;
   report::Curve at_size = points(report::Mark::dot, colour), at_phase = at_size;
   const auto phases = response::phase(drawn.sweep, 0, 0);
-  const auto phase_at = [&](double w) {
+  // The phase is known but for turns, which the sweep has.
+  const auto phase_at = [&](double w, double degrees) {
     const auto& all = drawn.sweep.frequency;
     const auto at = std::lower_bound(all.begin(), all.end(), w) - all.begin();
-    return phases[static_cast<std::size_t>(std::min<std::ptrdiff_t>(at, std::ssize(all) - 1))];
+    const double near =
+        phases[static_cast<std::size_t>(std::min<std::ptrdiff_t>(at, std::ssize(all) - 1))];
+    return degrees + 360 * std::round((near - degrees) / 360);
   };
   if (const auto& gain = drawn.margins->gain) {
     at_size.t.push_back(gain->frequency);
     at_size.value.push_back(-decibels(gain->value));
     at_phase.t.push_back(gain->frequency);
-    at_phase.value.push_back(phase_at(gain->frequency));
+    at_phase.value.push_back(phase_at(gain->frequency, -180));
   }
   if (const auto& lag = drawn.margins->phase) {
     at_size.t.push_back(lag->frequency);
     at_size.value.push_back(0);
     at_phase.t.push_back(lag->frequency);
-    at_phase.value.push_back(phase_at(lag->frequency));
+    at_phase.value.push_back(phase_at(lag->frequency, lag->value - 180));
   }
   if (at_size.t.empty()) return;
   size.curves.push_back(std::move(at_size));

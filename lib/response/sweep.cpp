@@ -52,7 +52,9 @@ class Refinement {
   Refinement(const StateSpace& system, Sweep& into) : response_(system), into_(into) {}
 
   ComplexMatrix at(double w) const { return response_.at(w); }
+  /// Nothing at a pole.
   void add(double w, ComplexMatrix response) {
+    if (!response.allFinite()) return;
     into_.frequency.push_back(w);
     into_.response.push_back(std::move(response));
   }

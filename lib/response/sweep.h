@@ -18,7 +18,8 @@ struct Sweep {
 std::pair<double, double> range_of(const StateSpace& system);
 
 /// Neighbours are so near that between them the logarithm of each element of H, size and phase, is
-/// linear in log w to 0.01: 0.1 dB, 0.6 degrees; at a resonance or a notch as near as 1e-7 of w.
+/// linear in log w to 0.01: 0.1 dB, 0.6 degrees; at a resonance or a notch as near as 1e-7 of w. A
+/// pole on the axis is left out.
 Sweep sweep(const StateSpace& system, double low, double high);
 
 /// The phase of element (i, j) in degrees, without jumps: it begins in [-180, 180).
