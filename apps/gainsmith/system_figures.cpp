@@ -104,6 +104,9 @@ void compute(const SystemFigure& figure, std::pair<double, double> range, DrawnS
 
 // --- Facts. ---
 
+/// null for what is not finite.
+io::Json number(double value) { return std::isfinite(value) ? io::Json(value) : io::Json(); }
+
 std::string at_frequency(double w) {
   return std::isfinite(w) ? " at " + brief(w) : " beyond all frequencies";
 }
@@ -122,7 +125,8 @@ void add_margins(const DrawnSystem& drawn, std::vector<std::string>& facts, io::
   text += of.stable ? "; the closed loop is stable" : "; the closed loop is unstable";
   facts.push_back(text);
   const auto margin = [](const std::optional<response::Margin>& one) {
-    return one ? io::Json{{"value", one->value}, {"frequency", one->frequency}} : io::Json();
+    return one ? io::Json{{"value", one->value}, {"frequency", number(one->frequency)}}
+               : io::Json();
   };
   json["margins"] = {{"gain", margin(of.gain)},
                      {"phase", margin(of.phase)},
@@ -183,9 +187,6 @@ void add_modes(const DrawnSystem& drawn, const response::Matrix& roots, const ch
                                 brief(mode.frequency), brief(mode.damping)));
   }
 }
-
-/// null for what is not finite.
-io::Json number(double value) { return std::isfinite(value) ? io::Json(value) : io::Json(); }
 
 io::Json rows_of(const response::Matrix& matrix) {
   io::Json rows = io::Json::array();

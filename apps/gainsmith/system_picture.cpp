@@ -56,7 +56,10 @@ void add_margins(const DrawnSystem& drawn, int colour, report::Panel& size, repo
         phases[static_cast<std::size_t>(std::min<std::ptrdiff_t>(at, std::ssize(all) - 1))];
     return degrees + 360 * std::round((near - degrees) / 360);
   };
-  if (const auto& gain = drawn.margins->gain) {
+  const auto is_shown = [&](double w) {
+    return w >= drawn.sweep.frequency.front() && w <= drawn.sweep.frequency.back();
+  };
+  if (const auto& gain = drawn.margins->gain; gain && is_shown(gain->frequency)) {
     at_size.t.push_back(gain->frequency);
     at_size.value.push_back(-decibels(gain->value));
     at_phase.t.push_back(gain->frequency);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <complex>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -57,6 +58,15 @@ Margins margins(const StateSpace& loop, const Sweep& sweep) {
     if (l.real() < 0 && std::isfinite(l.real()) && std::abs(l.imag()) < 1e-3 * std::abs(l.real()))
       nearer(result.gain, -1 / l.real(), w, decibels);
   }
+  // Where L is real by symmetry: at rest, at half of the sampling frequency, at infinity.
+  const auto meet_real = [&](double l, double w) {
+    if (l < 0 && std::isfinite(l)) nearer(result.gain, -1 / l, w, decibels);
+  };
+  meet_real(at(0).real(), 0);
+  if (loop.is_sampled())
+    meet_real(at(std::numbers::pi / loop.step).real(), std::numbers::pi / loop.step);
+  else
+    meet_real(loop.D(0, 0), std::numeric_limits<double>::infinity());
   for (const double w : crossings(sweep, size, response)) {
     const double angle = std::arg(-at(w));  // 0 at -1
     nearer(result.phase, angle * 180 / std::numbers::pi, w, plain);

@@ -24,7 +24,8 @@ struct Margins {
   bool stable = false;
 };
 
-/// The crossings of |L| = 1 and of the negative real axis on the sweep's range, each found to the last digits.
+/// The crossings of |L| = 1 and of the negative real axis on the sweep's range, each found to the last
+/// digits. At the frequencies 0 and infinity, and at half of the sampling frequency, L is real too.
 Margins margins(const StateSpace& loop, const Sweep& sweep);
 
 }  // namespace gainsmith::response
