@@ -70,6 +70,8 @@ ExitCode plot(const PlotOptions& options) {
   std::string text;
   io::Json document = io::Json::array();
   for (const SystemResult& one : results) {
+    io::Json entry = one.data;
+    entry["facts"] = one.facts;
     text += one.name + "\n";
     for (const std::string& fact : one.facts) text += "  " + fact + "\n";
     if (!one.missing.empty()) {
@@ -78,9 +80,10 @@ ExitCode plot(const PlotOptions& options) {
     } else if (!options.output.empty()) {
       const std::string file = file_of(options.output, one.name, results.size() == 1);
       write_picture(file, one.svg);
+      entry["file"] = file;
       text += "  wrote " + file + "\n";
     }
-    document.push_back(one.data);
+    document.push_back(std::move(entry));
   }
   if (options.json)
     fmt::print("{}", io::to_text(document));

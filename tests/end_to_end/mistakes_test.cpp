@@ -236,7 +236,7 @@ TEST(WrongCommandLines, AreNamedWithWhatWasExpected) {
            {{"simulate", file, "--horizon", "5"}, "'--set NAME=VALUE' changes a value"},
            {{"init", "hinfsyn"}, "did you mean 'output-feedback'?"},
            {{"methods", "h-infinity"}, "'gainsmith methods' lists them by task"},
-           {{"plot", file}, "unknown command 'plot'; known: synth"},
+           {{"bode", file}, "unknown command 'bode'; known: synth"},
            {{"scan", file, "--over", "a=1,2,5"}, "expected NAME=LOW:HIGH, NAME=LOW:HIGH:COUNT"},
            {{"run", file, "-o", file}, "cannot make this folder"}}) {
     const Outcome outcome = gainsmith(wrong.arguments);

@@ -37,6 +37,25 @@ class Arrays(unittest.TestCase):
         self.assertEqual(gain.shape, (2, 1))
         self.assertLess(stable(A - gain @ C), -3 + 1e-6)
 
+    def test_figures_of_linear_systems(self):
+        loop = {
+            "problem": "loop",
+            "method": {"let": {"L": "5*tf(1, [1, 3, 2, 0])"}},
+            "figures": {"loop": {"bode": "L"}, "modes": {"poles": "feedback(L)"}},
+        }
+        figures = gs.plot(loop)
+        (found,) = figures["loop"].systems
+        s = 1j * found.frequency
+        np.testing.assert_allclose(found.response[1, 1], 5 / (s * (s + 1) * (s + 2)), rtol=1e-12)
+        self.assertAlmostEqual(found.margins["gain"]["value"], 1.2, 12)
+        self.assertTrue(figures["loop"].svg.startswith("<svg "))
+        self.assertIn("gain margin 1.2", repr(figures["loop"]))
+        self.assertEqual(list(gs.plot(loop, figures="modes")), ["modes"])
+        self.assertEqual(len(figures["modes"].systems[0].poles), 3)
+        gain = gs.synth(spring(figures={"error": {"poles": "ss(A - L*C, L, C, 0)"}}))
+        poles = gain.plot()["error"].systems[0].poles
+        self.assertLess(max(pole.real for pole in poles), -3 + 1e-6)
+
     def test_a_sparse_matrix(self):
         class Sparse:  # as those of SciPy
             def toarray(self):

@@ -23,6 +23,7 @@ results. A wrong problem raises InputError with its place, a fault of the progra
 """
 from ._design import bisect, explain, optimize, scan, solve, synth
 from ._errors import InputError, ProgramError
+from ._figures import Figure, plot
 from ._files import certify, check, export, load, report
 from ._results import (
     Campaign,
@@ -47,6 +48,7 @@ __all__ = [
     "verify",
     "worst",
     "simulate",
+    "plot",
     "check",
     "certify",
     "report",
@@ -58,6 +60,7 @@ __all__ = [
     "Design",
     "Campaign",
     "Run",
+    "Figure",
     "Scan",
     "Check",
     "Proof",

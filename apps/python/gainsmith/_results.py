@@ -196,6 +196,10 @@ class Design:
         """simulate(self, ...)"""
         return _commands().simulate(self, **options)
 
+    def plot(self, **options):
+        """plot(self, ...)"""
+        return _commands().plot(self, **options)
+
     def check(self, **options):
         """check(self, ...)"""
         return _commands().check(self, **options)

@@ -1,0 +1,117 @@
+"""Pictures of linear systems: their curves as arrays, and the picture itself."""
+
+import os
+import tempfile
+from collections.abc import Mapping, Sequence
+from typing import Optional, Union
+
+from . import _arguments, _matrices, _program, _results, _sources
+from ._results import Gains
+from ._words import known_options
+
+
+class System:
+    """One system of a figure. What its kind of picture has not is None.
+
+    frequency        (N,), radians per unit of time
+    response         {(output, input): (N,) complex}, counted from 1
+    singular_values  (N, number of them)
+    margins          dict: gain, phase and delay, each with value and frequency, or None
+    peak             dict: value, frequency, low and high, between which it is proved to lie
+    time, outputs    (N,), and {input: (outputs, N)}
+    step             dict: final_value, overshoot, rise, settling
+    poles, zeros     lists of complex numbers
+    """
+
+    def __init__(self, file):
+        self.label = file["system"]
+        self.frequency = _column(file, "frequency")
+        self.time = _column(file, "time")
+        self.response = {
+            (one["output"], one["input"]): _complex(one["real"], one["imaginary"])
+            for one in file.get("response", [])
+        } or None
+        self.singular_values = _matrix(file, "singular_values")
+        self.outputs = {
+            one["input"]: _matrices.matrix(one["y"]) for one in file.get("outputs", [])
+        } or None
+        self.margins, self.peak, self.step = (
+            file.get(key) for key in ("margins", "peak", "step")
+        )
+        self.poles, self.zeros = (
+            [complex(*root) for root in file[key]] if key in file else None
+            for key in ("poles", "zeros")
+        )
+
+    def __repr__(self):
+        return f"<system {self.label}>"
+
+
+class Figure:
+    """A picture: name, kind ('bode', ...), systems, facts as lines of text, and svg."""
+
+    def __init__(self, file, svg):
+        self.name, self.kind, self.svg = file["name"], file["kind"], svg
+        self.systems = [System(one) for one in file.get("systems", [])]
+        self.facts = file.get("facts", [])
+
+    def __repr__(self):
+        return "\n".join([self.name, *("  " + fact for fact in self.facts)])
+
+    def _repr_svg_(self):
+        return self.svg
+
+    def save(self, path):
+        """Writes the picture, as SVG."""
+        _results.write(path, self.svg)
+
+
+@known_options
+def plot(
+    what: Union[Gains, Mapping],
+    *,
+    figures: Sequence[str] = (),
+    set: Optional[dict] = None,
+    time: Optional[float] = None,
+) -> dict:
+    """The figures of linear systems that a problem has under `figures`: name -> Figure.
+
+    what     a Design, the path of a gain file, or a problem, whose gains are then synthesized
+    figures  names of some; without them all
+    """
+    source = _sources.gains_source(what)
+    chosen = [figures] if isinstance(figures, str) else list(figures)
+    with tempfile.TemporaryDirectory(prefix="gainsmith-") as folder:
+        made = _program.json_of(
+            "plot",
+            _program.run(
+                [
+                    "plot",
+                    source.argument,
+                    "--json",
+                    *_arguments.of_set(set),
+                    *_arguments.flags(
+                        figure=chosen or None, output=os.path.join(folder, "p.svg"), time=time
+                    ),
+                ],
+                source,
+            ),
+        )
+        return {
+            one["name"]: Figure(one, _results.read(one["file"]) if "file" in one else None)
+            for one in made
+        }
+
+
+def _column(file, key):
+    return _matrices.column(file[key]) if key in file else None
+
+
+def _matrix(file, key):
+    return _matrices.matrix(file[key]) if key in file else None
+
+
+def _complex(real, imaginary):
+    if _matrices.numpy is None:
+        return [complex(a, b) for a, b in zip(real, imaginary)]
+    return _matrices.column(real) + 1j * _matrices.column(imaginary)
