@@ -122,7 +122,7 @@ void add_margins(const DrawnSystem& drawn, std::vector<std::string>& facts, io::
                                  at_frequency(of.phase->frequency))
                    : ", no phase margin: the gain does not cross 1";
   if (of.delay) text += fmt::format(", delay margin {}", brief(of.delay->value));
-  text += of.stable ? "; the closed loop is stable" : "; the closed loop is unstable";
+  text += of.stable ? "; the closed loop is stable" : "; the closed loop is not stable";
   facts.push_back(text);
   const auto margin = [](const std::optional<response::Margin>& one) {
     return one ? io::Json{{"value", one->value}, {"frequency", number(one->frequency)}}
@@ -153,7 +153,7 @@ void add_peak(const DrawnSystem& drawn, std::vector<std::string>& facts, io::Jso
 
 void add_step(const DrawnSystem& drawn, std::vector<std::string>& facts, io::Json& json) {
   if (!response::is_stable(drawn.system)) {
-    facts.push_back(drawn.label + ": unstable");
+    facts.push_back(drawn.label + ": not stable, so there is no final value");
     return;
   }
   const response::StepFacts of = response::step_facts(drawn.system, drawn.time.front());

@@ -28,9 +28,12 @@ double root(const std::function<double(double)>& f, double a, double b) {
 std::vector<double> crossings(const Sweep& sweep, const std::function<double(const Complex&)>& f,
                               const FrequencyResponse& response) {
   std::vector<double> found;
+  // Of a loop that stays at 0 rounding is no crossing, as the gain of an all-pass.
+  constexpr double kRounding = 1e-12;
   const auto at = [&](double w) { return f(response.at(w)(0, 0)); };
   for (std::size_t k = 0; k + 1 < sweep.frequency.size(); ++k) {
     const double a = f(sweep.response[k](0, 0)), b = f(sweep.response[k + 1](0, 0));
+    if (std::abs(a) <= kRounding && std::abs(b) <= kRounding) continue;
     if (a == 0)
       found.push_back(sweep.frequency[k]);
     else if (b != 0 && (a > 0) != (b > 0))

@@ -245,6 +245,7 @@ std::optional<Peak> peak(const StateSpace& given) {
     raise(system, search);
   }
   Peak& found = search.best();
+  if (found.value == 0) found.frequency = 0;
   found.low = proved_gain(system, found.frequency);
   // Room for the rows of P: a part of what the level leaves, at the states of the peak.
   const double w = std::isfinite(found.frequency) ? found.frequency : 0;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <complex>
+#include <limits>
 
 #include "numbers/spectrum.h"
 
@@ -35,6 +36,8 @@ StateSpace with_unit_feedback(const StateSpace& loop) {
 
 Mode mode_of(double real, double imaginary, double step) {
   std::complex<double> s(real, imaginary);
+  // A pole at z = 0 is gone after one step.
+  if (step > 0 && s == 0.0) return {std::numeric_limits<double>::infinity(), 1};
   if (step > 0) s = std::log(s) / step;
   const double frequency = std::abs(s);
   return {frequency, frequency > 0 ? -s.real() / frequency : 1};

@@ -88,7 +88,7 @@ TEST_F(PlotTest, PrintsTheCurves) {
 }
 
 TEST_F(PlotTest, TakesValuesOfTheCommandLine) {
-  EXPECT_TRUE(has(plot({"--set", "k=7"}).out, "the closed loop is unstable"));
+  EXPECT_TRUE(has(plot({"--set", "k=7"}).out, "the closed loop is not stable"));
 }
 
 /// The gain of the file is drawn, and the report has the pictures.

@@ -102,5 +102,33 @@ TEST(MarginsOfLoops, MayBeMissing) {
   EXPECT_TRUE(found.stable);
 }
 
+TEST(MarginsOfLoops, AreNotThoseOfRounding) {
+  // (1 - s)/(1 + s): its gain is 1 everywhere.
+  const StateSpace all_pass{Matrix{{-1}}, Matrix{{1}}, Matrix{{2}}, Matrix{{-1}}, 0};
+  EXPECT_FALSE(margins(all_pass, sweep(all_pass, 1e-3, 1e3)).phase);
+}
+
+TEST(MarginsOfLoops, AreAtTheEndsToo) {
+  // -0.5/(s + 1) with a gain of 2 has a pole at 0; 1/(z + 0.5) with 0.5 one at -1.
+  const StateSpace rest{Matrix{{-1}}, Matrix{{1}}, Matrix{{-0.5}}, Matrix{{0}}, 0};
+  const Margins at_rest = margins(rest, sweep(rest, 1e-3, 1e3));
+  ASSERT_TRUE(at_rest.gain);
+  EXPECT_NEAR(at_rest.gain->value, 2, 1e-12);
+  EXPECT_EQ(at_rest.gain->frequency, 0);
+  const StateSpace sampled{Matrix{{-0.5}}, Matrix{{1}}, Matrix{{1}}, Matrix{{0}}, 0.1};
+  const Margins at_end = margins(sampled, sweep(sampled, 0.1, 10 * std::numbers::pi));
+  ASSERT_TRUE(at_end.gain);
+  EXPECT_NEAR(at_end.gain->value, 0.5, 1e-12);
+  EXPECT_FALSE(at_end.stable);
+}
+
+TEST(Modes, OfSampledSystems) {
+  EXPECT_EQ(mode_of(0, 0, 0.1).damping, 1);
+  const double angle = 0.3, size = std::exp(-0.1);
+  const Mode mode = mode_of(size * std::cos(angle), size * std::sin(angle), 0.5);
+  EXPECT_NEAR(mode.frequency, std::hypot(0.1, 0.3) / 0.5, 1e-12);
+  EXPECT_NEAR(mode.damping, 0.1 / std::hypot(0.1, 0.3), 1e-12);
+}
+
 }  // namespace
 }  // namespace gainsmith::response
