@@ -44,18 +44,18 @@ std::string extension_of(const std::string& path) {
 
 }  // namespace
 
-void check_picture_name(const std::string& path) {
+void check_picture_name(const std::string& path, const std::string& option) {
   if (path.empty()) return;
   const std::vector<std::string> known = {".svg", ".pdf", ".png"};
   const std::string extension = extension_of(path);
   if (extension == known.front()) return;
   if (extension != known[1] && extension != known[2])
-    throw InputError({"--plot"},
+    throw InputError({option},
                      "a picture is SVG, PDF or PNG by its name: expected one that ends "
                      "with '.svg', '.pdf' or '.png', not '" +
                          path + "'");
   if (!is_installed(kConverter))
-    throw InputError({"--plot"},
+    throw InputError({option},
                      "PDF and PNG are made by rsvg-convert, which is not installed "
                      "(package librsvg2-bin in Debian); '.svg' needs nothing");
 }

@@ -5,9 +5,9 @@
 
 namespace gainsmith::app {
 
-/// Before the work that the picture shows: InputError, with --plot as its place, unless the name
+/// Before the work that the picture shows: InputError, with the option as its place, unless the name
 /// ends with .svg, .pdf or .png, and for the last two where rsvg-convert is not installed.
-void check_picture_name(const std::string& path);
+void check_picture_name(const std::string& path, const std::string& option = "--plot");
 
 /// Writes the picture whole or not at all: the same bytes for the same SVG. PNG has two dots a pixel of
 /// the SVG. InputError where that cannot be done. Nothing for an empty path.

@@ -61,7 +61,7 @@ std::string file_of(const std::string& output, const std::string& name, bool sin
 }
 
 ExitCode plot(const PlotOptions& options) {
-  check_picture_name(options.output);
+  check_picture_name(options.output, "--output");
   prepare_outputs(options.file, {options.output});
   const LoadedGains loaded = load_designed(options.file, options.set);
   const std::vector<SystemResult> results = chosen(system_results(loaded), options);

@@ -71,7 +71,8 @@ std::pair<double, double> range_of(const SystemFigure& figure, const model::Stat
   std::pair<double, double> range{std::numeric_limits<double>::infinity(), 0};
   for (const DrawnSystem& drawn : systems) {
     const auto own = is_over_time(figure.kind) ? std::pair(0.0, response::duration_of(drawn.system))
-                                               : response::range_of(drawn.system);
+                     : drawn.system.is_single() ? response::range_with_crossover(drawn.system)
+                                                : response::range_of(drawn.system);
     range.first = std::min(range.first, own.first);
     range.second = std::max(range.second, own.second);
   }
@@ -88,7 +89,7 @@ void compute(const SystemFigure& figure, std::pair<double, double> range, DrawnS
                                          ": the range begins above half of the sampling frequency");
     drawn.sweep = response::sweep(system, range.first, std::min(range.second, most));
     if (figure.kind != SystemPicture::singular_values && system.is_single())
-      drawn.margins = response::margins(system, drawn.sweep);
+      drawn.margins = response::margins(system);
     if (figure.kind == SystemPicture::singular_values || !system.is_single())
       drawn.peak = response::peak(system);
   } else if (is_over_time(figure.kind)) {
@@ -113,7 +114,7 @@ std::string at_frequency(double w) {
 
 void add_margins(const DrawnSystem& drawn, std::vector<std::string>& facts, io::Json& json) {
   const response::Margins& of = *drawn.margins;
-  std::string text = drawn.label + ": ";
+  std::string text = drawn.label + " under u = -y: ";
   text += of.gain ? fmt::format("gain margin {} ({} dB){}", brief(of.gain->value),
                                 brief(20 * std::log10(of.gain->value)),
                                 at_frequency(of.gain->frequency))
@@ -121,7 +122,7 @@ void add_margins(const DrawnSystem& drawn, std::vector<std::string>& facts, io::
   text += of.phase ? fmt::format(", phase margin {} degrees{}", brief(of.phase->value),
                                  at_frequency(of.phase->frequency))
                    : ", no phase margin: the gain does not cross 1";
-  if (of.delay) text += fmt::format(", delay margin {}", brief(of.delay->value));
+  if (of.delay && of.stable) text += fmt::format(", delay margin {}", brief(of.delay->value));
   text += of.stable ? "; the closed loop is stable" : "; the closed loop is not stable";
   facts.push_back(text);
   const auto margin = [](const std::optional<response::Margin>& one) {
@@ -151,29 +152,40 @@ void add_peak(const DrawnSystem& drawn, std::vector<std::string>& facts, io::Jso
                   {"high", end(of.high)}};
 }
 
+std::string step_text(const response::StepFacts& of) {
+  if (of.ends_at_0())
+    return fmt::format("ends at 0, largest {} at {}", brief(of.largest), brief(of.largest_at));
+  std::string text =
+      fmt::format("ends at {}, overshoot {} %", brief(of.final_value), brief(100 * of.overshoot));
+  if (of.overshoot > 0)
+    text += fmt::format(" (largest {} at {})", brief(of.largest), brief(of.largest_at));
+  if (of.undershoot > 0) text += fmt::format(", undershoot {} %", brief(100 * of.undershoot));
+  return text +
+         fmt::format(", rises in {}, settles to 2 % at {}", brief(of.rise), brief(of.settling));
+}
+
 void add_step(const DrawnSystem& drawn, std::vector<std::string>& facts, io::Json& json) {
   if (!response::is_stable(drawn.system)) {
     facts.push_back(drawn.label + ": not stable, so there is no final value");
     return;
   }
-  const response::StepFacts of = response::step_facts(drawn.system, drawn.time.front());
-  constexpr double kNothing = 1e-9;
-  Eigen::Index at = 0;
-  const double most = drawn.time.front().y.row(0).cwiseAbs().maxCoeff(&at);
-  if (std::abs(of.final_value) <= kNothing * most) {
-    const double t = drawn.time.front().t[static_cast<std::size_t>(at)];
-    facts.push_back(
-        fmt::format("{}: ends at 0, largest size {} at {}", drawn.label, brief(most), brief(t)));
-    json["step"] = {{"final_value", 0.0}, {"largest", most}, {"at", t}};
-    return;
-  }
-  facts.push_back(fmt::format("{}: ends at {}, overshoot {} %, rises in {}, settles to 2 % at {}",
-                              drawn.label, brief(of.final_value), brief(100 * of.overshoot),
-                              brief(of.rise), brief(of.settling)));
-  json["step"] = {{"final_value", of.final_value},
-                  {"overshoot", of.overshoot},
-                  {"rise", of.rise},
-                  {"settling", of.settling}};
+  for (Eigen::Index i = 0; i < drawn.system.outputs(); ++i)
+    for (Eigen::Index j = 0; j < drawn.system.inputs(); ++j) {
+      const std::string label = drawn.label + element_label(drawn.system, i, j);
+      const auto of = response::step_facts(drawn.system, j, i);
+      facts.push_back(label + ": " +
+                      (of ? step_text(*of) : "oscillates for too long to be followed to its end"));
+      if (!of) continue;
+      json["steps"].push_back({{"output", i + 1},
+                               {"input", j + 1},
+                               {"final_value", of->final_value},
+                               {"largest", of->largest},
+                               {"largest_at", of->largest_at},
+                               {"overshoot", of->overshoot},
+                               {"undershoot", of->undershoot},
+                               {"rise", of->rise},
+                               {"settling", of->settling}});
+    }
 }
 
 void add_modes(const DrawnSystem& drawn, const response::Matrix& roots, const char* what,
@@ -237,7 +249,9 @@ void add_facts(const DrawnSystem& drawn, SystemPicture kind, SystemResult& resul
   io::Json data = data_of(drawn, kind);
   if (drawn.margins) add_margins(drawn, result.facts, data);
   if (drawn.peak) add_peak(drawn, result.facts, data);
-  if (kind == SystemPicture::step && drawn.system.is_single()) add_step(drawn, result.facts, data);
+  if (kind == SystemPicture::singular_values && !drawn.peak)
+    result.facts.push_back(drawn.label + ": not stable, so there is no largest gain");
+  if (kind == SystemPicture::step) add_step(drawn, result.facts, data);
   if (kind == SystemPicture::poles) {
     add_modes(drawn, drawn.poles, "pole", result.facts);
     add_modes(drawn, drawn.zeros, "zero", result.facts);
@@ -266,6 +280,12 @@ std::vector<SystemResult> system_results(const LoadedGains& loaded) {
       }
       systems.push_back({of.label, std::move(*system), {}, {}, {}, {}, {}, {}});
     }
+    if (figure.kind == SystemPicture::poles && systems.size() > 1)
+      for (const DrawnSystem& drawn : systems)
+        if (drawn.system.is_sampled() != systems.front().system.is_sampled())
+          throw InputError(figure.place, "figures: " + figure.name +
+                                             ": poles of continuous and of sampled systems need "
+                                             "two pictures");
     if (result.missing.empty()) {
       const auto range = figure.kind == SystemPicture::poles ? std::pair(0.0, 0.0)
                                                              : range_of(figure, stated, systems);

@@ -65,7 +65,7 @@ void add_margins(const DrawnSystem& drawn, int colour, report::Panel& size, repo
     at_phase.t.push_back(gain->frequency);
     at_phase.value.push_back(phase_at(gain->frequency, -180));
   }
-  if (const auto& lag = drawn.margins->phase) {
+  if (const auto& lag = drawn.margins->phase; lag && is_shown(lag->frequency)) {
     at_size.t.push_back(lag->frequency);
     at_size.value.push_back(0);
     at_phase.t.push_back(lag->frequency);
@@ -269,22 +269,29 @@ void add_poles(const std::vector<DrawnSystem>& systems, report::Figure& figure) 
                                    [](const DrawnSystem& one) { return one.system.is_sampled(); });
   panel.equal = sampled;
   add_guides(systems, sampled, panel);
-  int colour = 0;
-  for (const DrawnSystem& drawn : systems) {
-    const auto add = [&](const response::Matrix& roots, report::Mark mark, const char* what) {
-      if (roots.rows() == 0) return;
-      report::Curve made = points(mark, colour);
-      made.label = drawn.label + what;
-      for (Eigen::Index k = 0; k < roots.rows(); ++k) {
-        made.t.push_back(roots(k, 0));
-        made.value.push_back(roots(k, 1));
-      }
-      panel.curves.push_back(std::move(made));
-    };
-    add(drawn.poles, report::Mark::cross, " poles");
-    add(drawn.zeros, report::Mark::ring, " zeros");
-    ++colour;
-  }
+  const auto add_all = [&](bool crosses) {
+    int colour = 0;
+    for (const DrawnSystem& drawn : systems) {
+      const auto add = [&](const response::Matrix& roots, report::Mark mark, const char* what) {
+        if (roots.rows() == 0) return;
+        report::Curve made = points(mark, colour);
+        made.label = drawn.label + what;
+        for (Eigen::Index k = 0; k < roots.rows(); ++k) {
+          made.t.push_back(roots(k, 0));
+          made.value.push_back(roots(k, 1));
+        }
+        panel.curves.push_back(std::move(made));
+      };
+      if (crosses)
+        add(drawn.poles, report::Mark::cross, " poles");
+      else
+        add(drawn.zeros, report::Mark::ring, " zeros");
+      ++colour;
+    }
+  };
+  // A cross is seen on a ring.
+  add_all(false);
+  add_all(true);
   figure.panels = {std::move(panel)};
 }
 

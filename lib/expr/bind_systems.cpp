@@ -280,10 +280,13 @@ Bound Binder::linear_fraction(const Expression& expression, const Node& node) {
 /// lft([I; I]*G*[I, -I], K).
 Bound Binder::feedback(const Expression& expression, const Node& node) {
   const Emitter make(*this, expression, node);
-  const Bound g = bind_system(expression, *node.children[0]);
-  const int inputs = inputs_of(make, g), outputs = outputs_of(make, g);
+  const Bound forward = bind_value(expression, *node.children[0]);
   const Bound given = node.children.size() == 2 ? bind_value(expression, *node.children[1])
                                                 : Bound{number(expression, node, "1"), true};
+  // A number counts for each signal of the other.
+  const Bound g =
+      as_system(expression, node, forward, given.is_system() ? inputs_of(make, given) : 1);
+  const int inputs = inputs_of(make, g), outputs = outputs_of(make, g);
   const Bound k = as_system(expression, node, given, outputs);
   if (inputs_of(make, k) != outputs || outputs_of(make, k) != inputs)
     fail(expression, node,

@@ -44,8 +44,30 @@ std::vector<double> crossings(const Sweep& sweep, const std::function<double(con
 
 }  // namespace
 
-Margins margins(const StateSpace& loop, const Sweep& sweep) {
+std::pair<double, double> range_with_crossover(const StateSpace& loop) {
+  constexpr int kDecades = 15;
+  constexpr double kDecade = 10, kMoves = 1.5;
+  const FrequencyResponse response(loop);
+  auto [low, high] = range_of(loop);
+  // Outside of all poles and zeros |L| is a power of the frequency, or stays.
+  const auto extend = [&](double& end, double factor) {
+    for (int k = 0; k < kDecades; ++k) {
+      const double here = response.largest_gain(end), next = response.largest_gain(end * factor);
+      const bool nearer_to_1 = here < 1 ? next > kMoves * here : next * kMoves < here;
+      if (here == 0 || !std::isfinite(here) || !nearer_to_1) return;
+      end *= factor;
+      if ((here < 1) != (next < 1)) return;
+    }
+  };
+  extend(low, 1 / kDecade);
+  if (!loop.is_sampled()) extend(high, kDecade);
+  return {low, high};
+}
+
+Margins margins(const StateSpace& loop) {
   Margins result;
+  const auto [low, high] = range_with_crossover(loop);
+  const Sweep sweep = response::sweep(loop, low, high);
   const FrequencyResponse response(loop);
   const auto at = [&](double w) { return response.at(w)(0, 0); };
   const auto nearer = [](std::optional<Margin>& best, double value, double w, auto&& size) {
@@ -71,7 +93,12 @@ Margins margins(const StateSpace& loop, const Sweep& sweep) {
   else
     meet_real(loop.D(0, 0), std::numeric_limits<double>::infinity());
   for (const double w : crossings(sweep, size, response)) {
-    const double angle = std::arg(-at(w));  // 0 at -1
+    constexpr double kNoAngle = 1e-12;
+    double angle = std::arg(-at(w));  // 0 at -1
+    if (std::abs(angle) <= kNoAngle) {
+      angle = 0;
+      nearer(result.gain, 1, w, decibels);
+    }
     nearer(result.phase, angle * 180 / std::numbers::pi, w, plain);
     const double lag = angle >= 0 ? angle : angle + 2 * std::numbers::pi;
     nearer(result.delay, lag / w, w, plain);

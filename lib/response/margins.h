@@ -24,8 +24,11 @@ struct Margins {
   bool stable = false;
 };
 
-/// The crossings of |L| = 1 and of the negative real axis on the sweep's range, each found to the last
+/// range_of() and the frequencies beyond it at which |L| becomes 1.
+std::pair<double, double> range_with_crossover(const StateSpace& loop);
+
+/// The crossings of |L| = 1 and of the negative real axis on that range, each found to the last
 /// digits. At the frequencies 0 and infinity, and at half of the sampling frequency, L is real too.
-Margins margins(const StateSpace& loop, const Sweep& sweep);
+Margins margins(const StateSpace& loop);
 
 }  // namespace gainsmith::response

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "numbers/dense.h"
 
@@ -61,41 +62,143 @@ TimeResponse time_response(const StateSpace& system, Stimulus stimulus, Eigen::I
   return result;
 }
 
-StepFacts step_facts(const StateSpace& system, const TimeResponse& step) {
+namespace {
+
+/// A mode as a rate at which it dies out and a speed at which it moves.
+struct Speed {
+  double rate = 0, speed = 0;
+};
+
+/// The slowest last; modes at z = 0 are gone after n steps.
+std::vector<Speed> speeds_of(const StateSpace& system) {
+  std::vector<Speed> all;
+  const Matrix roots = poles(system);
+  for (Eigen::Index k = 0; k < roots.rows(); ++k) {
+    const double size = std::hypot(roots(k, 0), roots(k, 1));
+    if (!system.is_sampled())
+      all.push_back({-roots(k, 0), size});
+    else if (size > 0)
+      all.push_back({-std::log(size), 1});
+  }
+  std::sort(all.begin(), all.end(), [](const Speed& a, const Speed& b) { return a.rate > b.rate; });
+  return all;
+}
+
+/// Reads the facts from values that come one after the other.
+class StepReader {
+ public:
+  explicit StepReader(double end) : end_(end) { facts_.final_value = end; }
+
+  void read(double t, double y) {
+    if (std::abs(y) > std::abs(facts_.largest)) {
+      facts_.largest = y;
+      facts_.largest_at = t;
+    }
+    const double share = y / end_;
+    if (count_ >= 2) meet_extreme(share);
+    first(0.1, t, share, low_);
+    first(0.9, t, share, high_);
+    if (std::abs(share - 1) > kBand)
+      outside_ = true;
+    else if (outside_) {
+      const double level = last_ > 1 ? 1 + kBand : 1 - kBand;
+      facts_.settling = crossing(level, t, share);
+      outside_ = false;
+    }
+    before_ = last_;
+    before_at_ = last_at_;
+    last_ = share;
+    last_at_ = t;
+    ++count_;
+  }
+  StepFacts facts() {
+    facts_.overshoot = std::max(most_ - 1, 0.0);
+    facts_.undershoot = std::max(-least_, 0.0);
+    facts_.rise = high_.value_or(0) - low_.value_or(0);
+    return facts_;
+  }
+
+ private:
+  static constexpr double kBand = 0.02;
+
+  double crossing(double level, double t, double share) const {
+    if (count_ == 0 || share == last_) return t;
+    return last_at_ + (t - last_at_) * (level - last_) / (share - last_);
+  }
+  void first(double level, double t, double share, std::optional<double>& when) const {
+    if (!when && share >= level) when = crossing(level, t, share);
+  }
+  /// Of three values, the middle one the largest or the least, that of the parabola through them.
+  void meet_extreme(double share) {
+    double top = last_;
+    const bool equal_steps = std::abs((last_at_ - before_at_)) > 0;
+    const double bend = before_ - 2 * last_ + share, slope = (share - before_) / 2;
+    if (equal_steps && (last_ - before_) * (share - last_) < 0) top -= slope * slope / (2 * bend);
+    most_ = std::max(most_, top);
+    least_ = std::min(least_, top);
+  }
+
+  StepFacts facts_;
+  double end_;
+  int count_ = 0;
+  double before_ = 0, before_at_ = 0, last_ = 0, last_at_ = 0;
+  double most_ = 0, least_ = 0;
+  bool outside_ = true;
+  std::optional<double> low_, high_;
+};
+
+}  // namespace
+
+bool StepFacts::ends_at_0() const { return std::abs(final_value) <= 1e-9 * std::abs(largest); }
+
+std::optional<StepFacts> step_facts(const StateSpace& system, Eigen::Index input,
+                                    Eigen::Index output) {
+  constexpr double kDead = 16, kPart = 0.02, kMost = 2e6;
   const Eigen::Index n = system.states();
   const Matrix still =
       system.is_sampled() ? Matrix(Matrix::Identity(n, n) - system.A) : Matrix(-system.A);
-  StepFacts facts;
-  facts.final_value =
-      system.D(0, 0) + (n == 0 ? 0 : (system.C * still.partialPivLu().solve(system.B))(0, 0));
-  const double end = facts.final_value;
-  // The time at which the line through the samples passes a share of it, first or last.
-  const auto share = [&](Eigen::Index k) { return step.y(0, k) / end; };
-  const auto between = [&](Eigen::Index k, double level) {
-    const double a = share(k - 1), b = share(k);
-    const auto at = static_cast<std::size_t>(k);
-    return step.t[at - 1] + (step.t[at] - step.t[at - 1]) * (level - a) / (b - a);
+  const numbers::Vector b = system.B.col(input);
+  double end = system.D(output, input);
+  if (n > 0) end += system.C.row(output).dot(still.partialPivLu().solve(b));
+  Matrix out(1, n + 1);
+  out << system.C.row(output), system.D(output, input);
+  numbers::Vector z = numbers::Vector::Zero(n + 1);
+  z(n) = 1;
+  Matrix whole = Matrix::Zero(n + 1, n + 1);
+  whole.topLeftCorner(n, n) = system.A;
+  whole.topRightCorner(n, 1) = b;
+  StepReader reader(end);
+  const auto value = [&] { return (out * z)(0, 0); };
+  reader.read(0, value());
+  const std::vector<Speed> modes = speeds_of(system);
+  double t = 0, steps = 0;
+  const auto follow = [&](const Matrix& over, double length, double until) {
+    const double count = std::ceil((until - t) / length);
+    if (!(count > 0)) return true;
+    if (!((steps += count) <= kMost)) return false;
+    const double start = t;
+    for (double k = 1; k <= count; ++k) {
+      z = over * z;
+      t = start + k * length;
+      reader.read(t, value());
+    }
+    return true;
   };
-  double most = 0, low = 0, high = 0;
-  bool passed_low = false, passed_high = false;
-  for (Eigen::Index k = 0; k < step.y.cols(); ++k) {
-    most = std::max(most, share(k));
-    if (!passed_low && share(k) >= 0.1) {
-      passed_low = true;
-      low = k == 0 ? 0 : between(k, 0.1);
-    }
-    if (!passed_high && share(k) >= 0.9) {
-      passed_high = true;
-      high = k == 0 ? 0 : between(k, 0.9);
-    }
-    if (std::abs(share(k) - 1) > 0.02 && k + 1 < step.y.cols())
-      facts.settling = std::abs(share(k + 1) - 1) > 0.02
-                           ? step.t[static_cast<std::size_t>(k + 1)]
-                           : between(k + 1, share(k) > 1 ? 1.02 : 0.98);
+  if (system.is_sampled()) {
+    whole(n, n) = 1;
+    const double last = modes.empty() ? 0 : kDead / modes.back().rate;
+    if (!follow(whole, system.step, (last + static_cast<double>(n) + 2) * system.step))
+      return std::nullopt;
+    return reader.facts();
   }
-  facts.overshoot = std::max(most - 1, 0.0);
-  facts.rise = high - low;
-  return facts;
+  for (std::size_t k = 0; k < modes.size(); ++k) {
+    double fastest = 0;
+    for (std::size_t i = k; i < modes.size(); ++i) fastest = std::max(fastest, modes[i].speed);
+    const double length = kPart / fastest;
+    if (!follow(numbers::exponential(whole * length), length, kDead / modes[k].rate))
+      return std::nullopt;
+  }
+  return reader.facts();
 }
 
 }  // namespace gainsmith::response

@@ -45,7 +45,7 @@ TEST_F(PlotTest, SaysWhatOneReadsFromThePictures) {
   const Outcome outcome = plot();
   ASSERT_EQ(outcome.exit, 0) << outcome.err;
   const std::string& shown = outcome.out;
-  EXPECT_TRUE(has(shown, "open loop: gain margin 1.2 (1.58362 dB) at 1.41421, phase margin"))
+  EXPECT_TRUE(has(shown, "open loop under u = -y: gain margin 1.2 (1.58362 dB) at 1.41421, phase margin"))
       << shown;
   EXPECT_TRUE(has(shown, "the closed loop is stable")) << shown;
   EXPECT_TRUE(has(shown, "  L: largest gain") == false) << "L has a pole at 0: " << shown;

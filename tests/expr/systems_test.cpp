@@ -94,6 +94,8 @@ TEST_P(Systems, CloseLoops) {
     const Response L = at("H*G", s);
     return Response((one(2) + L).inverse() * L);
   });
+  expect("feedback(1, H*G)",
+         [&](Complex s) { return Response((one(2) + at("H*G", s)).inverse()); });
   // P has 4 inputs and 5 outputs, K 3 inputs and 2 outputs.
   expect("lft(P, K)", [&](Complex s) {
     const Response P = at("P", s), K = at("K", s);

@@ -34,22 +34,66 @@ TEST(Steps, OfSampledSystemsAreSums) {
 }
 
 TEST(Steps, HaveTheFactsOfTheBook) {
-  for (const double damping : {0.2, 0.5, 0.7}) {
-    const StateSpace system = oscillator(2, damping);
-    const TimeResponse step = time_response(system, Stimulus::step, 0, duration_of(system), 20'001);
-    const StepFacts facts = step_facts(system, step);
-    EXPECT_NEAR(facts.final_value, 1, 1e-12);
+  for (const double damping : {0.01, 0.2, 0.5, 0.7}) {
+    const auto facts = step_facts(oscillator(2, damping), 0, 0);
+    ASSERT_TRUE(facts);
+    EXPECT_NEAR(facts->final_value, 1, 1e-12);
     const double root = std::sqrt(1 - damping * damping);
-    EXPECT_NEAR(facts.overshoot, std::exp(-damping * std::numbers::pi / root), 1e-6);
-    // The envelope is at 2 % about then.
-    EXPECT_LT(facts.settling, -std::log(0.02 * root) / (2 * damping) + 1e-3);
-    EXPECT_GT(facts.settling, 1 / (2 * damping));
+    EXPECT_NEAR(facts->overshoot, std::exp(-damping * std::numbers::pi / root), 1e-6);
+    EXPECT_NEAR(facts->largest_at, std::numbers::pi / (2 * root), 0.02);
+    // The envelope is at 2 % then.
+    EXPECT_LT(facts->settling, -std::log(0.02 * root) / (2 * damping) + 1e-3);
+    EXPECT_GT(facts->settling, 1 / (2 * damping));
   }
-  const StateSpace lag{Matrix{{-1}}, Matrix{{1}}, Matrix{{1}}, Matrix{{0}}, 0};
-  const StepFacts facts = step_facts(lag, time_response(lag, Stimulus::step, 0, 10, 20'001));
-  EXPECT_NEAR(facts.rise, std::log(9), 1e-6);
-  EXPECT_NEAR(facts.settling, std::log(50), 1e-6);
-  EXPECT_EQ(facts.overshoot, 0);
+  EXPECT_FALSE(step_facts(oscillator(2, 1e-6), 0, 0));
+}
+
+TEST(Steps, OfLagsAreThatOfTheirMode) {
+  for (const double rate : {1e-6, 1.0, 1e6}) {
+    const StateSpace lag{Matrix{{-rate}}, Matrix{{rate}}, Matrix{{1}}, Matrix{{0}}, 0};
+    const auto facts = step_facts(lag, 0, 0);
+    ASSERT_TRUE(facts);
+    EXPECT_NEAR(facts->rise * rate, std::log(9), 1e-4);
+    EXPECT_NEAR(facts->settling * rate, std::log(50), 1e-4);
+    EXPECT_LT(facts->overshoot, 1e-6);
+  }
+}
+
+/// A fast mode beside a slow one is seen, whatever the slow one takes.
+TEST(Steps, OfSeveralModesSeeEach) {
+  const StateSpace both{Matrix{{-100, 0}, {0, -1e-3}}, Matrix{{100}, {1e-3}}, Matrix{{1, 0.01}},
+                        Matrix{{0}}, 0};
+  const auto facts = step_facts(both, 0, 0);
+  ASSERT_TRUE(facts);
+  EXPECT_NEAR(facts->final_value, 1.01, 1e-12);
+  EXPECT_NEAR(facts->rise, (std::log(1 - 0.101) - std::log(1 - 0.909)) / 100, 1e-4);
+  // 100 (s + 0.0011)/((s + 10)^2 (s + 0.001)) as one path: it begins fast and ends near 0.
+  const StateSpace pulse{Matrix{{-10, 0}, {0, -1e-3}}, Matrix{{10}, {1e-3}}, Matrix{{1, -1}},
+                         Matrix{{0}}, 0};
+  const auto peak = step_facts(pulse, 0, 0);
+  ASSERT_TRUE(peak);
+  EXPECT_TRUE(peak->ends_at_0());
+  EXPECT_NEAR(peak->largest, 1, 1e-2);
+  EXPECT_LT(peak->largest_at, 2);
+}
+
+TEST(Steps, GoTheOtherWay) {
+  // (1 - s)/(s + 1)^2: -0.2131 at t = ln 2... is its least value.
+  const StateSpace system{Matrix{{-2, -1}, {1, 0}}, Matrix{{1}, {0}}, Matrix{{-1, 1}}, Matrix{{0}},
+                          0};
+  const auto facts = step_facts(system, 0, 0);
+  ASSERT_TRUE(facts);
+  EXPECT_NEAR(facts->undershoot, 2 * std::exp(-0.5) - 1, 1e-6);
+}
+
+TEST(Steps, OfSampledSystemsHaveFactsToo) {
+  const StateSpace dead_beat{Matrix{{0, 0}, {1, 0}}, Matrix{{1}, {0}}, Matrix{{0.5, 0.5}},
+                             Matrix{{0}}, 0.1};
+  const auto facts = step_facts(dead_beat, 0, 0);
+  ASSERT_TRUE(facts);
+  EXPECT_EQ(facts->final_value, 1);
+  EXPECT_EQ(facts->overshoot, 0);
+  EXPECT_NEAR(facts->settling, 0.2, 0.01);
 }
 
 TEST(Durations, FollowTheSlowestMode) {

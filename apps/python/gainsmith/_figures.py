@@ -19,7 +19,8 @@ class System:
     margins          dict: gain, phase and delay, each with value and frequency, or None
     peak             dict: value, frequency, low and high, between which it is proved to lie
     time, outputs    (N,), and {input: (outputs, N)}
-    step             dict: final_value, overshoot, rise, settling
+    steps            list of dicts, one for each output and input: final_value, largest, overshoot,
+                     undershoot, rise, settling
     poles, zeros     lists of complex numbers
     """
 
@@ -35,8 +36,8 @@ class System:
         self.outputs = {
             one["input"]: _matrices.matrix(one["y"]) for one in file.get("outputs", [])
         } or None
-        self.margins, self.peak, self.step = (
-            file.get(key) for key in ("margins", "peak", "step")
+        self.margins, self.peak, self.steps = (
+            file.get(key) for key in ("margins", "peak", "steps")
         )
         self.poles, self.zeros = (
             [complex(*root) for root in file[key]] if key in file else None
