@@ -91,7 +91,12 @@ StateSpace balanced(const StateSpace& system) {
 Matrix zeros(const StateSpace& system) {
   const Eigen::Index n = system.states();
   if (n == 0 || system.inputs() == 0 || system.outputs() == 0) return Matrix(0, 2);
-  const StateSpace start = balanced(system);
+  // In a unit of time in which A is near 1.
+  StateSpace slow = system;
+  const double speed = system.A.norm() > 0 ? system.A.norm() : 1;
+  slow.A /= speed;
+  slow.B /= speed;
+  const StateSpace start = balanced(slow);
   Matrix whole(n + start.outputs(), n + start.inputs());
   whole << start.A, start.B, start.C, start.D;
   constexpr double kRoundings = 100;
@@ -107,7 +112,7 @@ Matrix zeros(const StateSpace& system) {
   Matrix found(k, 2);
   for (Eigen::Index i = 0; i < k; ++i)
     found.row(i) << solver.eigenvalues()(i).real(), solver.eigenvalues()(i).imag();
-  return found;
+  return found * speed;
 }
 
 }  // namespace gainsmith::response

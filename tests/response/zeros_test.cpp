@@ -53,6 +53,16 @@ TEST(Zeros, AreThoseOfTheNumerator) {
   expect_zeros(transfer({0, 0, 1, 5e4}, {1, 6e4, 11e8, 6e12}), {{-5e4, 0}});
 }
 
+/// (1 - s T/2 + s^2 T^2/12)/(1 + s T/2 + s^2 T^2/12): the zeros are the poles on the other side.
+TEST(Zeros, DoNotDependOnTheUnitOfTime) {
+  for (const double T : {1e-9, 1e-3, 1.0, 1e6}) {
+    const StateSpace delay{Matrix{{-6, -12}, {1, 0}} / T, Matrix{{1}, {0}} / T, Matrix{{-12, 0}},
+                           Matrix{{1}}, 0};
+    const double w = std::sqrt(3.0) / T;
+    expect_zeros(delay, {{3 / T, -w}, {3 / T, w}});
+  }
+}
+
 TEST(Zeros, AreHiddenModesToo) {
   // The second state is not reached, the third not seen.
   const StateSpace system{Matrix{{-1, 1, 0}, {0, -7, 0}, {1, 0, -9}}, Matrix{{1}, {0}, {2}},
