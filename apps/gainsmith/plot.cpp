@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "base/nearest.h"
 #include "gainsmith/commands.h"
 #include "gainsmith/load.h"
 #include "gainsmith/output.h"
@@ -26,26 +25,6 @@ struct PlotOptions {
   bool json = false;
 };
 
-/// Those of --figure, in their order there; without it all.
-std::vector<SystemResult> chosen(std::vector<SystemResult> all, const PlotOptions& options) {
-  if (all.empty())
-    throw InputError({options.file},
-                     "the problem asks for no pictures of linear systems: figures: {loop: {bode: "
-                     "\"tf(1, [1, 2, 1])\"}}");
-  if (options.figures.empty()) return all;
-  std::vector<std::string> names;
-  for (const SystemResult& one : all) names.push_back(one.name);
-  std::vector<SystemResult> found;
-  for (const std::string& name : options.figures) {
-    const auto at = std::find(names.begin(), names.end(), name);
-    if (at == names.end())
-      throw InputError({"--figure"},
-                       "the problem has no figure '" + name + "'" + suggestion(name, names));
-    found.push_back(all[static_cast<std::size_t>(at - names.begin())]);
-  }
-  return found;
-}
-
 /// "loop.svg" of one picture; of several "loop-NAME.svg", names with what a file may hold alone.
 std::string file_of(const std::string& output, const std::string& name, bool single) {
   if (single) return output;
@@ -60,16 +39,35 @@ std::string file_of(const std::string& output, const std::string& name, bool sin
       .string();
 }
 
+/// Of each picture; InputError where two would be one file.
+std::vector<std::string> files_of(const std::string& output,
+                                  const std::vector<SystemResult>& results) {
+  std::vector<std::string> files;
+  for (const SystemResult& one : results) {
+    files.push_back(output.empty() ? "" : file_of(output, one.name, results.size() == 1));
+    if (!output.empty() && std::count(files.begin(), files.end(), files.back()) > 1)
+      throw InputError({"--output"}, "two pictures would be " + files.back() +
+                                         ": give the figures other names, or one with --figure");
+  }
+  return files;
+}
+
 ExitCode plot(const PlotOptions& options) {
   check_picture_name(options.output, "--output");
   prepare_outputs(options.file, {options.output});
   const LoadedGains loaded = load_designed(options.file, options.set);
-  const std::vector<SystemResult> results = chosen(system_results(loaded), options);
+  if (loaded.stated.design->pictures.empty())
+    throw InputError({options.file},
+                     "the problem asks for no pictures of linear systems: figures: {loop: {bode: "
+                     "\"tf(1, [1, 2, 1])\"}}");
+  const std::vector<SystemResult> results = system_results(loaded, options.figures);
+  const std::vector<std::string> files = files_of(options.output, results);
   const Telling telling;
   ExitCode exit = ExitCode::yes;
   std::string text;
   io::Json document = io::Json::array();
-  for (const SystemResult& one : results) {
+  for (std::size_t k = 0; k < results.size(); ++k) {
+    const SystemResult& one = results[k];
     io::Json entry = one.data;
     entry["facts"] = one.facts;
     text += one.name + "\n";
@@ -78,10 +76,9 @@ ExitCode plot(const PlotOptions& options) {
       text += "  no picture: " + one.missing + "\n";
       exit = ExitCode::undecided;
     } else if (!options.output.empty()) {
-      const std::string file = file_of(options.output, one.name, results.size() == 1);
-      write_picture(file, one.svg);
-      entry["file"] = file;
-      text += "  wrote " + file + "\n";
+      write_picture(files[k], one.svg);
+      entry["file"] = files[k];
+      text += "  wrote " + files[k] + "\n";
     }
     document.push_back(std::move(entry));
   }

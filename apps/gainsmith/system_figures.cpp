@@ -7,6 +7,8 @@
 #include <limits>
 #include <optional>
 
+#include "base/named.h"
+#include "base/nearest.h"
 #include "base/number.h"
 #include "bind/stated.h"
 #include "expr/evaluate.h"
@@ -142,12 +144,12 @@ void add_peak(const DrawnSystem& drawn, std::vector<std::string>& facts, io::Jso
     return value ? io::Json(*value) : io::Json();
   };
   if (of.low && of.high)
-    text += fmt::format(", proved between {:.9g} and {:.9g}", *of.low, *of.high);
+    text += ", proved between " + brief_below(*of.low, 9) + " and " + brief_above(*of.high, 9);
   else
     text += ", not proved";
   facts.push_back(text);
   json["peak"] = {{"value", of.value},
-                  {"frequency", std::isfinite(of.frequency) ? io::Json(of.frequency) : io::Json()},
+                  {"frequency", number(of.frequency)},
                   {"low", end(of.low)},
                   {"high", end(of.high)}};
 }
@@ -259,44 +261,50 @@ void add_facts(const DrawnSystem& drawn, SystemPicture kind, SystemResult& resul
   result.data["systems"].push_back(std::move(data));
 }
 
+SystemResult result_of(const SystemFigure& figure, const model::Stated& stated) {
+  SystemResult result;
+  result.name = figure.name;
+  result.data = {{"name", figure.name}, {"kind", to_string(figure.kind)}};
+  std::vector<DrawnSystem> systems;
+  for (const SystemFigure::System& of : figure.systems) {
+    auto system = value_of(of, stated);
+    if (!system) {
+      result.missing =
+          "'" + of.label + "' uses what has no value, such as a gain of a design without solution";
+      return result;
+    }
+    systems.push_back({of.label, std::move(*system), {}, {}, {}, {}, {}, {}});
+  }
+  const bool is_poles = figure.kind == SystemPicture::poles;
+  for (const DrawnSystem& drawn : systems)
+    if (is_poles && drawn.system.is_sampled() != systems.front().system.is_sampled())
+      throw InputError(figure.place, "figures: " + figure.name +
+                                         ": poles of continuous and of sampled systems need two "
+                                         "pictures");
+  const auto range = is_poles ? std::pair(0.0, 0.0) : range_of(figure, stated, systems);
+  for (DrawnSystem& drawn : systems) {
+    compute(figure, range, drawn);
+    add_facts(drawn, figure.kind, result);
+  }
+  result.svg = report::svg(system_picture(figure.name, figure.kind, systems));
+  return result;
+}
+
 }  // namespace
 
-std::vector<SystemResult> system_results(const LoadedGains& loaded) {
-  const model::Design& design = *loaded.stated.design;
+std::vector<SystemResult> system_results(const LoadedGains& loaded,
+                                         const std::vector<std::string>& names) {
+  const std::vector<SystemFigure>& all = loaded.stated.design->pictures;
+  for (const std::string& name : names)
+    if (!has_named(all, name))
+      throw InputError({"--figure"}, "the problem has no figure '" + name + "'" +
+                                         suggestion(name, names_of_all(all)));
   std::vector<SystemResult> results;
-  if (design.pictures.empty()) return results;
+  if (all.empty()) return results;
   const model::Stated stated = bind::state(loaded.stated, loaded.gains);
-  for (const SystemFigure& figure : design.pictures) {
-    SystemResult result;
-    result.name = figure.name;
-    result.data = {{"name", figure.name}, {"kind", to_string(figure.kind)}};
-    std::vector<DrawnSystem> systems;
-    for (const SystemFigure::System& of : figure.systems) {
-      auto system = value_of(of, stated);
-      if (!system) {
-        result.missing = "'" + of.label +
-                         "' uses what has no value, such as a gain of a design without solution";
-        break;
-      }
-      systems.push_back({of.label, std::move(*system), {}, {}, {}, {}, {}, {}});
-    }
-    if (figure.kind == SystemPicture::poles && systems.size() > 1)
-      for (const DrawnSystem& drawn : systems)
-        if (drawn.system.is_sampled() != systems.front().system.is_sampled())
-          throw InputError(figure.place, "figures: " + figure.name +
-                                             ": poles of continuous and of sampled systems need "
-                                             "two pictures");
-    if (result.missing.empty()) {
-      const auto range = figure.kind == SystemPicture::poles ? std::pair(0.0, 0.0)
-                                                             : range_of(figure, stated, systems);
-      for (DrawnSystem& drawn : systems) {
-        compute(figure, range, drawn);
-        add_facts(drawn, figure.kind, result);
-      }
-      result.svg = report::svg(system_picture(figure.name, figure.kind, systems));
-    }
-    results.push_back(std::move(result));
-  }
+  for (const SystemFigure& figure : all)
+    if (names.empty() || std::find(names.begin(), names.end(), figure.name) != names.end())
+      results.push_back(result_of(figure, stated));
   return results;
 }
 

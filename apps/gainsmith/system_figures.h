@@ -18,8 +18,9 @@ struct SystemResult {
   io::Json data;                   ///< the curves and the facts
 };
 
-/// All figures of the design, in its order. InputError at the place of one whose range or matrices
-/// are no numbers of use.
-std::vector<SystemResult> system_results(const LoadedGains& loaded);
+/// The figures of the design with these names, or all in its order. InputError for a name that is
+/// none, and at the place of a figure whose range or matrices are no numbers of use.
+std::vector<SystemResult> system_results(const LoadedGains& loaded,
+                                         const std::vector<std::string>& names = {});
 
 }  // namespace gainsmith::app

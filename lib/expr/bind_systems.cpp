@@ -247,7 +247,7 @@ Bound closed(const Emitter& make, const Bound& p, const Bound& k, int step) {
   const int d11 = make.part(of.d, 0, q - y, 0, m - u), d12 = make.part(of.d, 0, q - y, m - u, m);
   const int d21 = make.part(of.d, q - y, q, 0, m - u), d22 = make.part(of.d, q - y, q, m - u, m);
   const int loop = make(Op::inverse, {make.subtract(one(make, u), make.multiply(by.d, d22))}, {},
-                        "the loop, whose direct gain is 1: it has no solution, in I - D_K*D");
+                        "the loop has no solution, as I - D_K*D");
   const int through = make.multiply(loop, by.d);
   const int ux = make.multiply(through, c2), uk = make.multiply(loop, by.c),
             uw = make.multiply(through, d21);

@@ -4,7 +4,6 @@
 #include <Eigen/SVD>
 #include <cmath>
 #include <utility>
-#include <vector>
 
 #include "numerics/balance.h"
 
@@ -14,15 +13,7 @@ using Complex = std::complex<double>;
 
 FrequencyResponse::FrequencyResponse(const StateSpace& system) : D_(system.D), step_(system.step) {
   const Eigen::Index n = system.states();
-  Matrix A = system.A, B = system.B, C = system.C;
-  const std::vector<int> units = numerics::balance(A.cwiseAbs());
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const double unit = std::ldexp(1.0, units[static_cast<std::size_t>(i)]);
-    A.row(i) /= unit;
-    A.col(i) *= unit;
-    B.row(i) /= unit;
-    C.col(i) *= unit;
-  }
+  const auto [A, B, C, D, step] = in_units(system, numerics::balance(system.A.cwiseAbs()));
   if (n < 2) {
     A_ = A;
     B_ = B;

@@ -80,7 +80,8 @@ Margins margins(const StateSpace& loop) {
   for (const double w : crossings(sweep, imaginary, response)) {
     const Complex l = at(w);
     // A pole on the axis changes the sign too, at infinity.
-    if (l.real() < 0 && std::isfinite(l.real()) && std::abs(l.imag()) < 1e-3 * std::abs(l.real()))
+    constexpr double kReal = 1e-3;
+    if (l.real() < 0 && std::isfinite(l.real()) && std::abs(l.imag()) < kReal * std::abs(l.real()))
       nearer(result.gain, -1 / l.real(), w, decibels);
   }
   // Where L is real by symmetry: at rest, at half of the sampling frequency, at infinity.

@@ -23,19 +23,6 @@ namespace {
 using numbers::Enclosed;
 using Balls = Enclosed<double>;
 
-/// In units of the states in which A is small: powers of two, so that nothing is rounded.
-StateSpace in_units(StateSpace system) {
-  const std::vector<int> units = numerics::balance(system.A.cwiseAbs());
-  for (Eigen::Index i = 0; i < system.states(); ++i) {
-    const double unit = std::ldexp(1.0, units[static_cast<std::size_t>(i)]);
-    system.A.row(i) /= unit;
-    system.A.col(i) *= unit;
-    system.B.row(i) /= unit;
-    system.C.col(i) *= unit;
-  }
-  return system;
-}
-
 /// x+ = ... as x' = ... by z = (1 + s)/(1 - s), which keeps the gains.
 StateSpace as_continuous(const StateSpace& system) {
   if (!system.is_sampled()) return system;
@@ -58,10 +45,12 @@ std::vector<double> level_frequencies(const StateSpace& system, double level) {
   H << A, system.B * lu.solve(system.B.transpose()),
       -system.C.transpose() * (system.C + system.D * through), -A.transpose();
   const Matrix all = numbers::real_eigenvalues<double>(H);
-  const double size = all.cwiseAbs().maxCoeff();
+  // What is taken as imaginary may be too much: these frequencies are only tried.
+  constexpr double kOnAxis = 1e-8, kSlow = 1e-4;
+  const double size = kSlow * all.cwiseAbs().maxCoeff();
   std::vector<double> found;
   for (Eigen::Index k = 0; k < all.rows(); ++k)
-    if (all(k, 1) >= 0 && std::abs(all(k, 0)) <= 1e-8 * std::max(std::abs(all(k, 1)), 1e-4 * size))
+    if (all(k, 1) >= 0 && std::abs(all(k, 0)) <= kOnAxis * std::max(std::abs(all(k, 1)), size))
       found.push_back(all(k, 1));
   std::sort(found.begin(), found.end());
   return found;
@@ -221,7 +210,7 @@ bool is_proved_below(const StateSpace& system, double level, double share) {
 
 std::optional<Peak> peak(const StateSpace& given) {
   if (!is_stable(given) || given.D.size() == 0) return std::nullopt;
-  const StateSpace system = in_units(given);
+  const StateSpace system = in_units(given, numerics::balance(given.A.cwiseAbs()));
   Search search(system);
   const double infinite = std::numeric_limits<double>::infinity();
   if (!system.is_sampled())
@@ -254,7 +243,7 @@ std::optional<Peak> peak(const StateSpace& given) {
   const double states = FrequencyResponse(to_states).largest_gain(w);
   for (const double above : {1e-6, 1e-5, 1e-4, 1e-3}) {
     const double level = found.value * (1 + above);
-    const double share = states > 0 ? above * found.value * found.value / (states * states) : 0;
+    const double share = states > 0 ? above * found.value * found.value / (states * states) : 1;
     if (!is_proved_below(system, level, share)) continue;
     found.high = level;
     break;

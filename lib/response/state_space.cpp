@@ -14,6 +14,17 @@ StateSpace state_space(const Matrix& whole, int states, double step) {
           whole.bottomRightCorner(p, m), step};
 }
 
+StateSpace in_units(StateSpace system, const std::vector<int>& exponents) {
+  for (Eigen::Index i = 0; i < system.states(); ++i) {
+    const double unit = std::ldexp(1.0, exponents[static_cast<std::size_t>(i)]);
+    system.A.row(i) /= unit;
+    system.A.col(i) *= unit;
+    system.B.row(i) /= unit;
+    system.C.col(i) *= unit;
+  }
+  return system;
+}
+
 Matrix poles(const StateSpace& system) {
   if (system.states() == 0) return Matrix(0, 2);
   return numbers::real_eigenvalues<double>(system.A);

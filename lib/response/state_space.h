@@ -4,6 +4,8 @@
 //   sampled      x+ = A x + B u,  y = C x + D u,   H(z), z = exp(s T)
 #pragma once
 
+#include <vector>
+
 #include "numbers/matrix.h"
 
 namespace gainsmith::response {
@@ -23,6 +25,9 @@ struct StateSpace {
 
 /// [A, B; C, D] with so many states.
 StateSpace state_space(const Matrix& whole, int states, double step);
+
+/// The same with 2^exponents as units of the states: nothing is rounded.
+StateSpace in_units(StateSpace system, const std::vector<int>& exponents);
 
 /// A row (real part, imaginary part) for each; as numbers::real_eigenvalues orders them.
 Matrix poles(const StateSpace& system);

@@ -84,65 +84,78 @@ std::vector<Speed> speeds_of(const StateSpace& system) {
   return all;
 }
 
-/// Reads the facts from values that come one after the other.
+/// Reads the facts from values that come one after the other. Between them a continuous output
+/// is a line where it crosses a level, and a parabola at its extremes; a sampled one has no values.
 class StepReader {
  public:
-  explicit StepReader(double end) : end_(end) { facts_.final_value = end; }
+  StepReader(double end, bool sampled) : end_(end), sampled_(sampled) {}
 
   void read(double t, double y) {
-    if (std::abs(y) > std::abs(facts_.largest)) {
-      facts_.largest = y;
-      facts_.largest_at = t;
-    }
-    const double share = y / end_;
-    if (count_ >= 2) meet_extreme(share);
-    first(0.1, t, share, low_);
-    first(0.9, t, share, high_);
-    if (std::abs(share - 1) > kBand)
+    if (!sampled_ && count_ >= 2) meet_between(t, y);
+    meet(t, y);
+    first(0.1, t, y, low_);
+    first(0.9, t, y, high_);
+    if (!(std::abs(y / end_ - 1) <= kBand))
       outside_ = true;
     else if (outside_) {
-      const double level = last_ > 1 ? 1 + kBand : 1 - kBand;
-      facts_.settling = crossing(level, t, share);
+      settling_ = crossing(last_ / end_ > 1 ? 1 + kBand : 1 - kBand, t, y);
       outside_ = false;
     }
     before_ = last_;
     before_at_ = last_at_;
-    last_ = share;
+    last_ = y;
     last_at_ = t;
     ++count_;
   }
-  StepFacts facts() {
-    facts_.overshoot = std::max(most_ - 1, 0.0);
-    facts_.undershoot = std::max(-least_, 0.0);
-    facts_.rise = high_.value_or(0) - low_.value_or(0);
-    return facts_;
+  StepFacts facts() const {
+    const bool falls = std::abs(least_) > most_;
+    const double top = (end_ > 0 ? most_ : least_) / end_, dip = (end_ > 0 ? least_ : most_) / end_;
+    return {end_,
+            falls ? least_ : most_,
+            falls ? least_at_ : most_at_,
+            std::max(top - 1, 0.0),
+            std::max(-dip, 0.0),
+            high_.value_or(0) - low_.value_or(0),
+            settling_};
   }
 
  private:
   static constexpr double kBand = 0.02;
 
-  double crossing(double level, double t, double share) const {
-    if (count_ == 0 || share == last_) return t;
-    return last_at_ + (t - last_at_) * (level - last_) / (share - last_);
+  void meet(double t, double y) {
+    if (y > most_) {
+      most_ = y;
+      most_at_ = t;
+    }
+    if (y < least_) {
+      least_ = y;
+      least_at_ = t;
+    }
   }
-  void first(double level, double t, double share, std::optional<double>& when) const {
-    if (!when && share >= level) when = crossing(level, t, share);
+  /// The vertex of the parabola through the last three values, where the middle one is an extreme.
+  void meet_between(double t, double y) {
+    const double length = t - last_at_;
+    constexpr double kEqual = 1e-9;
+    if ((last_ - before_) * (y - last_) >= 0 ||
+        std::abs(last_at_ - before_at_ - length) > kEqual * length)
+      return;
+    const double slope = (y - before_) / 2, bend = before_ - 2 * last_ + y;
+    meet(last_at_ - length * slope / bend, last_ - slope * slope / (2 * bend));
   }
-  /// Of three values, the middle one the largest or the least, that of the parabola through them.
-  void meet_extreme(double share) {
-    double top = last_;
-    const bool equal_steps = std::abs((last_at_ - before_at_)) > 0;
-    const double bend = before_ - 2 * last_ + share, slope = (share - before_) / 2;
-    if (equal_steps && (last_ - before_) * (share - last_) < 0) top -= slope * slope / (2 * bend);
-    most_ = std::max(most_, top);
-    least_ = std::min(least_, top);
+  /// When the share of the final value is reached.
+  double crossing(double share, double t, double y) const {
+    if (sampled_ || count_ == 0 || y == last_) return t;
+    return last_at_ + (t - last_at_) * (share * end_ - last_) / (y - last_);
+  }
+  void first(double share, double t, double y, std::optional<double>& when) const {
+    if (!when && y / end_ >= share) when = crossing(share, t, y);
   }
 
-  StepFacts facts_;
   double end_;
+  bool sampled_;
   int count_ = 0;
   double before_ = 0, before_at_ = 0, last_ = 0, last_at_ = 0;
-  double most_ = 0, least_ = 0;
+  double most_ = 0, most_at_ = 0, least_ = 0, least_at_ = 0, settling_ = 0;
   bool outside_ = true;
   std::optional<double> low_, high_;
 };
@@ -167,7 +180,7 @@ std::optional<StepFacts> step_facts(const StateSpace& system, Eigen::Index input
   Matrix whole = Matrix::Zero(n + 1, n + 1);
   whole.topLeftCorner(n, n) = system.A;
   whole.topRightCorner(n, 1) = b;
-  StepReader reader(end);
+  StepReader reader(end, system.is_sampled());
   const auto value = [&] { return (out * z)(0, 0); };
   reader.read(0, value());
   const std::vector<Speed> modes = speeds_of(system);

@@ -68,15 +68,7 @@ StateSpace transposed(const StateSpace& system) {
 }
 
 StateSpace balanced(const StateSpace& system) {
-  StateSpace result = system;
-  const std::vector<int> units = numerics::units(system.A.cwiseAbs(), system.C.cwiseAbs());
-  for (Eigen::Index i = 0; i < system.states(); ++i) {
-    const double unit = std::ldexp(1.0, units[static_cast<std::size_t>(i)]);
-    result.A.row(i) /= unit;
-    result.A.col(i) *= unit;
-    result.B.row(i) /= unit;
-    result.C.col(i) *= unit;
-  }
+  StateSpace result = in_units(system, numerics::units(system.A.cwiseAbs(), system.C.cwiseAbs()));
   // Units of the inputs and outputs.
   const auto size_of = [](const Matrix& M) { return M.norm() > 0 ? M.norm() : 1.0; };
   const double inputs = size_of(result.B), outputs = size_of(result.C);

@@ -40,6 +40,9 @@ TEST(Peaks, MayBeAtTheEnds) {
   EXPECT_EQ(peak(high)->frequency, std::numeric_limits<double>::infinity());
   const StateSpace still{Matrix(0, 0), Matrix(0, 2), Matrix(1, 0), Matrix{{3, 4}}, 0};
   expect_bracket(*peak(still), 5);
+  // No input reaches the state.
+  const StateSpace unreached{Matrix{{-1}}, Matrix{{0}}, Matrix{{1}}, Matrix{{2}}, 0};
+  expect_bracket(*peak(unreached), 2);
   // 1/(z + 0.5): 2 at half of the sampling frequency.
   const StateSpace sampled{Matrix{{-0.5}}, Matrix{{1}}, Matrix{{1}}, Matrix{{0}}, 0.1};
   expect_bracket(*peak(sampled), 2);
