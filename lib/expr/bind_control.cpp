@@ -53,7 +53,7 @@ int continuous_operator(const Emitter& make, int a) {
 /// X -> A X A' - X: blocks A_ij A, less I on the diagonal.
 int discrete_operator(const Emitter& make, int a) {
   const int n = make.shape(a).rows;
-  const int one = make.identity(make.number("1"), n);
+  const int one = make.identity(n);
   return square_of_blocks(make, n, [&](int i, int j) {
     const int multiple = make.scale(make.element(a, i, j), a);
     return i == j ? make.subtract(multiple, one) : multiple;
@@ -226,16 +226,20 @@ Bound Binder::controllability(const Expression& expression, const Node& node) {
 }
 
 /// The upper rows of expm([A, B; 0, 0]*T).
+int Binder::sampled_matrices(const Emitter& make, int a, int b, int t) {
+  const int n = make.shape(a).rows, m = make.shape(b).cols;
+  const int whole = make.blocks({a, b, make.zeros({m, n}), make.zeros({m, m})}, 2);
+  return make.part(make.exponential(whole, t), 0, n, 0, n + m);
+}
+
+/// c2d(A, B, T), or c2d(G, T) of a system.
 Bound Binder::sampled(const Expression& expression, const Node& node) {
+  if (node.children.size() == 2) return sampled_system(expression, node);
   const Emitter make(*this, expression, node);
   const int a = square_argument(expression, node, "c2d");
   const int b = input_matrix(expression, node, a);
   const Node& last = *node.children[2];
-  const int t = materialise(expression, last, bind(expression, last), {});
-  const int n = shape(a).rows;
-  const int m = shape(b).cols;
-  const int whole = make.blocks({a, b, make.zeros({m, n}), make.zeros({m, m})}, 2);
-  return {make.part(make.exponential(whole, t), 0, n, 0, n + m)};
+  return {sampled_matrices(make, a, b, materialise(expression, last, bind(expression, last), {}))};
 }
 
 /// The inverse of the operator, n^2 x n^2, on the columns of -Q.

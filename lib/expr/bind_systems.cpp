@@ -18,18 +18,7 @@ namespace gainsmith::expr {
 
 namespace {
 
-struct Parts {
-  int a, b, c, d;
-};
-
-Parts parts_of(const Emitter& make, const Bound& system) {
-  const auto [rows, cols] = make.shape(system.at);
-  const int n = system.states;
-  return {make.part(system.at, 0, n, 0, n), make.part(system.at, 0, n, n, cols),
-          make.part(system.at, n, rows, 0, n), make.part(system.at, n, rows, n, cols)};
-}
-
-Bound system_of(const Emitter& make, const Parts& of, int step) {
+Bound system_of(const Emitter& make, const Binder::SystemParts& of, int step) {
   const int n = make.shape(of.a).rows;
   if (n == 0) return {of.d, false, 0, -1};
   return {make.blocks({of.a, of.b, of.c, of.d}, 2), false, n, step};
@@ -41,14 +30,6 @@ int inputs_of(const Emitter& make, const Bound& system) {
 int outputs_of(const Emitter& make, const Bound& system) {
   return make.shape(system.at).rows - system.states;
 }
-
-int block_diagonal_of(const Emitter& make, int first, int second) {
-  const Shape a = make.shape(first), b = make.shape(second);
-  return make.blocks({first, make.zeros({a.rows, b.cols}), make.zeros({b.rows, a.cols}), second},
-                     2);
-}
-
-int one(const Emitter& make, int size) { return make.identity(make.number("1"), size); }
 
 /// d_k of the denominator sum_k d_k (s T)^k of a Pade approximation: (2n - k)!/(k! (n - k)!), whole numbers.
 std::vector<std::string> pade_coefficients(int n) {
@@ -63,6 +44,13 @@ std::vector<std::string> pade_coefficients(int n) {
 }
 
 }  // namespace
+
+Binder::SystemParts Binder::parts_of(const Emitter& make, const Bound& system) {
+  const auto [rows, cols] = make.shape(system.at);
+  const int n = system.states;
+  return {make.part(system.at, 0, n, 0, n), make.part(system.at, 0, n, n, cols),
+          make.part(system.at, n, rows, 0, n), make.part(system.at, n, rows, n, cols)};
+}
 
 void Binder::refuse_system(const Expression& expression, const Node& node) const {
   const std::string quoted = expression.quote(node);
@@ -88,7 +76,7 @@ Bound Binder::bind_system(const Expression& expression, const Node& node) {
 
 Bound Binder::part_of_system(const Expression& expression, const Node& node, Bound system,
                              char part) {
-  const Parts of = parts_of(Emitter(*this, expression, node), system);
+  const SystemParts of = parts_of(Emitter(*this, expression, node), system);
   return {part == 'A' ? of.a : part == 'B' ? of.b : part == 'C' ? of.c : of.d};
 }
 
@@ -159,7 +147,7 @@ Bound Binder::transfer_function(const Expression& expression, const Node& node) 
     c.push_back(m == n ? make.subtract(of_num, make.multiply(d, of_den)) : of_num);
   }
   const int row = make.blocks(std::move(first_row), n);
-  const int below = make.blocks({one(make, n - 1), make.zeros({n - 1, 1})}, 2);
+  const int below = make.blocks({make.identity(n - 1), make.zeros({n - 1, 1})}, 2);
   const int b = make.blocks({make.number("1"), make.zeros({n - 1, 1})}, 1);
   return {make.blocks({make.blocks({row, below}, 1), b, make.blocks(std::move(c), n), d}, 2), false,
           n, step};
@@ -180,7 +168,7 @@ Bound Binder::pair_of_systems(const Expression& expression, const Node& node, Co
   }
   first = as_system(expression, node, first);
   second = as_system(expression, node, second);
-  const Parts one = parts_of(make, first), other = parts_of(make, second);
+  const SystemParts one = parts_of(make, first), other = parts_of(make, second);
   int step = std::max(first.step, second.step);
   if (first.states > 0 && second.states > 0 && first.step != second.step)
     fail(expression, node,
@@ -193,13 +181,12 @@ Bound Binder::pair_of_systems(const Expression& expression, const Node& node, Co
            std::string("the systems do not fit: ") + std::to_string(outputs) + what +
                std::to_string(inputs));
   };
-  const int a = block_diagonal_of(make, one.a, other.a);
+  const int a = make.block_diagonal(one.a, other.a);
   if (how == Composed::append)
-    return system_of(
-        make,
-        {a, block_diagonal_of(make, one.b, other.b), block_diagonal_of(make, one.c, other.c),
-         block_diagonal_of(make, one.d, other.d)},
-        step);
+    return system_of(make,
+                     {a, make.block_diagonal(one.b, other.b), make.block_diagonal(one.c, other.c),
+                      make.block_diagonal(one.d, other.d)},
+                     step);
   if (how == Composed::parallel) {
     meet(inputs_of(make, first), inputs_of(make, second), " inputs beside ");
     meet(outputs_of(make, first), outputs_of(make, second), " outputs beside ");
@@ -239,15 +226,15 @@ namespace {
 
 /// u = K y between the last inputs u and outputs y of P; the inverse is of I - D_K D_22.
 Bound closed(const Emitter& make, const Bound& p, const Bound& k, int step) {
-  const Parts of = parts_of(make, p), by = parts_of(make, k);
+  const Binder::SystemParts of = Binder::parts_of(make, p), by = Binder::parts_of(make, k);
   const int n = p.states, y = inputs_of(make, k), u = outputs_of(make, k);
   const int m = inputs_of(make, p), q = outputs_of(make, p);
   const int b1 = make.part(of.b, 0, n, 0, m - u), b2 = make.part(of.b, 0, n, m - u, m);
   const int c1 = make.part(of.c, 0, q - y, 0, n), c2 = make.part(of.c, q - y, q, 0, n);
   const int d11 = make.part(of.d, 0, q - y, 0, m - u), d12 = make.part(of.d, 0, q - y, m - u, m);
   const int d21 = make.part(of.d, q - y, q, 0, m - u), d22 = make.part(of.d, q - y, q, m - u, m);
-  const int loop = make(Op::inverse, {make.subtract(one(make, u), make.multiply(by.d, d22))}, {},
-                        "the loop has no solution, as I - D_K*D");
+  const int loop = make(Op::inverse, {make.subtract(make.identity(u), make.multiply(by.d, d22))},
+                        {}, "the loop has no solution, as I - D_K*D");
   const int through = make.multiply(loop, by.d);
   const int ux = make.multiply(through, c2), uk = make.multiply(loop, by.c),
             uw = make.multiply(through, d21);
@@ -294,7 +281,7 @@ Bound Binder::feedback(const Expression& expression, const Node& node) {
              std::to_string(inputs) + " outputs, not " + std::to_string(inputs_of(make, k)) +
              " and " + std::to_string(outputs_of(make, k)));
   const Bound both = pair_of_systems(expression, node, Composed::append, g, k);
-  const Parts of = parts_of(make, g);
+  const SystemParts of = parts_of(make, g);
   const int minus_d = make.negate(of.d);
   const Bound p =
       system_of(make,
@@ -308,20 +295,20 @@ Bound Binder::feedback(const Expression& expression, const Node& node) {
 Bound Binder::augmented(const Expression& expression, const Node& node) {
   const Emitter make(*this, expression, node);
   const Bound g = bind_system(expression, *node.children[0]);
-  const Parts of = parts_of(make, g);
+  const SystemParts of = parts_of(make, g);
   const int m = inputs_of(make, g), p = outputs_of(make, g);
   const int zero_c = make.zeros({m, g.states}), zero_b = make.zeros({g.states, p});
   // [e; u; G u; e], as far as there are weights.
   std::vector<int> c, d;
   const auto add_error = [&] {
     c.push_back(make.negate(of.c));
-    d.insert(d.end(), {one(make, p), make.negate(of.d)});
+    d.insert(d.end(), {make.identity(p), make.negate(of.d)});
   };
   add_error();
   const std::size_t weights = node.children.size() - 1;
   if (weights >= 2) {
     c.push_back(zero_c);
-    d.insert(d.end(), {make.zeros({m, p}), one(make, m)});
+    d.insert(d.end(), {make.zeros({m, p}), make.identity(m)});
   }
   if (weights >= 3) {
     c.push_back(of.c);
@@ -341,7 +328,7 @@ Bound Binder::augmented(const Expression& expression, const Node& node) {
     for (int copies = single ? signals : 1; copies > 0; --copies)
       all = all ? pair_of_systems(expression, node, Composed::append, *all, weight) : weight;
   }
-  const Bound error{one(make, p), false, 0, -1};
+  const Bound error{make.identity(p), false, 0, -1};
   return pair_of_systems(expression, node, Composed::series, plant,
                          pair_of_systems(expression, node, Composed::append, *all, error));
 }
@@ -356,7 +343,7 @@ Bound Binder::pade(const Expression& expression, const Node& node) {
     fail(expression, *node.children[1],
          "the order must be a whole number known beforehand, from 0 to " + std::to_string(kMost));
   const int n = *order;
-  if (n == 0) return {one(make, 1), false, 0, -1};
+  if (n == 0) return {make.identity(1), false, 0, -1};
   const std::vector<std::string> coefficients = pade_coefficients(n);
   std::vector<int> first_row, c;
   for (int k = n - 1; k >= 0; --k) {
@@ -367,7 +354,8 @@ Bound Binder::pade(const Expression& expression, const Node& node) {
     c.push_back(same_parity ? make.zeros({1, 1}) : k % 2 == 0 ? twice : make.negate(twice));
   }
   const int row = make.blocks(std::move(first_row), n);
-  const int a = make.blocks({row, make.blocks({one(make, n - 1), make.zeros({n - 1, 1})}, 2)}, 1);
+  const int a =
+      make.blocks({row, make.blocks({make.identity(n - 1), make.zeros({n - 1, 1})}, 2)}, 1);
   const int b = make.blocks({make.number("1"), make.zeros({n - 1, 1})}, 1);
   const int d = n % 2 == 0 ? make.number("1") : make.negate(make.number("1"));
   return {

@@ -17,6 +17,8 @@
 
 namespace gainsmith::expr {
 
+class Emitter;
+
 /// The value of a subexpression: an instruction or, when `identity`, the instruction's 1 x 1 value
 /// times an identity whose size is not known yet. A system x' = A x + B u, y = C x + D u, sampled
 /// x+ = ... with a `step`, is the matrix [A, B; C, D] with the number of its states.
@@ -62,6 +64,11 @@ class Binder {
   int as_diagonal(const Expression& expression, const Node& node, int elements);
 
   Shape shape(int at) const { return assembly_.shape(at); }
+  /// The matrices of a system, as instructions.
+  struct SystemParts {
+    int a, b, c, d;
+  };
+  static SystemParts parts_of(const Emitter& make, const Bound& system);
   /// The program that computes `at`, without the instructions that it does not need.
   Program extract(int at) const { return assembly_.extract(at); }
 
@@ -207,6 +214,8 @@ class Binder {
   Bound controllability(const Expression& expression, const Node& node);
   int output_matrix(const Expression& expression, const Node& argument, int a);
   int input_matrix(const Expression& expression, const Node& node, int a);
+  /// [Ad, Bd] of the pair (A, B) over the time t.
+  static int sampled_matrices(const Emitter& make, int a, int b, int t);
   Bound sampled(const Expression& expression, const Node& node);
   Bound lyapunov(const Expression& expression, const Node& node, bool discrete);
   Bound output_gain(const Expression& expression, const Node& node, bool discrete);
@@ -241,6 +250,27 @@ class Binder {
   Bound linear_fraction(const Expression& expression, const Node& node);
   Bound augmented(const Expression& expression, const Node& node);
   Bound pade(const Expression& expression, const Node& node);
+  // bind_realizations.cpp
+  static Bound in_basis(const Emitter& make, const SystemParts& of, int basis);
+  int reachable(const Expression& expression, const Node& node, const Emitter& make,
+                std::pair<int, int> pair, int size, int tolerance);
+  Bound minimal_realization(const Expression& expression, const Node& node);
+  struct ToSample {
+    SystemParts of;
+    int states;
+    int time;
+  };
+  ToSample to_sample(const Expression& expression, const Node& node, const Emitter& make);
+  Bound sampled_system(const Expression& expression, const Node& node);
+  Bound bilinear(const Expression& expression, const Node& node);
+  // bind_place.cpp
+  struct Pole {
+    double value, turn;            ///< its parts, turn >= 0
+    int real;                      ///< the instructions of both
+    std::optional<int> imaginary;  ///< none: a real pole
+  };
+  std::vector<Pole> poles_of(const Expression& expression, const Node& node, int n);
+  Bound placed(const Expression& expression, const Node& node);
   // bind_gramian.cpp
   Bound gramian(const Expression& expression, const Node& node, bool backward);
   // bind_projections.cpp

@@ -32,6 +32,7 @@ class Emitter {
   int identity(int number, int size) const {
     return binder_.emit(expression_, node_, Op::identity, {number}, {size, size});
   }
+  int identity(int size) const { return identity(number("1"), size); }
 
   int add(int a, int b) const { return (*this)(Op::add, {a, b}); }
   int subtract(int a, int b) const { return (*this)(Op::subtract, {a, b}); }
@@ -53,6 +54,11 @@ class Emitter {
   /// Row by row, `columns` in each row.
   int blocks(std::vector<int> entries, int columns) const {
     return (*this)(Op::blocks, std::move(entries), {columns});
+  }
+  /// [first, 0; 0, second].
+  int block_diagonal(int first, int second) const {
+    const Shape a = shape(first), b = shape(second);
+    return blocks({first, zeros({a.rows, b.cols}), zeros({b.rows, a.cols}), second}, 2);
   }
   int exponential(int a, int t) const { return (*this)(Op::matrix_exponential, {scale(t, a)}); }
 

@@ -6,7 +6,7 @@ namespace gainsmith::expr {
 
 namespace {
 
-std::atomic<std::uint64_t> parsed = 0;
+std::atomic<std::uint64_t> parsed_texts = 0;
 std::atomic<std::uint64_t> bound = 0;
 std::atomic<std::uint64_t> problems = 0;
 std::atomic<std::uint64_t> designs = 0;
@@ -19,9 +19,9 @@ std::uint64_t value(const std::atomic<std::uint64_t>& counter) {
 
 }  // namespace
 
-Work work_done() { return {value(parsed), value(bound), value(problems), value(designs)}; }
+Work work_done() { return {value(parsed_texts), value(bound), value(problems), value(designs)}; }
 
-void count_parsed() { count(parsed); }
+void count_parsed() { count(parsed_texts); }
 void count_bound() { count(bound); }
 void count_problem() { count(problems); }
 void count_design() { count(designs); }

@@ -55,7 +55,7 @@ TEST_F(Messages, FunctionsOfOtherLanguagesLeadToTheirNamesHere) {
                                  "lqr",
                                  "dlqr",
                                  "kalman",
-                                 "place",
+                                 "acker",
                                  "inverse",
                                  "transpose",
                                  "arctan",

@@ -125,7 +125,83 @@ TEST_P(Systems, AreWeighted) {
   });
 }
 
+/// Hidden states are left out, whatever the coordinates.
+TEST_P(Systems, HaveMinimalRealizations) {
+  world.define("P0", "append(L, K)")
+      .define("U",
+              "orth([1, 2, 0, 0, 1; 0, 1, 3, 0, 2; 1, 0, 1, 1, 0; 0, "
+              "0, 1, 4, 1; 2, 1, 0, 0, 5])");
+  const auto states = [&](const std::string& text) { return world("(" + text + ").A").rows(); };
+  const auto expect_least = [&](const std::string& text, Eigen::Index least) {
+    EXPECT_EQ(states("minreal(" + text + ")"), least) << text;
+    expect("minreal(" + text + ")", [&](Complex s) { return at(text, s); });
+  };
+  expect_least("G", n);
+  expect_least("H*G", n + 2);
+  // Twice the same, one of which inputs do not reach; one that is not seen.
+  expect_least("G + G", n);
+  expect_least("L - L", 0);
+  expect_least("ss([La, zeros(3, 2); zeros(2, 3), Ha], [Lb; zeros(2, 2)], [Lc, ones(3, 2)], Ld)",
+               3);
+  expect_least(
+      "ss(U'*[La, zeros(3, 2); ones(2, 3), Ha]*U, U'*[Lb; Hb(:, 1), Hb(:, 2)], [Lc, zeros(3, "
+      "2)]*U, Ld)",
+      3);
+}
+
+TEST_P(Systems, AreSampled) {
+  const double T = 0.3;
+  for (const std::string of : {"G", "L"}) {
+    // The bilinear map, and at z = exp(s T) of a held input the matrices of the pair.
+    for (const Complex z : kPoints) {
+      const Response found = at("tustin(" + of + ", 0.3)", z);
+      const Response wanted = at(of, 2 / T * (z - 1.0) / (z + 1.0));
+      EXPECT_LT((found - wanted).norm(), 1e-10 * (1 + wanted.norm())) << of;
+    }
+    if (world(of + ".A").size() == 0) continue;
+    const Matrix both = world("c2d(" + of + ".A, " + of + ".B, 0.3)"),
+                 A = world("c2d(" + of + ", 0.3).A"), B = world("c2d(" + of + ", 0.3).B");
+    EXPECT_LT((both.leftCols(A.cols()) - A).norm() + (both.rightCols(B.cols()) - B).norm(), 1e-14);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Random, Systems, testing::Range(0, 12));
+
+/// The characteristic polynomial of A - B K is that of the poles.
+class Placement : public testing::TestWithParam<int> {};
+
+TEST_P(Placement, MovesPoles) {
+  std::mt19937 random(static_cast<unsigned>(GetParam()));
+  const int n = 1 + GetParam() % 8, m = 1 + GetParam() % 3;
+  const int pairs = GetParam() % (n / 2 + 1);
+  World world;
+  world.set("A", random_matrix(random, n, n)).set("B", random_matrix(random, n, m));
+  // From the fifth case on one pole, or pair, is there several times.
+  std::vector<Complex> poles;
+  std::string real, imaginary;
+  const auto add = [&](double x, double y) {
+    poles.emplace_back(x, y);
+    real += (real.empty() ? "" : ", ") + std::to_string(x);
+    imaginary += (imaginary.empty() ? "" : ", ") + std::to_string(y);
+  };
+  const bool repeated = GetParam() >= 24;
+  for (int k = 0; k < pairs; ++k) {
+    add(-1 - (repeated ? 0 : 0.4 * k), 2.5);
+    add(-1 - (repeated ? 0 : 0.4 * k), -2.5);
+  }
+  for (int k = 2 * pairs; k < n; ++k) add(repeated ? -1.5 : -2 - 0.5 * k, 0);
+  const std::string p = pairs == 0 ? "[" + real + "]" : "[" + real + "; " + imaginary + "]";
+  const Matrix closed = world("A - B*place(A, B, " + p + ")");
+  for (const Complex s : kPoints) {
+    Response M = -closed.cast<Complex>();
+    M.diagonal().array() += s;
+    Complex wanted = 1;
+    for (const Complex pole : poles) wanted *= s - pole;
+    EXPECT_LT(std::abs(M.determinant() - wanted), 1e-7 * (1 + std::abs(wanted))) << p;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Random, Placement, testing::Range(0, 40));
 
 class TransferFunctions : public testing::Test {
  protected:
@@ -194,6 +270,10 @@ TEST_F(TransferFunctions, AreNoMatrices) {
   says("tf(M, 1)", "coefficients of a polynomial");
   says("pade(1, 0.5)", "whole number");
   says("lft(G, M)", "lft(P, K) needs P");
+  says("c2d(tf(1, [1, 0], 0.1), 0.2)", "sampled already");
+  says("place(M, [1; 1], [-1, -2, -3])", "place needs 2 poles");
+  says("place([0, 1; 0, 0], [0; 1], [-1, -1; 2, 3])", "with its conjugate");
+  says("place(M, [1; 0], [-1, -2])", "place: ");
   says("feedback(G, M)", "needs K with 1 inputs and 1 outputs");
   says("ss(M, M, M)", "'ss' is written");
 }
