@@ -103,7 +103,7 @@ report::Panel EnvelopeFigure::panel_of(const PlannedPanel& planned, std::size_t 
   return panel;
 }
 
-std::string EnvelopeFigure::svg(const std::string& title) {
+report::Figure EnvelopeFigure::figure(const std::string& title) {
   settle();
   report::Figure figure;
   figure.title = title;
@@ -113,7 +113,7 @@ std::string EnvelopeFigure::svg(const std::string& title) {
     figure.panels.push_back(panel_of(panel, line));
     line += panel.lines.size();
   }
-  return report::svg(figure);
+  return figure;
 }
 
 }  // namespace gainsmith::app

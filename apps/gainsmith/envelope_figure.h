@@ -23,7 +23,7 @@ class EnvelopeFigure {
 
   /// For each line of the usual panels, or of those of the view, but claims and planes: its
   /// median, the band from 5 to 95 % of the runs, the least and the largest value.
-  std::string svg(const std::string& title);
+  report::Figure figure(const std::string& title);
 
  private:
   /// Of a line of a panel, by time.

@@ -138,7 +138,7 @@ report::Panel panel_of(const Summaries& figures) {
 
 }  // namespace
 
-std::string histograms(const std::string& title, const statistics::FigureSurvey& survey) {
+report::Figure histograms(const std::string& title, const statistics::FigureSurvey& survey) {
   report::Figure picture;
   picture.title = title;
   for (std::size_t k = 0; k < survey.figures.size();) {
@@ -148,7 +148,7 @@ std::string histograms(const std::string& title, const statistics::FigureSurvey&
       same.push_back(&survey.figures[k]);
     for (const Summaries& group : grouped(same)) picture.panels.push_back(panel_of(group));
   }
-  return report::svg(picture);
+  return picture;
 }
 
 }  // namespace gainsmith::app

@@ -3,13 +3,14 @@
 
 #include <string>
 
+#include "report/figure.h"
 #include "statistics/figure_survey.h"
 
 namespace gainsmith::app {
 
-/// Histograms as SVG: a panel for each figure, with an outline for each observer; of observers whose
+/// Histograms: a panel for each figure, with an outline for each observer; of observers whose
 /// values spread far less or more than those of others panels of their own. Infinite values
 /// are not drawn; the legend says how many runs have no finite one.
-std::string histograms(const std::string& title, const statistics::FigureSurvey& survey);
+report::Figure histograms(const std::string& title, const statistics::FigureSurvey& survey);
 
 }  // namespace gainsmith::app

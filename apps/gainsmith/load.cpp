@@ -220,11 +220,10 @@ std::optional<LoadedGains> load_if_gains(const std::filesystem::path& path,
   const std::string text = read_text(path);
   const std::size_t begin = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
   // A problem may be JSON too.
-  const bool is_problem =
-      begin != std::string::npos &&
-      (text[begin] != '{' ||
-       (!is_gain_text(text) && text.find("\"problem\"") != std::string::npos &&
-        text.find("\"verdict\"") == std::string::npos));
+  const bool is_problem = begin != std::string::npos &&
+                          (text[begin] != '{' ||
+                           (!is_gain_text(text) && text.find("\"problem\"") != std::string::npos &&
+                            text.find("\"verdict\"") == std::string::npos));
   if (is_problem) return std::nullopt;
   if (!set.empty())
     throw InputError({"--set"},

@@ -41,6 +41,15 @@ struct LoadedGains {
   model::Instance stated;
 };
 
+/// One of several designs that are laid side by side; of a single one without a name.
+struct NamedDesign {
+  std::string name;
+  LoadedGains loaded;
+
+  /// "a: x" of x.
+  std::string label(const std::string& of) const { return name.empty() ? of : name + ": " + of; }
+};
+
 /// Reads a gain file, not the problem in it. InputError for what is no gain file.
 model::Gains read_gains(const std::filesystem::path& path);
 

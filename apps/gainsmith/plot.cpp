@@ -10,6 +10,8 @@
 #include "gainsmith/load.h"
 #include "gainsmith/output.h"
 #include "gainsmith/picture_file.h"
+#include "gainsmith/presentation.h"
+#include "gainsmith/several_designs.h"
 #include "gainsmith/system_figures.h"
 #include "gainsmith/terminal.h"
 
@@ -18,7 +20,8 @@ namespace gainsmith::app {
 namespace {
 
 struct PlotOptions {
-  std::string file;
+  std::vector<std::string> files;
+  Presentation presentation;
   std::vector<std::string> set;
   std::vector<std::string> figures;
   std::string output;
@@ -52,15 +55,32 @@ std::vector<std::string> files_of(const std::string& output,
   return files;
 }
 
+std::vector<NamedDesign> designs_of(const PlotOptions& options) {
+  std::vector<NamedDesign> designs;
+  const std::vector<std::string> names = names_of_files(options.files);
+  for (std::size_t k = 0; k < options.files.size(); ++k)
+    designs.push_back(
+        {options.files.size() == 1 ? "" : names[k], load_designed(options.files[k], options.set)});
+  return designs;
+}
+
 ExitCode plot(const PlotOptions& options) {
   check_picture_name(options.output, "--output");
-  prepare_outputs(options.file, {options.output});
-  const LoadedGains loaded = load_designed(options.file, options.set);
-  if (loaded.stated.design->pictures.empty())
-    throw InputError({options.file},
+  if (!options.presentation.empty() && options.output.empty())
+    throw InputError({options.files.front()},
+                     "--title, --size, --window and --name are about a picture: give -o FILE");
+  for (const std::string& file : options.files) prepare_outputs(file, {options.output});
+  const std::vector<NamedDesign> designs = designs_of(options);
+  if (designs.front().loaded.stated.design->pictures.empty())
+    throw InputError({options.files.front()},
                      "the problem asks for no pictures of linear systems: figures: {loop: {bode: "
                      "\"tf(1, [1, 2, 1])\"}}");
-  const std::vector<SystemResult> results = system_results(loaded, options.figures);
+  std::vector<SystemResult> results = system_results(designs, options.figures);
+  std::vector<report::Figure*> figures;
+  for (SystemResult& one : results) figures.push_back(&one.figure);
+  if (!options.presentation.title.empty() && results.size() > 1)
+    throw InputError({"--title"}, "of several pictures each has its own: choose one with --figure");
+  present(options.presentation, figures);
   const std::vector<std::string> files = files_of(options.output, results);
   const Telling telling;
   ExitCode exit = ExitCode::yes;
@@ -76,7 +96,7 @@ ExitCode plot(const PlotOptions& options) {
       text += "  no picture: " + one.missing + "\n";
       exit = ExitCode::undecided;
     } else if (!options.output.empty()) {
-      write_picture(files[k], one.svg);
+      write_picture(files[k], report::svg(one.figure));
       entry["file"] = files[k];
       text += "  wrote " + files[k] + "\n";
     }
@@ -93,12 +113,13 @@ ExitCode plot(const PlotOptions& options) {
 
 Command plot_command() {
   auto options = std::make_shared<PlotOptions>();
-  return {
+  Command command{
       "plot",
       "Draw Bode, Nyquist, step and pole pictures of the systems under figures:, with margins and "
       "peaks",
-      {Option("file", options->file,
-              "problem file (YAML), whose gains are then synthesized, or gain file (JSON)")
+      {Option("files", options->files,
+              "problem file (YAML), whose gains are then synthesized, or gain file (JSON); several "
+              "are drawn over each other")
            .required(),
        set_option(options->set),
        Option("--figure", options->figures, "this figure alone; may be given again").named("NAME"),
@@ -108,8 +129,12 @@ Command plot_command() {
       "Exit code: 0, 2 wrong input, 3 a figure uses a gain that has no value.\n"
       "Examples:\n"
       "  gainsmith plot problem.yaml\n"
-      "  gainsmith plot gains.json --figure loop -o loop.pdf",
+      "  gainsmith plot gains.json --figure loop -o loop.pdf --size 600x400\n"
+      "  gainsmith plot slow.json fast.json -o both.svg",
       [options] { return plot(*options); }};
+  for (const Option& option : presentation_options(options->presentation, false))
+    command.options.push_back(option);
+  return command;
 }
 
 }  // namespace gainsmith::app

@@ -63,8 +63,9 @@ void add_problem(const fs::path& gains, const fs::path& problem_file, page::Resu
 void add_figures(const fs::path& path, page::Results& results) {
   if (!results.problem || results.problem->figures.empty()) return;
   try {
-    for (const SystemResult& one : system_results(load_gains(path))) {
-      page::SystemFigure& figure = results.figures.emplace_back(one.name, one.svg, one.facts);
+    for (const SystemResult& one : system_results({{"", load_gains(path)}})) {
+      page::SystemFigure& figure = results.figures.emplace_back(
+          one.figure.title, one.missing.empty() ? report::svg(one.figure) : "", one.facts);
       if (!one.missing.empty()) figure.facts.push_back("No picture: " + one.missing + ".");
     }
   } catch (const InputError& error) {

@@ -249,8 +249,8 @@ report::Panel panel_of(const PlannedPanel& planned, const std::vector<DrawnRun>&
   return panel;
 }
 
-std::string run_figure(const std::string& title, const claims::RunSetup& setup,
-                       const std::vector<DrawnRun>& runs, RunView view) {
+report::Figure run_figure(const std::string& title, const claims::RunSetup& setup,
+                          const std::vector<DrawnRun>& runs, RunView view) {
   report::Figure figure;
   figure.title = title;
   const Replay& first = runs.front().replay;
@@ -275,7 +275,7 @@ std::string run_figure(const std::string& title, const claims::RunSetup& setup,
                      figure.panels.back());
   }
   if (runs.size() == 1) add_marks(first, figure);
-  return report::svg(figure);
+  return figure;
 }
 
 }  // namespace gainsmith::app

@@ -11,6 +11,7 @@
 #include "gainsmith/corrections.h"
 #include "gainsmith/run_table.h"
 #include "model/design.h"
+#include "report/figure.h"
 #include "verify/replay.h"
 
 namespace gainsmith::app {
@@ -53,13 +54,13 @@ std::string unit_of(const RunView& view, const verify::Column& column);
 DrawnRun drawn_run(const verify::Setup& setup, std::uint64_t number, hybrid::Trajectory run,
                    double step);
 
-/// The runs, all of one setup, as SVG. One run: the plant solid, observers dashed, each in a colour
+/// The runs, all of one setup. One run: the plant solid, observers dashed, each in a colour
 /// of its own; several: each run in a colour of its own. What is not larger than its rounding is 0.
 /// Claims of sizes far apart, of other units or signs, are in panels of their own, with their
 /// bounds. Planes of states of the plant show its field and level curves of claims
 /// (plane_background.h). InputError, with the option as its place, for names that no column has, and
 /// for bands of what has none.
-std::string run_figure(const std::string& title, const claims::RunSetup& setup,
-                       const std::vector<DrawnRun>& runs, RunView view);
+report::Figure run_figure(const std::string& title, const claims::RunSetup& setup,
+                          const std::vector<DrawnRun>& runs, RunView view);
 
 }  // namespace gainsmith::app

@@ -34,7 +34,7 @@ std::string run_picture(const model::Design& design, const verify::Setup& setup,
                         std::uint64_t number, hybrid::Trajectory& run) {
   std::vector<DrawnRun> drawn;  // a list in braces would copy it
   drawn.push_back(drawn_run(setup, number, std::move(run), 0));
-  std::string picture = run_figure(design.name, *setup.events, drawn, view_of(design));
+  std::string picture = report::svg(run_figure(design.name, *setup.events, drawn, view_of(design)));
   run = std::move(drawn.front().replay.run);
   return picture;
 }

@@ -23,8 +23,10 @@
 #include "gainsmith/output.h"
 #include "gainsmith/picture_file.h"
 #include "gainsmith/picture_options.h"
+#include "gainsmith/presentation.h"
 #include "gainsmith/run_figure.h"
 #include "gainsmith/run_table.h"
+#include "gainsmith/several_designs.h"
 #include "gainsmith/terminal.h"
 #include "hybrid/doubts.h"
 #include "hybrid/idle.h"
@@ -38,13 +40,14 @@ namespace gainsmith::app {
 namespace {
 
 struct SimulateOptions {
-  std::string gains;
+  std::vector<std::string> files;  ///< the same run of each
   std::vector<std::string> set;
   std::uint64_t run = 0;
   std::string given;
   std::optional<std::uint64_t> seed;
   std::string output;
   PictureOptions picture;
+  Presentation presentation;
   double step = 0;
   bool compare = false;
   bool envelope = false;
@@ -144,20 +147,26 @@ void write(const SimulateOptions& options, const std::string& text) {
     write_atomically(options.output, text);
 }
 
+void show(const SimulateOptions& options, report::Figure figure) {
+  present(options.presentation, {&figure});
+  write_picture(options.picture.file, report::svg(figure));
+}
+
 /// Points of the picture lie closer than those of a table.
 void draw(const SimulateOptions& options, const model::Design& design, const verify::Setup& setup,
           const std::vector<std::uint64_t>& runs, const std::vector<verify::Replay>& replays) {
   std::vector<DrawnRun> drawn;
   for (std::size_t k = 0; k < replays.size(); ++k)
     drawn.push_back(drawn_run(setup, runs[k], replays[k].run, options.step));
-  write_picture(options.picture.file,
-                run_figure(design.name, *setup.events, drawn, view_of(options.picture, design)));
+  show(options, run_figure(design.name, *setup.events, drawn, view_of(options.picture, design)));
 }
 
 /// What has no effect, or none together.
 void check(const SimulateOptions& options) {
   check_picture_name(options.picture.file);
-  const auto refuse = [&](const char* message) { throw InputError({options.gains}, message); };
+  const auto refuse = [&](const char* message) {
+    throw InputError({options.files.front()}, message);
+  };
   const PictureOptions& picture = options.picture;
   const bool several = !picture.runs.empty();
   if (options.compare && (options.judge || picture.only_drawn() || options.step > 0))
@@ -171,6 +180,20 @@ void check(const SimulateOptions& options) {
     refuse("--phase, --panels and --band say what --plot draws: give --plot FILE");
   if (!options.compare && picture.file.empty() && several)
     refuse("--runs names several runs for --plot FILE or --compare: give one of them, or --run");
+  if (picture.file.empty() && !options.presentation.empty())
+    refuse(
+        "--title, --size, --window, --name and --jump-width are about a picture: give --plot FILE");
+  if (!options.presentation.jump_width.empty() && (options.envelope || options.compare))
+    refuse("--jump-width is about runs, without --envelope and --compare");
+  const bool designs = options.files.size() > 1;
+  if (designs && (options.envelope || !options.given.empty() || options.judge || several))
+    refuse(
+        "several designs are simulated in one run each: without --runs, --envelope, --given "
+        "and --judge");
+  if (designs && !options.compare && picture.file.empty())
+    refuse("several designs are drawn over each other: give --plot FILE, or --compare");
+  if (designs && (!options.output.empty() || options.json))
+    refuse("-o and --json are about one design");
   if (!options.given.empty() && (several || options.compare))
     refuse("--given is about one run: without --runs and --compare");
   if (several && options.run != 0) refuse("either --run or --runs, not both");
@@ -185,7 +208,7 @@ ExitCode compare(const SimulateOptions& options, const LoadedGains& loaded, std:
                  const std::vector<std::uint64_t>& runs) {
   const std::vector<model::Figure>& figures = loaded.stated.design->compare;
   if (figures.empty())
-    throw InputError({options.gains},
+    throw InputError({options.files.front()},
                      "the problem names nothing to compare: compare: [{peak: norm(e)}, ...]");
   const auto setup = claims::make_run_setup(bind::run_texts(loaded.stated, loaded.gains));
   const statistics::FigureSurvey survey =
@@ -198,7 +221,7 @@ ExitCode compare(const SimulateOptions& options, const LoadedGains& loaded, std:
   if (survey.runs > 0)
     write(options, options.json ? io::to_text(io::to_json(record)) : comparison_text(record));
   if (survey.runs > 0 && !options.picture.file.empty())
-    write_picture(options.picture.file, histograms(loaded.stated.design->name, survey));
+    show(options, histograms(loaded.stated.design->name, survey));
   if (const statistics::SomeRuns& early = survey.early; early.count > 0) {
     say(fmt::format("run {} ended before its horizon, {}\n", early.first, early.why));
     if (early.count > 1) say(fmt::format("so did {} of these runs in all\n", early.count));
@@ -226,8 +249,7 @@ ExitCode draw_envelope(const SimulateOptions& options, const model::Design& desi
   const Telling telling;
   std::string text = fmt::format("quantiles of {} runs of seed {}\n", made, seed);
   if (early > 0) text += fmt::format("{} of them ended before the horizon\n", early);
-  if (made > 0)
-    write_picture(options.picture.file, figure.svg(fmt::format("{}, {} runs", design.name, made)));
+  if (made > 0) show(options, figure.figure(fmt::format("{}, {} runs", design.name, made)));
   print_report(text, false);
   return made < runs.size() ? ExitCode::undecided : ExitCode::yes;
 }
@@ -267,10 +289,48 @@ bool is_stopped(const verify::Replay& replay) {
   return replay.run.ending == hybrid::Ending::interrupted;
 }
 
+/// The same run of several designs in one picture, or their figures below each other.
+ExitCode simulate_several(const SimulateOptions& options) {
+  const std::vector<std::string> names = names_of_files(options.files);
+  std::vector<LoadedGains> designs;
+  for (const std::string& file : options.files) designs.push_back(load_run(file, options.set));
+  require_same_plant(designs, options.files);
+  const std::uint64_t seed = options.seed.value_or(designs.front().stated.design->campaign.seed);
+  ExitCode exit = ExitCode::yes;
+  if (options.compare) {
+    for (std::size_t k = 0; k < designs.size(); ++k) {
+      fmt::print("{}\n", names[k]);
+      exit = std::max(exit, compare(options, designs[k], seed, {options.run}));
+    }
+    return exit;
+  }
+  std::vector<std::unique_ptr<const verify::Setup>> setups;
+  std::vector<DesignRun> runs;
+  std::string text;
+  for (std::size_t k = 0; k < designs.size(); ++k) {
+    const model::Design& design = *designs[k].stated.design;
+    setups.push_back(verify::make_setup(designs[k].stated, designs[k].gains));
+    const verify::Setup& setup = *setups.back();
+    verify::Replay replay = verify::replay_run(setup, seed, options.run, options.step, false);
+    if (is_stopped(replay)) return ExitCode::undecided;
+    text += names[k] + ": " + run_text(seed, options.run, replay);
+    runs.push_back({names[k], &design, setup.events.get(),
+                    drawn_run(setup, options.run, std::move(replay.run), options.step)});
+  }
+  const Telling telling;
+  show(options, figure_of_designs(runs, [&](const model::Design& design) {
+         return view_of(options.picture, design);
+       }));
+  print_report(text, false);
+  return exit;
+}
+
 ExitCode simulate(const SimulateOptions& options) {
   check(options);
-  prepare_outputs(options.gains, {options.output, options.picture.file});
-  const LoadedGains loaded = load_run(options.gains, options.set);
+  for (const std::string& file : options.files)
+    prepare_outputs(file, {options.output, options.picture.file});
+  if (options.files.size() > 1) return simulate_several(options);
+  const LoadedGains loaded = load_run(options.files.front(), options.set);
   const model::Design& design = *loaded.stated.design;
   const std::uint64_t seed = options.seed.value_or(design.campaign.seed);
   const std::vector<std::uint64_t> runs =
@@ -309,10 +369,12 @@ ExitCode simulate(const SimulateOptions& options) {
 
 Command simulate_command() {
   auto options = std::make_shared<SimulateOptions>();
-  return {
+  Command command{
       "simulate",
       "Replay one run of a campaign as CSV",
-      {Option("gains", options->gains, "gain file (JSON), or a problem (YAML) without unknowns")
+      {Option("gains", options->files,
+              "gain file (JSON), or a problem (YAML) without unknowns; with --plot or --compare "
+              "several designs of one plant")
            .required(),
        set_option(options->set), Option("--run", options->run, "the run's number"),
        Option(
@@ -353,8 +415,12 @@ Command simulate_command() {
       "  gainsmith simulate problem.yaml --plot run.svg --step 0.01\n"
       "  gainsmith simulate gains.json --plot plane.pdf --phase x1,x2 --runs 0:9\n"
       "  gainsmith simulate gains.json --compare --runs 0:99\n"
-      "  gainsmith simulate gains.json --plot spread.svg --runs 0:199 --envelope",
+      "  gainsmith simulate gains.json --plot spread.svg --runs 0:199 --envelope\n"
+      "  gainsmith simulate slow.json fast.json --plot both.svg --window 0:2",
       [options] { return simulate(*options); }};
+  for (const Option& option : presentation_options(options->presentation, true))
+    command.options.push_back(option);
+  return command;
 }
 
 }  // namespace gainsmith::app

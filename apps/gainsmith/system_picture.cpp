@@ -15,21 +15,10 @@ using response::ComplexMatrix;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* kFrequency = "frequency, radians per unit of time";
 
-double decibels(double gain) { return gain > 0 ? 20 * std::log10(gain) : kNone; }
-
 report::Curve curve(std::string label, int colour) {
   report::Curve made;
   made.label = std::move(label);
   made.colour = colour;
-  return made;
-}
-
-/// Single points, such as a crossing.
-report::Curve points(report::Mark mark, int colour) {
-  report::Curve made;
-  made.mark = mark;
-  made.colour = colour;
-  made.joined = false;
   return made;
 }
 
@@ -302,10 +291,18 @@ std::string element_label(const response::StateSpace& system, Eigen::Index i, Ei
   return " y" + std::to_string(i + 1) + "/u" + std::to_string(j + 1);
 }
 
-report::Figure system_picture(const std::string& title, SystemPicture kind,
-                              const std::vector<DrawnSystem>& systems) {
+double decibels(double gain) { return gain > 0 ? 20 * std::log10(gain) : kNone; }
+
+report::Curve points(report::Mark mark, int colour) {
+  report::Curve made;
+  made.mark = mark;
+  made.colour = colour;
+  made.joined = false;
+  return made;
+}
+
+report::Figure system_picture(SystemPicture kind, const std::vector<DrawnSystem>& systems) {
   report::Figure figure;
-  figure.title = title;
   switch (kind) {
     case SystemPicture::bode:
       add_bode(systems, figure);
@@ -322,6 +319,8 @@ report::Figure system_picture(const std::string& title, SystemPicture kind,
       break;
     case SystemPicture::poles:
       add_poles(systems, figure);
+      break;
+    case SystemPicture::margins:  // over a scalar: system_variation.h
       break;
   }
   return figure;

@@ -23,12 +23,20 @@ struct DrawnSystem {
   std::optional<response::Peak> peak;
   std::vector<response::TimeResponse> time;  ///< of pictures over time: of each input
   response::Matrix poles, zeros;             ///< of poles
+  std::size_t design = 0;                    ///< of several
+  std::string own_label{};                   ///< without the name of its design
 };
 
 /// "" for a single element, " y1/u2" otherwise.
 std::string element_label(const response::StateSpace& system, Eigen::Index i, Eigen::Index j);
 
-report::Figure system_picture(const std::string& title, model::SystemPicture kind,
-                              const std::vector<DrawnSystem>& systems);
+/// Without a title.
+report::Figure system_picture(model::SystemPicture kind, const std::vector<DrawnSystem>& systems);
+
+/// Decibels of a gain; not a number for 0.
+double decibels(double gain);
+
+/// Single points, such as a crossing.
+report::Curve points(report::Mark mark, int colour);
 
 }  // namespace gainsmith::app

@@ -23,6 +23,11 @@ class DynamicsBinding {
                   const std::map<std::string, expr::Expression>& data_texts, expr::Scope& scope);
 
   model::Dynamics run();
+  /// The uncertain data alone, with their names "plant.k" and those of what uses them.
+  model::Dynamics varied() {
+    add_varied();
+    return result_;
+  }
   /// The event at which alone an output exists, by its full name.
   std::optional<std::size_t> event_of_output(const std::string& output) const;
 

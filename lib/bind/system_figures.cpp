@@ -1,5 +1,6 @@
 #include "bind/system_figures.h"
 
+#include "bind/dynamics_binding.h"
 #include "bind/formulas.h"
 #include "expr/compile.h"
 
@@ -25,23 +26,63 @@ model::SystemFigure::System system(const model::SystemFigureText::System& text,
   const int outputs = shape.rows - compiled.states, inputs = shape.cols - compiled.states;
   if (inputs == 0 || outputs == 0)
     throw InputError(place, "figures: '" + text.label + "' has no input or no output");
-  if (kind == model::SystemPicture::nyquist && (inputs != 1 || outputs != 1))
-    throw InputError(place, "figures: nyquist is of one input and one output; '" + text.label +
-                                "' has " + std::to_string(inputs) + " and " +
+  const bool is_single =
+      kind == model::SystemPicture::nyquist || kind == model::SystemPicture::margins;
+  if (is_single && (inputs != 1 || outputs != 1))
+    throw InputError(place, "figures: " + to_string(kind) + " is of one input and one output; '" +
+                                text.label + "' has " + std::to_string(inputs) + " and " +
                                 std::to_string(outputs));
   return {text.label, compiled.matrix, compiled.states, compiled.step, place};
+}
+
+/// Names the plant's values of uncertain data, "plant.k", as numbers that rest.
+void add_varied(Binding& binding, expr::Scope& scope) {
+  const std::vector<model::UncertainText>& uncertain = binding.problem().uncertain;
+  model::Dynamics& varied = binding.design->varied;
+  if (const auto& dynamics = binding.design->dynamics) {
+    // They are its first noise.
+    for (const model::Dynamics::Variable& variable : dynamics->variables)
+      if (variable.kind == model::Dynamics::VariableKind::noise && variable.of < uncertain.size())
+        varied.variables.push_back(variable);
+    varied.noise.assign(dynamics->noise.begin(), dynamics->noise.begin() + std::ssize(uncertain));
+  } else {
+    varied = DynamicsBinding(binding.method(), binding.design->dimensions, *binding.dynamics_names,
+                             uncertain, binding.data_texts, scope)
+                 .varied();
+  }
+  for (const model::Dynamics::Noise& one : varied.noise) scope.symbols[one.name].moves = false;
+}
+
+/// Of a number that a scan may change.
+model::Range scanned(const model::ScalarRange& text, const Binding& binding) {
+  model::check_scalar_name(*binding.design, text.name, text.place);
+  return range(text, binding.names->known);
 }
 
 }  // namespace
 
 void bind_system_figures(Binding& binding) {
-  const expr::Scope& scope = binding.names->running;
+  if (binding.problem().figures.empty()) return;
+  expr::Scope scope = binding.names->running;
+  add_varied(binding, scope);
   for (const model::SystemFigureText& text : binding.problem().figures) {
-    model::SystemFigure figure{text.name, text.kind, {}, std::nullopt, text.place};
+    model::SystemFigure figure;
+    figure.name = text.name;
+    figure.kind = text.kind;
+    figure.title = text.title.empty() ? text.name : text.title;
+    figure.place = text.place;
     for (const model::SystemFigureText::System& one : text.systems)
       figure.systems.push_back(system(one, text.kind, scope));
+    for (const model::SystemFigure::System& one : figure.systems)
+      for (const model::Dynamics::Noise& noise : binding.design->varied.noise)
+        figure.varies = figure.varies || one.matrix.uses(noise.name);
     if (text.over)
       figure.over = {scalar(text.over->first, scope), scalar(text.over->second, scope)};
+    if (text.scan) figure.scan = scanned(*text.scan, binding);
+    if (figure.scan && figure.varies)
+      throw InputError(text.place, "figures: " + text.name +
+                                       ": either a scan, or the plant's uncertain data: two "
+                                       "pictures");
     binding.design->pictures.push_back(std::move(figure));
   }
 }

@@ -100,10 +100,13 @@ constexpr std::array kSystemFigure = {
     Key{"step", "systems", "outputs over time, for each input"},
     Key{"impulse", "systems", "the same of impulses"},
     Key{"poles", "systems", "poles and zeros in the complex plane"},
-    Key{"over", "range", "of the frequency in radians per unit of time, or of the time"}};
+    Key{"margins", "systems", "over the scanned scalar, one input and one output"},
+    Key{"over", "range", "of the frequency in radians per unit of time, or of the time"},
+    Key{"scan", "{range}", "a scalar for whose values the gains are designed anew"},
+    Key{"title", "text", "above the picture, in place of its name"}};
 constexpr std::array kSystemFigureRules = {
-    Rule::exactly_one("bode,singular values,nyquist,step,impulse,poles"),
-    Rule::excludes("over", "poles")};
+    Rule::exactly_one("bode,singular values,nyquist,step,impulse,poles,margins"),
+    Rule::excludes("over", "poles,margins"), Rule::needs("margins", "scan")};
 
 constexpr std::array kExpectation = {
     Key{"verdict", "'yes' | 'no' | 'undecided'"},

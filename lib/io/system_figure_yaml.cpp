@@ -3,6 +3,7 @@
 #include <array>
 
 #include "base/nearest.h"
+#include "io/search_yaml.h"
 
 namespace gainsmith::io {
 
@@ -12,7 +13,8 @@ using model::SystemPicture;
 
 constexpr std::array kKinds = {SystemPicture::bode,    SystemPicture::singular_values,
                                SystemPicture::nyquist, SystemPicture::step,
-                               SystemPicture::impulse, SystemPicture::poles};
+                               SystemPicture::impulse, SystemPicture::poles,
+                               SystemPicture::margins};
 
 /// A text, a list of them, or texts with labels.
 std::vector<model::SystemFigureText::System> systems(const YamlFile& file, const YamlItem& item) {
@@ -52,15 +54,26 @@ model::SystemFigureText system_figure(const YamlFile& file, const YamlItem& item
     figure.kind = kind;
     figure.systems = systems(file, *found);
   }
-  const auto over = map.find("over");
+  const auto over = map.find("over"), scan = map.find("scan"), title = map.find("title");
   map.finish();
   if (!chosen)
     throw InputError(item.place, "figures: " + item.key +
-                                     ": expected bode, singular values, nyquist, step, impulse or "
-                                     "poles, and a system");
+                                     ": expected bode, singular values, nyquist, step, impulse, "
+                                     "poles or margins, and a system");
+  if (title) figure.title = file.string(title->value, title->key);
+  if (scan) {
+    const std::vector<YamlItem> scalars = items_of(file, *scan, "scan");
+    if (scalars.size() != 1)
+      throw InputError(scan->place, "scan: expected one scalar, such as {r: [0.1, 10]}");
+    figure.scan = scalar_range(file, scalars.front());
+  }
+  if (figure.kind == SystemPicture::margins && !scan)
+    throw InputError(item.place, "figures: " + item.key +
+                                     ": margins are drawn over a scalar: scan: {r: [0.1, 10]}");
   if (!over) return figure;
-  if (figure.kind == SystemPicture::poles)
-    throw InputError(over->place, "figures: " + item.key + ": poles have no range");
+  if (figure.kind == SystemPicture::poles || figure.kind == SystemPicture::margins)
+    throw InputError(over->place,
+                     "figures: " + item.key + ": " + to_string(figure.kind) + " have no range");
   if (!over->value.IsSequence() || over->value.size() != 2)
     throw InputError(file.place(over->value), "over: expected a range [low, high]");
   figure.over = {file.expression(over->value[0], "over"), file.expression(over->value[1], "over")};

@@ -29,6 +29,7 @@
 #include "model/dynamics.h"
 #include "model/figure.h"
 #include "model/formula.h"
+#include "model/range.h"
 #include "model/stated_file.h"
 #include "model/system_figure.h"
 #include "model/words.h"
@@ -50,14 +51,6 @@ struct Statement {
   std::string hash;                 ///< statement_hash
   std::vector<Setting> settings{};  ///< of the command line
   std::vector<StatedFile> files{};  ///< what the problem reads besides its text
-};
-
-/// A scalar and the range in which it is searched for.
-struct Range {
-  std::string name;
-  Formula low;
-  Formula high;
-  Place place;
 };
 
 struct Design {
@@ -321,6 +314,7 @@ struct Design {
   std::vector<Gain> gains;
   std::vector<NamedFormula> report;
   std::vector<SystemFigure> pictures;  ///< of linear systems
+  Dynamics varied;  ///< uncertain data of the plant that pictures read, as noise drawn once a run
   /// The data, parameters, gains and reports that rest on a search over a box; others are not here.
   std::map<std::string, expr::Estimate> estimates;
 

@@ -11,16 +11,9 @@
 #include "model/component.h"
 #include "model/declaration.h"
 #include "model/measured.h"
+#include "model/range.h"
 
 namespace gainsmith::model {
-
-/// A scalar and the range in which it is searched for: "T2: [0.5, 1.1]".
-struct ScalarRange {
-  std::string name;
-  expr::Expression low;
-  expr::Expression high;
-  Place place;
-};
 
 /// An unknown: a matrix or, with `variable`, a function of a scalar given by coefficient matrices, or,
 /// with `arguments`, a polynomial in their elements.

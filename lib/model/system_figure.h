@@ -5,9 +5,12 @@
 //   {nyquist: L}           H in the complex plane, one input and one output
 //   {step: T}, {impulse: T}  each output over time, for each input
 //   {poles: T}             poles and zeros in the complex plane
+//   {margins: L, scan: {r: [0.1, 10]}}  over the values of a scalar, one input and one output
 //
 // Several systems: [L, T], or with labels {open: L, closed: T}; `over: [a, b]` is the range of the
-// frequency in radians per unit of time, or of the time.
+// frequency in radians per unit of time, or of the time. `scan: {r: [low, high]}` designs anew for
+// values of a scalar: a locus of poles, curves. `plant.P` is P with the plant's values of the
+// uncertain data: bands, or clouds of poles.
 #pragma once
 
 #include <optional>
@@ -17,10 +20,11 @@
 
 #include "expr/ast.h"
 #include "model/formula.h"
+#include "model/range.h"
 
 namespace gainsmith::model {
 
-enum class SystemPicture { bode, singular_values, nyquist, step, impulse, poles };
+enum class SystemPicture { bode, singular_values, nyquist, step, impulse, poles, margins };
 
 /// The key of each.
 std::string to_string(SystemPicture kind);
@@ -35,6 +39,8 @@ struct SystemFigureText {
   SystemPicture kind = SystemPicture::bode;
   std::vector<System> systems;
   std::optional<std::pair<expr::Expression, expr::Expression>> over;
+  std::optional<ScalarRange> scan;
+  std::string title;  ///< empty: the name
   Place place;
 };
 
@@ -51,6 +57,9 @@ struct SystemFigure {
   SystemPicture kind = SystemPicture::bode;
   std::vector<System> systems;
   std::optional<std::pair<Formula, Formula>> over;
+  std::optional<Range> scan;
+  std::string title;
+  bool varies = false;  ///< it reads uncertain data of the plant (Design::varied)
   Place place;
 };
 

@@ -11,8 +11,8 @@ std::string to_string(Verdict verdict) {
 }
 
 std::string to_string(SystemPicture kind) {
-  return word_of<SystemPicture::poles>(
-      kind, {"bode", "singular values", "nyquist", "step", "impulse", "poles"});
+  return word_of<SystemPicture::margins>(
+      kind, {"bode", "singular values", "nyquist", "step", "impulse", "poles", "margins"});
 }
 
 std::string to_string(CampaignVerdict verdict) {

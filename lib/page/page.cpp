@@ -63,8 +63,23 @@ std::string counts_of(const std::vector<Results>& all) {
   return text + parts;
 }
 
-std::string whole(const std::vector<Results>& all, const std::string& title) {
+std::string comparison_of(const Comparison& comparison) {
+  std::vector<std::string_view> heads = {""};
+  heads.insert(heads.end(), comparison.names.begin(), comparison.names.end());
+  if (comparison.names.size() == 2) heads.emplace_back("difference");
+  std::string lines;
+  for (const Comparison::Row& row : comparison.rows) {
+    std::string line = text_element("th", row.what);
+    for (std::size_t k = 0; k + 1 < heads.size(); ++k) line += text_element("td", row.values[k]);
+    lines += element("tr", line) + "\n";
+  }
+  return headed_table(heads, lines) + figures_of(comparison.figures);
+}
+
+std::string whole(const std::vector<Results>& all, const std::string& title,
+                  const Comparison* comparison) {
   std::string body = text_element("h1", title) + "\n";
+  if (comparison != nullptr) body += comparison_of(*comparison);
   if (all.size() == 1) {
     body += element("article", sections(all.front()));
   } else {
@@ -101,11 +116,16 @@ void leave_out_pictures(std::vector<Results>& all, std::size_t excess) {
 }  // namespace
 
 std::string page(const std::vector<Results>& results, const std::string& title) {
-  std::string text = whole(results, title);
+  std::string text = whole(results, title, nullptr);
   if (results.size() == 1 || text.size() <= page_size) return text;
   std::vector<Results> lighter = results;
   leave_out_pictures(lighter, text.size() - page_size);
-  return whole(lighter, title);
+  return whole(lighter, title, nullptr);
+}
+
+std::string page(const std::vector<Results>& results, const std::string& title,
+                 const Comparison& comparison) {
+  return whole(results, title, &comparison);
 }
 
 }  // namespace gainsmith::page

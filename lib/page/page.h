@@ -8,9 +8,23 @@
 
 namespace gainsmith::page {
 
+/// Designs side by side.
+struct Comparison {
+  struct Row {
+    std::string what;
+    std::vector<std::string> values;  ///< of each design; after them the difference, of two
+  };
+  std::vector<std::string> names;  ///< of the designs
+  std::vector<Row> rows;
+  std::vector<SystemFigure> figures;  ///< of all in one
+};
+
 /// The page of one problem, or of many: a table of all, then each problem folded. The same results
 /// give the same bytes. Well-formed XML, whatever the texts hold.
 std::string page(const std::vector<Results>& results, const std::string& title);
+/// The same with a comparison first.
+std::string page(const std::vector<Results>& results, const std::string& title,
+                 const Comparison& comparison);
 
 /// How many bytes a page should have at most: the largest pictures of many problems are left out
 /// for it.

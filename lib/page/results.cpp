@@ -311,19 +311,22 @@ std::string picture_of(const Results& results) {
 }
 
 std::string figures_section(const Results& results) {
-  if (results.figures.empty()) return "";
+  return results.figures.empty() ? "" : section("Figures", figures_of(results.figures));
+}
+
+}  // namespace
+
+std::string figures_of(const std::vector<SystemFigure>& figures) {
   std::string text;
-  for (const SystemFigure& figure : results.figures) {
+  for (const SystemFigure& figure : figures) {
     text += text_element("h4", figure.title);
     if (!figure.svg.empty())
       text += element("figure", element("div", figure.svg, "class=\"picture\""));
     for (const std::string& fact : figure.facts) text += paragraph(fact);
     text += "\n";
   }
-  return section("Figures", text);
+  return text;
 }
-
-}  // namespace
 
 std::string sections(const Results& results) {
   std::string failed;

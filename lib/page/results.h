@@ -51,6 +51,9 @@ struct Results {
 /// The sections of a problem, without its name: markup.
 std::string sections(const Results& results);
 
+/// Pictures with their titles and facts.
+std::string figures_of(const std::vector<SystemFigure>& figures);
+
 /// The campaign: claims, confidence, how to see the worst runs again. Empty when there is none and
 /// nothing says why.
 std::string campaign_section(const Results& results);

@@ -46,7 +46,7 @@ Steps steps_of(int turns) {
 
 }  // namespace
 
-std::string head(const std::string& title, double height) {
+std::string head(const std::string& title, double height, double width) {
   return fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} "
       "{1}\" "
@@ -54,13 +54,13 @@ std::string head(const std::string& title, double height) {
       "font-size=\"{2}\" "
       "fill=\"#202020\" role=\"img\" aria-label=\"{3}\">\n"
       "<rect width=\"{0}\" height=\"{1}\" fill=\"white\"/>\n",
-      figure_width, pixels(height), label_size, escaped(title));
+      pixels(width), pixels(height), label_size, escaped(title));
 }
 
-std::string heading(const std::string& title) {
+std::string heading(const std::string& title, double width) {
   if (title.empty()) return {};
   return text_at(figure_margin, figure_margin + title_size,
-                 shortened(title, bold_widening * title_size, figure_width - 2 * figure_margin),
+                 shortened(title, bold_widening * title_size, width - 2 * figure_margin),
                  fmt::format(R"( font-size="{}" font-weight="bold")", title_size));
 }
 

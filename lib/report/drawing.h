@@ -19,10 +19,10 @@ constexpr double bold_widening = 1.1;  ///< of a bold text beside a plain one
 constexpr double figure_width = 900, figure_margin = 12, right_margin = 24, title_height = 28,
                  axis_name_width = 18;
 
-/// The first elements of a figure of this height: the picture with its white ground.
-std::string head(const std::string& title, double height);
+/// The first elements of a figure of this size: the picture with its white ground.
+std::string head(const std::string& title, double height, double width = figure_width);
 /// The title at its top; nothing for an empty one.
-std::string heading(const std::string& title);
+std::string heading(const std::string& title, double width = figure_width);
 
 /// How a curve looks.
 struct Style {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include "report/axis.h"
@@ -130,7 +131,7 @@ Extent with_bands(const Panel& panel, const Axis& shown, const Extent& curves) {
   return all;
 }
 
-Axis value_axis(const Panel& panel, double height) {
+Axis value_axis(const Panel& panel, double height, double width) {
   if (!panel.rows.empty()) return axis_of_rows(panel.rows);
   Axis shown;
   shown.logarithmic = panel.logarithmic;
@@ -139,33 +140,26 @@ Axis value_axis(const Panel& panel, double height) {
     for (std::size_t k = 0; k < curve.value.size(); ++k)
       if (shown.shows(curve.value[k]) && Axis().shows(curve.t[k])) values.add(curve.value[k]);
   if (!panel.bands.empty()) values = with_bands(panel, shown, values);
-  if (panel.equal) values = equal_up(panel, height, figure_width - 4 * right_margin);
+  if (panel.equal) values = equal_up(panel, height, width - 4 * right_margin);
   const int most = std::clamp(static_cast<int>(height / 22), 5, 10);
   return panel.logarithmic ? logarithmic_axis(values, most) : linear_axis(values, kMarginUp, most);
 }
 
-}  // namespace
-
-std::string svg(const Figure& figure) {
-  check(figure);
-  const auto planes = static_cast<std::size_t>(
-      std::count_if(figure.panels.begin(), figure.panels.end(),
-                    [](const Panel& panel) { return is_plane(panel) || !panel.rows.empty(); }));
+/// The elements below the heading, and where they end, with panels of these heights.
+std::pair<std::string, double> drawn_panels(const Figure& figure,
+                                            const std::vector<double>& heights) {
   std::vector<Axis> values;
-  std::vector<double> heights;
   double beside = 30;
   bool named = false;
-  for (const Panel& panel : figure.panels) {
-    heights.push_back(height_of(panel, figure.panels.size() - planes));
-    values.push_back(value_axis(panel, heights.back()));
+  for (std::size_t k = 0; k < figure.panels.size(); ++k) {
+    values.push_back(value_axis(figure.panels[k], heights[k], figure.width));
     beside = std::max(beside, label_width(values.back()));
-    named = named || !panel.axis.empty();
+    named = named || !figure.panels[k].axis.empty();
   }
   Box box{figure_margin + beside + (named ? axis_name_width : 0), figure_margin, 0, 0};
-  box.width = figure_width - right_margin - box.left;
+  box.width = figure.width - right_margin - box.left;
   const Axis time = time_axis(figure, box.width);
-
-  std::string text = heading(figure.title);
+  std::string text;
   double y = figure_margin + (figure.title.empty() ? 0 : title_height);
   for (std::size_t k = 0; k < figure.panels.size(); ++k) {
     const Panel& panel = figure.panels[k];
@@ -183,7 +177,35 @@ std::string svg(const Figure& figure) {
     text += drawn_below(below, name, box);
     y = box.bottom() + (name.empty() && below.factor == 0 ? 26 : 46);
   }
-  return head(figure.title, y) + text + "</svg>\n";
+  return {std::move(text), y};
+}
+
+/// So that the figure has its height, but each panel 40 at least.
+void fit(std::vector<double>& heights, double more) {
+  constexpr double least = 40;
+  double sum = 0;
+  for (const double height : heights) sum += height;
+  for (double& height : heights)
+    if (sum > 0) height = std::max(least, height * (sum + more) / sum);
+}
+
+}  // namespace
+
+std::string svg(const Figure& figure) {
+  check(figure);
+  const auto planes = static_cast<std::size_t>(
+      std::count_if(figure.panels.begin(), figure.panels.end(),
+                    [](const Panel& panel) { return is_plane(panel) || !panel.rows.empty(); }));
+  std::vector<double> heights;
+  for (const Panel& panel : figure.panels)
+    heights.push_back(height_of(panel, figure.panels.size() - planes));
+  auto [text, end] = drawn_panels(figure, heights);
+  if (figure.height) {
+    fit(heights, *figure.height - end);
+    std::tie(text, end) = drawn_panels(figure, heights);
+  }
+  return head(figure.title, end, figure.width) + heading(figure.title, figure.width) + text +
+         "</svg>\n";
 }
 
 }  // namespace gainsmith::report

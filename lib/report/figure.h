@@ -64,9 +64,11 @@ struct Figure {
   std::vector<Panel> panels;
   std::vector<double> marks{};  ///< moments with a tick in each panel; they do not decrease
   bool logarithmic = false;     ///< the axis below
+  double width = 900;
+  std::optional<double> height{};  ///< none: as the panels need
 };
 
-/// The figure, 900 wide and as high as its panels need, in colours that colour-blind people tell
+/// The figure in colours that colour-blind people tell
 /// apart (Okabe and Ito), on white. All texts are UTF-8 and become well-formed XML, whatever they
 /// hold. The same figure gives the same bytes. Curves are drawn to a tenth of a pixel: of dense
 /// ones each column of pixels shows the first, least, greatest and last value, a few thousand

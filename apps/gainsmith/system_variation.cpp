@@ -1,0 +1,341 @@
+#include "gainsmith/system_variation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <limits>
+
+#include "base/number.h"
+#include "bind/instance.h"
+#include "bind/stated.h"
+#include "design/optimize.h"
+#include "design/search_request.h"
+#include "gainsmith/drawn_systems.h"
+#include "gainsmith/search_wanted.h"
+#include "gainsmith/system_cases.h"
+#include "gainsmith/system_facts.h"
+#include "gainsmith/units.h"
+#include "hybrid/scenario.h"
+
+namespace gainsmith::app {
+
+namespace {
+
+using model::SystemFigure;
+using model::SystemPicture;
+
+constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
+
+/// At least as many as make a locus, or margins, look like lines; and how many curves one tells
+/// apart.
+constexpr int kLine = 61, kCurves = 5;
+constexpr std::uint64_t kDraws = 100;
+
+/// By system of the figure: its cases, without those that have no gains.
+struct Scanned {
+  std::vector<double> values;  ///< of the cases
+  std::vector<std::vector<SystemCase>> systems;
+  std::size_t tried = 0;
+  bool logarithmic = false;
+};
+
+Scanned scanned(const SystemFigure& figure, const LoadedGains& loaded, int count) {
+  const search::Axis axis = design::searched_scalar(loaded.stated, *figure.scan).axis;
+  Scanned all;
+  all.logarithmic = axis.logarithmic;
+  all.systems.resize(figure.systems.size());
+  std::exception_ptr fault;
+  for (const double value : search::points_on(axis, count)) {
+    ++all.tried;
+    try {
+      const model::Instance instance =
+          bind::evaluate(loaded.stated.design, {{figure.scan->name, value}});
+      const model::Gains gains =
+          design::synthesize_searched(instance, wanted_search(instance), 1, {});
+      std::string missing;
+      auto systems = systems_of(figure, bind::state(instance, gains), missing);
+      if (!systems) continue;
+      all.values.push_back(value);
+      for (std::size_t k = 0; k < systems->size(); ++k)
+        all.systems[k].push_back(
+            {fmt::format("at {} = {}", figure.scan->name, brief(value)), (*systems)[k]});
+    } catch (const InputError&) {
+      if (!fault) fault = std::current_exception();
+    }
+  }
+  if (all.values.empty() && fault) std::rethrow_exception(fault);
+  return all;
+}
+
+report::Panel panel_of(const char* title, const char* axis) {
+  report::Panel panel;
+  panel.title = title;
+  panel.axis = axis;
+  return panel;
+}
+
+/// Over the scalar, where the closed loop is stable.
+report::Figure margins_picture(const Scanned& all, const std::string& axis) {
+  report::Figure figure;
+  figure.axis = axis;
+  figure.logarithmic = all.logarithmic;
+  figure.panels = {panel_of("gain margin", "dB"), panel_of("phase margin", "degrees"),
+                   panel_of("delay margin", "time")};
+  int colour = 0;
+  for (const std::vector<SystemCase>& cases : all.systems) {
+    std::vector<report::Curve> curves(3);
+    for (report::Curve& curve : curves) {
+      curve.colour = colour;
+      curve.t = all.values;
+    }
+    curves.front().label = cases.front().drawn.label;
+    for (const SystemCase& one : cases) {
+      const response::Margins& margins = *one.drawn.margins;
+      const auto add = [&](report::Curve& curve, const std::optional<response::Margin>& margin) {
+        curve.value.push_back(margins.stable && margin ? margin->value : kGap);
+      };
+      add(curves[0], margins.gain);
+      curves[0].value.back() = decibels(curves[0].value.back());
+      add(curves[1], margins.phase);
+      add(curves[2], margins.delay);
+    }
+    for (std::size_t k = 0; k < curves.size(); ++k)
+      figure.panels[k].curves.push_back(std::move(curves[k]));
+    ++colour;
+  }
+  return figure;
+}
+
+report::Curve marks_of(const response::Matrix& roots, report::Mark mark, int colour) {
+  report::Curve made = points(mark, colour);
+  for (Eigen::Index k = 0; k < roots.rows(); ++k) {
+    made.t.push_back(roots(k, 0));
+    made.value.push_back(roots(k, 1));
+  }
+  return made;
+}
+
+/// Dots, with crosses at the first value and triangles at the last one; zeros are those of the first.
+report::Figure locus_picture(const Scanned& all) {
+  std::vector<DrawnSystem> merged;
+  for (const std::vector<SystemCase>& cases : all.systems) {
+    DrawnSystem& whole = merged.emplace_back(cases.front().drawn);
+    const Eigen::Index n = whole.poles.rows();
+    whole.poles.conservativeResize(n * std::ssize(cases), 2);
+    for (std::size_t k = 1; k < cases.size(); ++k)
+      whole.poles.middleRows(n * static_cast<Eigen::Index>(k), n) = cases[k].drawn.poles;
+  }
+  report::Figure figure = system_picture(SystemPicture::poles, merged);
+  std::vector<report::Curve>& curves = figure.panels.front().curves;
+  for (report::Curve& curve : curves)
+    if (curve.mark == report::Mark::cross) {
+      curve.mark = report::Mark::dot;
+      curve.label.clear();
+    }
+  int colour = 0;
+  for (const std::vector<SystemCase>& cases : all.systems) {
+    for (const auto& [one, mark] : {std::pair(&cases.front(), report::Mark::cross),
+                                    std::pair(&cases.back(), report::Mark::triangle)}) {
+      curves.push_back(marks_of(one->drawn.poles, mark, colour));
+      curves.back().label = one->drawn.label + " " + one->where;
+    }
+    ++colour;
+  }
+  return figure;
+}
+
+/// Under the title that the result has.
+void take_picture(report::Figure figure, SystemResult& result) {
+  figure.title = std::move(result.figure.title);
+  result.figure = std::move(figure);
+}
+
+/// The curves of a few values, each as a system of its own.
+void add_curves(const SystemFigure& figure, const model::Stated& stated, const Scanned& all,
+                SystemResult& result) {
+  std::vector<DrawnSystem> systems;
+  for (const std::vector<SystemCase>& cases : all.systems)
+    for (const SystemCase& one : cases) {
+      systems.push_back(one.drawn);
+      systems.back().label += " " + one.where;
+    }
+  const auto range = range_of(figure, stated, systems);
+  for (DrawnSystem& drawn : systems) {
+    compute(figure, range, drawn);
+    add_facts(drawn, figure.kind, result);
+  }
+  result.numbers.clear();  // designs are compared at one value
+  take_picture(system_picture(figure.kind, systems), result);
+}
+
+// --- Draws. ---
+
+/// The plant's uncertain data in a run; "in draw 3 (plant.k = 0.9)" as far as they are numbers.
+std::string draw(const model::Design& design, const hybrid::System& system, std::uint64_t run,
+                 model::Stated& stated) {
+  hybrid::NoiseDraws draws(system, {}, design.campaign.seed, run);
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(system.size);
+  std::string numbers;
+  for (std::size_t k = 0; k < system.dynamics.noise.size(); ++k) {
+    draws.draw(k, values);
+    const hybrid::Slot& slot = system.layout.slots[*system.slot(system.dynamics.noise[k].name)];
+    const auto [rows, cols] = slot.shape;
+    stated.values[slot.name] = values.segment(slot.offset, rows * cols).reshaped(rows, cols);
+    if (slot.shape.is_scalar())
+      numbers += fmt::format("{}{} = {}", numbers.empty() ? "" : ", ", slot.name,
+                             brief(values(slot.offset), 4));
+  }
+  return fmt::format("in draw {}{}", run, numbers.empty() ? "" : " (" + numbers + ")");
+}
+
+/// The values of a curve at these places; not a number in its gaps and beyond its ends.
+std::vector<double> values_at(const std::vector<double>& places, const report::Curve& curve,
+                              bool logarithmic) {
+  const auto scaled = [&](double x) { return logarithmic ? std::log(x) : x; };
+  std::vector<double> values;
+  for (const double x : places) {
+    const auto next = std::upper_bound(curve.t.begin(), curve.t.end(), x) - curve.t.begin();
+    const auto right =
+        static_cast<std::size_t>(std::min<std::ptrdiff_t>(next, std::ssize(curve.t) - 1));
+    const std::size_t left = right == 0 ? 0 : right - 1;
+    const double a = scaled(curve.t[left]), b = scaled(curve.t[right]);
+    const double share = b > a ? std::clamp((scaled(x) - a) / (b - a), 0.0, 1.0) : 1;
+    const bool beyond = x < curve.t.front() || x > curve.t.back();
+    values.push_back(beyond ? kGap : (1 - share) * curve.value[left] + share * curve.value[right]);
+  }
+  return values;
+}
+
+bool is_line(const report::Curve& curve) { return curve.joined && !curve.limit; }
+
+/// Where the lines of a panel lie, and those of the same panel of each draw.
+void add_bands(const report::Figure& figure, report::Panel& panel,
+               const std::vector<const report::Panel*>& drawn) {
+  constexpr std::size_t kPlaces = 400;
+  std::size_t line = 0;
+  for (const report::Curve& curve : panel.curves) {
+    if (!is_line(curve) || curve.t.empty()) continue;
+    report::Band band;
+    band.colour = curve.colour;
+    const double first = curve.t.front(), last = curve.t.back();
+    for (std::size_t k = 0; k < kPlaces; ++k) {
+      const double share = static_cast<double>(k) / (kPlaces - 1);
+      band.t.push_back(k + 1 == kPlaces     ? last
+                       : figure.logarithmic ? first * std::pow(last / first, share)
+                                            : first + share * (last - first));
+    }
+    band.low = band.high = values_at(band.t, curve, figure.logarithmic);
+    for (const report::Panel* other : drawn) {
+      auto lines = other->curves;
+      std::erase_if(lines, [](const report::Curve& one) { return !is_line(one); });
+      std::vector<double> values = values_at(band.t, lines.at(line), figure.logarithmic);
+      // Phases are known but for turns.
+      const double turns =
+          panel.axis == "degrees" ? 360 * std::round((band.low.front() - values.front()) / 360) : 0;
+      for (std::size_t k = 0; k < kPlaces; ++k) {
+        band.low[k] = std::fmin(band.low[k], values[k] + (std::isfinite(turns) ? turns : 0));
+        band.high[k] = std::fmax(band.high[k], values[k] + (std::isfinite(turns) ? turns : 0));
+      }
+    }
+    panel.bands.push_back(std::move(band));
+    ++line;
+  }
+}
+
+/// Behind what a plane has: thin lines, and dots for poles.
+void add_cloud(report::Panel& panel, const std::vector<const report::Panel*>& drawn) {
+  std::vector<report::Curve> cloud;
+  for (const report::Panel* other : drawn)
+    for (report::Curve curve : other->curves) {
+      const bool poles = !curve.joined && curve.mark == report::Mark::cross && curve.label != "-1";
+      if (!is_line(curve) && !poles) continue;
+      curve.label.clear();
+      if (poles)
+        curve.mark = report::Mark::dot;
+      else
+        curve.limit = true;
+      cloud.push_back(std::move(curve));
+    }
+  // What is drawn over a cloud of its colour is black, where it is the only one.
+  constexpr int kBlack = 6;
+  const bool single = std::ranges::all_of(
+      cloud, [&](const report::Curve& curve) { return curve.colour == cloud.front().colour; });
+  for (report::Curve& curve : panel.curves)
+    if (single && !curve.limit) curve.colour = kBlack;
+  panel.curves.insert(panel.curves.begin(), cloud.begin(), cloud.end());
+}
+
+std::string draws_text(const model::Design& design) {
+  std::string names;
+  for (const model::Dynamics::Noise& noise : design.varied.noise)
+    names += (names.empty() ? "" : ", ") + noise.name;
+  return fmt::format("over {} draws of {}", kDraws, names);
+}
+
+}  // namespace
+
+void add_scan(const SystemFigure& figure, const LoadedGains& loaded, SystemResult& result) {
+  const bool line = figure.kind == SystemPicture::poles || figure.kind == SystemPicture::margins;
+  Scanned all = scanned(figure, loaded, line ? kLine : kCurves);
+  const std::string& name = figure.scan->name;
+  if (all.values.empty()) {
+    result.missing = "there are no gains at any value of " + name;
+    return;
+  }
+  result.data["scan"] = {{"name", name}, {"values", all.values}};
+  if (!line) {
+    add_curves(figure, bind::state(loaded.stated, loaded.gains), all, result);
+  } else {
+    for (std::vector<SystemCase>& cases : all.systems) {
+      for (SystemCase& one : cases) compute(figure, {}, one.drawn);
+      result.facts.push_back(
+          worst_of(cases, figure.kind,
+                   fmt::format("over {} values of {} from {} to {}", cases.size(), name,
+                               brief(all.values.front()), brief(all.values.back()))));
+      result.data["systems"].push_back(cases_json(cases, figure.kind));
+    }
+    take_picture(figure.kind == SystemPicture::poles
+                     ? locus_picture(all)
+                     : margins_picture(all, with_unit(*loaded.stated.design, name)),
+                 result);
+  }
+  if (all.values.size() < all.tried)
+    result.facts.push_back(fmt::format("{} of {} values of {} have no gains",
+                                       all.tried - all.values.size(), all.tried, name));
+}
+
+void add_bands(const SystemFigure& figure, const model::Design& design, const model::Stated& stated,
+               std::pair<double, double> range, SystemResult& result) {
+  const hybrid::System noise = hybrid::make_system(design.varied, stated.values);
+  std::vector<std::vector<SystemCase>> systems(figure.systems.size());
+  std::vector<report::Figure> pictures;
+  model::Stated drawn = stated;
+  for (std::uint64_t run = 0; run < kDraws; ++run) {
+    const std::string where = draw(design, noise, run, drawn);
+    std::string missing;
+    const auto values = systems_of(figure, drawn, missing);
+    std::vector<DrawnSystem> own = *values;
+    for (std::size_t k = 0; k < own.size(); ++k) {
+      compute(figure, range, own[k]);
+      systems[k].push_back({where, own[k]});
+    }
+    pictures.push_back(system_picture(figure.kind, own));
+  }
+  for (std::size_t k = 0; k < result.figure.panels.size(); ++k) {
+    report::Panel& panel = result.figure.panels[k];
+    std::vector<const report::Panel*> others;
+    for (const report::Figure& picture : pictures) others.push_back(&picture.panels[k]);
+    if (panel.across)
+      add_cloud(panel, others);
+    else
+      add_bands(result.figure, panel, others);
+  }
+  for (const std::vector<SystemCase>& cases : systems) {
+    result.facts.push_back(worst_of(cases, figure.kind, draws_text(design)));
+    result.data["draws"].push_back(cases_json(cases, figure.kind));
+  }
+}
+
+}  // namespace gainsmith::app
