@@ -13,6 +13,7 @@
 #include "gainsmith/several_designs.h"
 #include "gainsmith/system_figures.h"
 #include "model/words.h"
+#include "statistics/figure_survey.h"
 
 namespace gainsmith::app {
 
@@ -85,10 +86,7 @@ void add_matrices(const std::vector<Results>& all, const std::string& prefix,
   }
 }
 
-void add_numbers(const std::vector<SystemResult>& figures, std::size_t designs, Table& table) {
-  std::vector<SystemNumber> all;
-  for (const SystemResult& figure : figures)
-    all.insert(all.end(), figure.numbers.begin(), figure.numbers.end());
+void add_numbers(const std::vector<SystemNumber>& all, std::size_t designs, Table& table) {
   std::set<std::string> done;
   for (const SystemNumber& first : all) {
     if (!done.insert(first.what).second) continue;
@@ -110,15 +108,38 @@ void add_campaigns(const std::vector<Results>& all, Table& table) {
     table.add("campaign", lines);
 }
 
+/// Data and parameters that are not the same in all.
+void add_data(const std::vector<NamedDesign>& designs, Table& table) {
+  std::vector<std::string> names;
+  for (const NamedDesign& design : designs)
+    for (const auto* list :
+         {&design.loaded.stated.design->data, &design.loaded.stated.design->parameters})
+      for (const model::Design::Datum& datum : *list)
+        if (std::ranges::find(names, datum.name) == names.end()) names.push_back(datum.name);
+  for (const std::string& name : names) {
+    std::vector<const numbers::Matrix*> values;
+    for (const NamedDesign& design : designs) {
+      const auto found = design.loaded.stated.values.find(name);
+      values.push_back(found == design.loaded.stated.values.end() ? nullptr : &found->second);
+    }
+    const numbers::Matrix* first = values.front();
+    const bool same = std::ranges::all_of(values, [&](const numbers::Matrix* one) {
+      return first != nullptr && one != nullptr && one->rows() == first->rows() &&
+             one->cols() == first->cols() && *one == *first;
+    });
+    if (!same) table.add(name, values);
+  }
+}
+
 /// "gains.json" of a folder of one problem.
 std::string gain_file_of(const std::string& path) {
   std::error_code none;
   return fs::is_directory(path, none) ? (fs::path(path) / "gains.json").string() : path;
 }
 
-/// Run 0 of each.
+/// Run 0 of each, whose figures become rows.
 page::SystemFigure runs_of(const std::vector<NamedDesign>& designs,
-                           const std::vector<std::string>& files) {
+                           const std::vector<std::string>& files, Table& table) {
   std::vector<LoadedGains> loaded;
   for (const NamedDesign& design : designs) loaded.push_back(design.loaded);
   for (std::size_t k = 0; k < loaded.size(); ++k)
@@ -127,12 +148,23 @@ page::SystemFigure runs_of(const std::vector<NamedDesign>& designs,
   const std::uint64_t seed = loaded.front().stated.design->campaign.seed;
   std::vector<std::unique_ptr<const verify::Setup>> setups;
   std::vector<DesignRun> runs;
-  for (const NamedDesign& design : designs) {
-    setups.push_back(verify::make_setup(design.loaded.stated, design.loaded.gains));
+  std::vector<SystemNumber> numbers;
+  for (std::size_t k = 0; k < designs.size(); ++k) {
+    const model::Design& design = *loaded[k].stated.design;
+    setups.push_back(verify::make_setup(loaded[k].stated, loaded[k].gains));
     const verify::Setup& setup = *setups.back();
-    runs.push_back({design.name, design.loaded.stated.design.get(), setup.events.get(),
+    runs.push_back({designs[k].name, &design, setup.events.get(),
                     drawn_run(setup, 0, verify::run_of(setup, seed, 0), 0)});
+    if (design.compare.empty()) continue;
+    const auto survey = statistics::survey_figures(*setup.events, design.compare, seed, {1, {0}});
+    for (const statistics::FigureSummary& figure : survey.figures)
+      if (figure.least)
+        numbers.push_back({k,
+                           "run 0" + (figure.observer.empty() ? "" : ", " + figure.observer) +
+                               ": " + figure.title,
+                           figure.least->value});
   }
+  add_numbers(numbers, designs.size(), table);
   const auto view = [](const model::Design& design) { return view_of(design); };
   return {fmt::format("Run 0 of seed {} of each", seed),
           report::svg(figure_of_designs(runs, view)),
@@ -163,20 +195,24 @@ page::Comparison compared(const std::vector<std::string>& paths,
   add_texts("objective", [](const Results& one) {
     return one.gains.objective ? brief(*one.gains.objective) : std::string();
   });
+  add_data(designs, table);
   add_matrices(results, "", &model::Gains::gains, table);
   add_matrices(results, "", &model::Gains::report, table);
   add_campaigns(results, table);
   const std::vector<SystemResult> figures = system_results(designs);
-  add_numbers(figures, designs.size(), table);
-  comparison.rows = table.take();
-  for (const SystemResult& one : figures)
+  std::vector<SystemNumber> numbers;
+  for (const SystemResult& one : figures) {
+    numbers.insert(numbers.end(), one.numbers.begin(), one.numbers.end());
     comparison.figures.push_back(
         {one.figure.title, one.missing.empty() ? report::svg(one.figure) : "", one.facts});
+  }
+  add_numbers(numbers, designs.size(), table);
   try {
-    comparison.figures.push_back(runs_of(designs, files));
+    comparison.figures.push_back(runs_of(designs, files, table));
   } catch (const InputError& error) {
     comparison.figures.push_back({"Runs", "", {"No picture: " + error.message() + "."}});
   }
+  comparison.rows = table.take();
   return comparison;
 }
 

@@ -26,6 +26,7 @@
 #include "gainsmith/results_folder.h"
 #include "gainsmith/shard_option.h"
 #include "gainsmith/terminal.h"
+#include "gainsmith/watch.h"
 #include "page/page.h"
 
 namespace gainsmith::app {
@@ -44,6 +45,7 @@ struct RunOptions {
   bool json = false;
   bool report = false;
   bool certify = false;
+  bool watch = false;
   JobOptions job;
 };
 
@@ -215,6 +217,24 @@ ExitCode run(const RunOptions& options) {
   return worst;
 }
 
+/// The problems again after each change of a file beside them; the exit code of the last time.
+ExitCode run_again(const RunOptions& options) {
+  std::vector<fs::path> files;
+  for (const ProblemFile& item : own_problems(options)) files.push_back(item.path);
+  if (options.problems == std::vector<std::string>{"-"})
+    throw InputError({"--watch"}, "standard input does not change: give a file");
+  ExitCode last = ExitCode::yes;
+  watch(files, options.output, [&] {
+    try {
+      last = run(options);
+    } catch (const InputError& error) {
+      say(std::string(error.what()) + "\n");
+      last = ExitCode::bad_input;
+    }
+  });
+  return last;
+}
+
 }  // namespace
 
 Command run_command() {
@@ -247,6 +267,9 @@ Command run_command() {
        Option("--junit", options->junit, "write JUnit XML here"),
        Option("--report", options->report, "write report.html into the folder of the results")
            .excludes({"--shard"}),
+       Option("--watch", options->watch,
+              "run again whenever a file beside the problems changes, until Ctrl-C")
+           .excludes({"--shard", "--resume"}),
        Option("--json", options->json, "print the results as JSON"),
        Option("--certify", options->certify,
               "prove the gain files by the second program too; exit code 3 unless it agrees")
@@ -257,7 +280,7 @@ Command run_command() {
       "Examples:\n"
       "  gainsmith run problem.yaml -o out\n"
       "  gainsmith run problems/ -o out --junit out/junit.xml",
-      [options] { return run(*options); }};
+      [options] { return options->watch ? run_again(*options) : run(*options); }};
 }
 
 }  // namespace gainsmith::app

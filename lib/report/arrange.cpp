@@ -50,11 +50,15 @@ void cut(const Series& series, double from, double to) {
   for (std::size_t i = 0; i < values.size(); ++i) *series.values[i] = std::move(values[i]);
 }
 
-void spread(const Series& series, double width) {
-  std::size_t jumps = 0;
+/// `moments`: those of all jumps. What has none of its own, such as a bound, takes them by the time.
+void spread(const Series& series, double width, const std::vector<double>& moments) {
+  const bool own = !series.jumps->empty();
+  std::ptrdiff_t jumps = 0;
   for (std::size_t k = 0; k < series.t->size(); ++k) {
-    (*series.t)[k] += width * static_cast<double>(jumps);
-    if (is_jump(series, k)) ++jumps;
+    double& t = (*series.t)[k];
+    if (!own) jumps = std::ranges::upper_bound(moments, t) - moments.begin();
+    t += width * static_cast<double>(jumps);
+    if (own && is_jump(series, k)) ++jumps;
   }
 }
 
@@ -82,7 +86,13 @@ void cut(Figure& figure, double from, double to) {
 }
 
 void spread_jumps(Figure& figure, double width) {
-  for_each_series(figure, [&](const Series& series) { spread(series, width); });
+  std::vector<double> moments;
+  for_each_series(figure, [&](const Series& series) {
+    if (series.jumps->size() <= moments.size()) return;
+    moments.clear();
+    for (const std::size_t k : *series.jumps) moments.push_back((*series.t)[k]);
+  });
+  for_each_series(figure, [&](const Series& series) { spread(series, width, moments); });
   figure.marks.clear();
 }
 
