@@ -207,6 +207,29 @@ void add_datum(Binding& binding, const Given& given) {
   define(binding, std::move(bound), binding.design->data);
 }
 
+/// A datum that is a system is a definition, whose matrices texts read, with its sizes.
+void add_system(Binding& binding, const model::Declaration& datum) {
+  const model::Value* value = find_named(binding.problem().data, datum.name);
+  if (value == nullptr && !datum.fallback)
+    throw InputError({binding.problem().file},
+                     "the datum " + datum.name + " (" + datum.shape.text + ") of the method " +
+                         binding.method().name +
+                         " is missing under 'data', such as tf(1, [1, 2]) or ss(A, B, C, D)");
+  const expr::Expression text = value != nullptr ? value->value : *datum.fallback;
+  const Place place = value != nullptr ? value->place : datum.place;
+  if (value != nullptr) refuse_later_data(binding, *value);
+  const expr::CompiledSystem system = expr::compile_system(text, binding.names->known);
+  const expr::Shape whole = system.matrix.shape();
+  if (!learn_system(datum.shape, whole, system.states, binding.design->dimensions))
+    throw InputError(place, "the datum " + datum.name + " is declared " +
+                                declared(datum, binding.design->dimensions) + "; found " +
+                                std::to_string(system.states) + " states, " +
+                                std::to_string(whole.rows - system.states) + " outputs and " +
+                                std::to_string(whole.cols - system.states) + " inputs");
+  binding.names->known.definitions[datum.name] = {{}, text};
+  binding.names->known.dimensions = binding.design->dimensions;
+}
+
 /// A size such as n + p may have been unknown when the datum was read.
 void check_shape(const Binding& binding, const Given& given) {
   const model::Declaration& datum = given.declaration;
@@ -412,6 +435,10 @@ void bind_data(Binding& binding) {
   for (const model::Declaration& datum : binding.method().data) {
     if (is_function(binding.problem(), datum)) {
       add_function(binding, datum);
+      continue;
+    }
+    if (datum.shape.system) {
+      add_system(binding, datum);
       continue;
     }
     for (Given& member : given(binding, datum)) {

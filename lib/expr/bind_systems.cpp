@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -44,6 +45,17 @@ std::vector<std::string> pade_coefficients(int n) {
 }
 
 }  // namespace
+
+bool makes_system(const Node& node) {
+  static const std::set<std::string> kMakers = {"ss",     "tf",     "series", "parallel",
+                                                "append", "lft",    "augw",   "feedback",
+                                                "pade",   "tustin", "minreal"};
+  if (node.kind == NodeKind::call) return kMakers.contains(node.text);
+  const bool sum = node.kind == NodeKind::add || node.kind == NodeKind::subtract ||
+                   node.kind == NodeKind::multiply || node.kind == NodeKind::negate;
+  return sum && std::ranges::any_of(node.children,
+                                    [](const NodePtr& child) { return makes_system(*child); });
+}
 
 Binder::SystemParts Binder::parts_of(const Emitter& make, const Bound& system) {
   const auto [rows, cols] = make.shape(system.at);

@@ -28,6 +28,9 @@ struct CompiledSystem {
   std::optional<Program> step;  ///< the sampling time; none: continuous
 };
 
+/// Whether a text makes a system by its calls and operators, whatever its names mean.
+bool makes_system(const Node& node);
+
 /// The program of a system; a matrix is one without states. InputError as of compile().
 CompiledSystem compile_system(const Expression& expression, const Scope& scope);
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/named.h"
+#include "expr/compile.h"
 #include "model/names.h"
 
 namespace gainsmith::io {
@@ -47,7 +48,8 @@ void declare_scalars(model::Problem& problem) {
     if (!read_beside(value, problem).contains(value.name)) continue;
     model::Declaration scalar;
     scalar.name = value.name;
-    scalar.shape = model::parse_shape(expr::Text::generated("scalar", value.place));
+    const char* shape = expr::makes_system(*value.value.root) ? "system" : "scalar";
+    scalar.shape = model::parse_shape(expr::Text::generated(shape, value.place));
     scalar.place = value.place;
     scalars.push_back(std::move(scalar));
   }

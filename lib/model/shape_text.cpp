@@ -34,7 +34,8 @@ std::vector<Word> words_of(const std::string& text) {
   return words;
 }
 
-constexpr const char* kShapes = "; a shape is n x p, n, scalar, symmetric n or diagonal n";
+constexpr const char* kShapes =
+    "; a shape is n x p, n, scalar, symmetric n, diagonal n or system n p x m";
 
 /// "nxn", "2x1", "n1xm2": letters and numbers of the usual sizes, with x between.
 bool is_glued_product(const std::string& word) {
@@ -92,6 +93,19 @@ ShapeText parse_shape(const expr::Text& text) {
     }
   };
   if (words.size() == 1 && words[0].text == "scalar") return shape;
+  if (!words.empty() && words[0].text == "system") {
+    shape.structure = Structure::full;
+    shape.system = true;
+    if (words.size() > 1)
+      shape.states = size(words[1].offset, words[1].offset + words[1].text.size());
+    if (words.size() <= 2) return shape;
+    const std::size_t begin = words[2].offset, cross = shape.text.find(" x ", begin);
+    if (cross == std::string::npos)
+      throw InputError(shape.place, "expected system, system n or system n p x m");
+    shape.rows = size(begin, cross);
+    shape.cols = size(cross + 2, length);
+    return shape;
+  }
   if (words.size() >= 2 && (words[0].text == "symmetric" || words[0].text == "diagonal")) {
     shape.structure = words[0].text == "symmetric" ? Structure::symmetric : Structure::diagonal;
     shape.rows = size(words[1].offset, length);
@@ -103,7 +117,7 @@ ShapeText parse_shape(const expr::Text& text) {
   if (words.size() == 1 && is_glued_product(words[0].text))
     throw InputError(shape.place, "'" + shape.text + "' is one word; a matrix is written " +
                                       spaced_product(words[0].text));
-  static const std::vector<std::string> kStructures = {"scalar", "symmetric", "diagonal"};
+  static const std::vector<std::string> kStructures = {"scalar", "symmetric", "diagonal", "system"};
   if (!words.empty() && words.size() <= 2)
     if (const auto near = nearest(words[0].text, kStructures))
       throw InputError(
@@ -125,6 +139,7 @@ ShapeText parse_shape(const expr::Text& text) {
 }
 
 std::optional<expr::Shape> resolve(const ShapeText& shape, const Dimensions& dimensions) {
+  if (shape.system) return std::nullopt;
   if (shape.structure == Structure::scalar) return expr::Shape{};
   const auto rows = size_of(*shape.rows, dimensions);
   if (!rows) return std::nullopt;
@@ -135,8 +150,15 @@ std::optional<expr::Shape> resolve(const ShapeText& shape, const Dimensions& dim
   return expr::Shape{*rows, *cols};
 }
 
+bool learn_system(const ShapeText& shape, expr::Shape whole, int states, Dimensions& dimensions) {
+  if (shape.states && !learn_size(*shape.states, states, dimensions)) return false;
+  return !shape.rows || (learn_size(*shape.rows, whole.rows - states, dimensions) &&
+                         learn_size(*shape.cols, whole.cols - states, dimensions));
+}
+
 bool learn(const ShapeText& shape, expr::Shape actual, Dimensions& dimensions) {
   if (shape.structure == Structure::scalar) return actual.is_scalar();
+  if (shape.system) return false;
   if (!learn_size(*shape.rows, actual.rows, dimensions)) return false;
   if (shape.structure != Structure::full) return actual.is_square();
   if (!shape.cols) return actual.cols == 1;

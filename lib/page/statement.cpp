@@ -19,6 +19,7 @@ std::string help_of(const std::string& help) { return report::escaped(help); }
 /// "n × p", "symmetric, n × n", "scalar".
 std::string shape_text(const model::ShapeText& shape, const Notation& notation) {
   using model::Structure;
+  if (shape.system) return "a linear system";
   if (shape.structure == Structure::scalar || !shape.rows) return "a number";
   const std::string rows = mathml(*shape.rows, notation);
   const std::string columns = shape.structure != Structure::full ? rows
