@@ -52,6 +52,7 @@ install(DIRECTORY docs problems DESTINATION "${share}" COMPONENT program)
 install(DIRECTORY lib/methods DESTINATION "${share}/lib" COMPONENT program FILES_MATCHING PATTERN "*.yaml")
 install(DIRECTORY scripts/cluster DESTINATION "${share}/scripts" COMPONENT program USE_SOURCE_PERMISSIONS)
 install(DIRECTORY scripts/certify DESTINATION "${share}/scripts" COMPONENT program PATTERN "__pycache__" EXCLUDE)
+install(DIRECTORY apps/editors DESTINATION "${share}" COMPONENT program)
 install(FILES README.md CHANGELOG.md CONTRIBUTING.md LICENSE DESTINATION "${share}" COMPONENT program)
 install(FILES "${made}/problem.schema.json" "${made}/method.schema.json" "${made}/gains.schema.json" DESTINATION "${share}/schemas"
         COMPONENT program)

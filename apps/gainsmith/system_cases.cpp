@@ -144,7 +144,7 @@ io::Json cases_json(const std::vector<SystemCase>& cases, SystemPicture kind) {
       json["phase_margin"].push_back(margin_json(margins->phase));
       json["delay_margin"].push_back(margin_json(margins->delay));
     }
-    if (kind == SystemPicture::poles) json["poles"].push_back(rows_json(one.drawn.poles));
+    if (kind == SystemPicture::poles) json["locus"].push_back(rows_json(one.drawn.poles));
   }
   return json;
 }

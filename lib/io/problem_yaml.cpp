@@ -361,6 +361,8 @@ model::Problem parse_problem(const std::string& text, const std::string& file,
   read_data(yaml, map.find("data"), problem);
   for (const YamlItem& item : items_of(yaml, map.find("let"), "let"))
     problem.let.push_back(definition(yaml, item));
+  for (const YamlItem& item : items_of(yaml, map.find("figures"), "figures"))
+    problem.figures.push_back(system_figure(yaml, item));
   declare_scalars(problem);
   for (const YamlItem& item : items_of(yaml, map.find("parameters"), "parameters"))
     add(value_of(yaml, item), item, problem.parameters);
@@ -379,8 +381,6 @@ model::Problem parse_problem(const std::string& text, const std::string& file,
   problem.campaign = campaign(yaml, campaign_item, *problem.method);
   if (const auto expect = map.find("expect")) problem.expect = expectation_from(yaml, *expect);
   if (const auto compare = map.find("compare")) problem.compare = figures(yaml, *compare);
-  for (const YamlItem& item : items_of(yaml, map.find("figures"), "figures"))
-    problem.figures.push_back(system_figure(yaml, item));
   for (const YamlItem& item : items_of(yaml, map.find("report"), "report"))
     problem.report.push_back({item.key, yaml.expression(item.value, item.key), item.place});
   for (const YamlItem& item : items_of(yaml, map.find("uncertain"), "uncertain"))

@@ -26,6 +26,8 @@ std::set<std::string> read_beside(const model::Value& self, const model::Problem
     if (value.name != self.name) add_names(value, names);
   for (const auto* list : {&problem.functions, &problem.let})
     for (const model::Let& let : *list) names.merge(names_in(let.body));
+  for (const model::SystemFigureText& figure : problem.figures)
+    for (const auto& system : figure.systems) names.merge(names_in(system.text));
   return names;
 }
 

@@ -2,6 +2,8 @@
 
     numpy_test.py TREE GAINSMITH
 """
+import os
+import tempfile
 import time
 import unittest
 
@@ -55,6 +57,36 @@ class Arrays(unittest.TestCase):
         gain = gs.synth(spring(figures={"error": {"poles": "ss(A - L*C, L, C, 0)"}}))
         poles = gain.plot()["error"].systems[0].poles
         self.assertLess(max(pole.real for pole in poles), -3 + 1e-6)
+
+    def test_scans_and_draws_of_figures(self):
+        figures = gs.plot(
+            {
+                "problem": "loop",
+                "method": {},
+                "data": {"k": 5, "d": 3, "G": "tf(1, [1, d, 2, 0])"},
+                "uncertain": {"d": {"box": [2, 4]}},
+                "figures": {
+                    "margins": {"margins": "k*G", "scan": {"k": [1, 7]}},
+                    "locus": {"poles": "feedback(k*G)", "scan": {"k": [1, 7]}},
+                    "band": {"bode": "k*plant.G"},
+                },
+            }
+        )
+        name, values = figures["margins"].scan
+        self.assertEqual(name, "k")
+        np.testing.assert_allclose(figures["margins"].systems[0].gain_margin, 6 / values, rtol=1e-9)
+        for poles in figures["locus"].systems[0].locus:
+            self.assertAlmostEqual(sum(poles).real, -3, 9)
+        self.assertEqual(len(figures["band"].draws[0].stable), 100)
+
+    def test_designs_side_by_side(self):
+        other = gs.synth(spring(parameters={"alpha": 4}))
+        with tempfile.TemporaryDirectory() as folder:
+            page = os.path.join(folder, "both.html")
+            table = gs.compare({"calm": gs.synth(spring()), "quick": other}, page)
+            with open(page, encoding="utf-8") as file:
+                self.assertIn("calm, quick", file.read())
+        self.assertEqual(table["alpha"], {"calm": "3", "quick": "4"})
 
     def test_a_sparse_matrix(self):
         class Sparse:  # as those of SciPy

@@ -24,7 +24,7 @@ results. A wrong problem raises InputError with its place, a fault of the progra
 from ._design import bisect, explain, optimize, scan, solve, synth
 from ._errors import InputError, ProgramError
 from ._figures import Figure, plot
-from ._files import certify, check, export, load, report
+from ._files import certify, check, compare, export, load, report
 from ._results import (
     Campaign,
     Check,
@@ -52,6 +52,7 @@ __all__ = [
     "check",
     "certify",
     "report",
+    "compare",
     "export",
     "solve",
     "load",

@@ -22,6 +22,9 @@ class System:
     steps            list of dicts, one for each output and input: final_value, largest, overshoot,
                      undershoot, rise, settling
     poles, zeros     lists of complex numbers
+    stable           of each value of a scan, or draw of uncertain data
+    locus            the poles of each, lists of complex numbers
+    gain_margin, phase_margin, delay_margin   of each, (N,), nan where there is none
     """
 
     def __init__(self, file):
@@ -43,18 +46,30 @@ class System:
             [complex(*root) for root in file[key]] if key in file else None
             for key in ("poles", "zeros")
         )
+        self.stable = file.get("stable")
+        self.locus = [[complex(*root) for root in one] for one in file.get("locus", [])] or None
+        self.gain_margin, self.phase_margin, self.delay_margin = (
+            _with_gaps(file, key) for key in ("gain_margin", "phase_margin", "delay_margin")
+        )
 
     def __repr__(self):
         return f"<system {self.label}>"
 
 
 class Figure:
-    """A picture: name, kind ('bode', ...), systems, facts as lines of text, and svg."""
+    """A picture: name, kind ('bode', ...), systems, facts as lines of text, and svg.
+
+    scan   of a scanned scalar (name, values); None otherwise
+    draws  systems over draws of the plant's uncertain data; empty without
+    """
 
     def __init__(self, file, svg):
         self.name, self.kind, self.svg = file["name"], file["kind"], svg
         self.systems = [System(one) for one in file.get("systems", [])]
+        self.draws = [System(one) for one in file.get("draws", [])]
         self.facts = file.get("facts", [])
+        scan = file.get("scan")
+        self.scan = scan and (scan["name"], _matrices.column(scan["values"]))
 
     def __repr__(self):
         return "\n".join([self.name, *("  " + fact for fact in self.facts)])
@@ -106,6 +121,12 @@ def plot(
 
 def _column(file, key):
     return _matrices.column(file[key]) if key in file else None
+
+
+def _with_gaps(file, key):
+    if key not in file:
+        return None
+    return _matrices.column([float("nan") if value is None else value for value in file[key]])
 
 
 def _matrix(file, key):

@@ -90,6 +90,29 @@ def report(
 
 
 @known_options
+def compare(designs: dict, path=None, *, time: Optional[float] = None) -> dict:
+    """What differs between designs: {"L": {"slow": "[6; 9]", "fast": "[20; 100]"}, ...}, as text.
+
+    designs  {name: Design or path of a gain file}, two at least
+    path     where to write the page, with common pictures
+    """
+    with tempfile.TemporaryDirectory(prefix="gainsmith-") as folder:
+        files = []
+        for name, design in designs.items():
+            source = _sources.gains_source(design)
+            text = source.text if source.text is not None else _results.read(source.argument)
+            files.append(os.path.join(folder, name + ".json"))
+            _results.write(files[-1], text)
+        page = os.path.join(folder, "page.html")
+        options = _arguments.flags(output=page, time=time)
+        run = _program.run(["report", *files, "--json", *options])
+        table = _program.json_of("report", run)
+        if path is not None:
+            _results.write(path, _results.read(page))
+    return {row["what"]: dict(zip(table["designs"], row["values"])) for row in table["rows"]}
+
+
+@known_options
 def export(
     gains: Gains, to: str, path=None, *, single: bool = False, time: Optional[float] = None
 ) -> Optional[str]:
