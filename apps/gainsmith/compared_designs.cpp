@@ -156,11 +156,13 @@ page::SystemFigure runs_of(const std::vector<NamedDesign>& designs,
     runs.push_back({designs[k].name, &design, setup.events.get(),
                     drawn_run(setup, 0, verify::run_of(setup, seed, 0), 0)});
     if (design.compare.empty()) continue;
+    const bool several = design.dynamics->components.size() > 2;  // observers
     const auto survey = statistics::survey_figures(*setup.events, design.compare, seed, {1, {0}});
     for (const statistics::FigureSummary& figure : survey.figures)
       if (figure.least)
         numbers.push_back({k,
-                           "run 0" + (figure.observer.empty() ? "" : ", " + figure.observer) +
+                           "run 0" +
+                               (several && !figure.observer.empty() ? ", " + figure.observer : "") +
                                ": " + figure.title,
                            figure.least->value});
   }

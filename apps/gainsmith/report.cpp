@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
@@ -66,6 +67,7 @@ ExitCode report_several(const ReportOptions& options) {
     fmt::print("{}", io::to_text({{"designs", comparison.names}, {"rows", rows}}));
   } else if (to_file) {
     fmt::print("{}", comparison_text(comparison));
+    std::fflush(stdout);
   }
   std::string title;
   for (const std::string& name : comparison.names) title += (title.empty() ? "" : ", ") + name;

@@ -11,7 +11,7 @@ namespace gainsmith::tests {
 namespace {
 
 /// k/(s (s + 1) (s + 2)): stable up to k = 6.
-const std::string kScanned = R"yaml(problem: loop
+const std::string kLoopOfGain = R"yaml(problem: loop
 method: {}
 data: {k: 5, d: 2, P: "tf(1, [1, 1])"}
 let:
@@ -28,7 +28,7 @@ figures:
 
 TEST(DeskTest, AScanDesignsAnewForEachValue) {
   const Folder folder;
-  const std::string file = folder.file("loop.yaml", kScanned), picture = folder.path("p.svg");
+  const std::string file = folder.file("loop.yaml", kLoopOfGain), picture = folder.path("p.svg");
   const Outcome outcome = gainsmith({"plot", file, "--json", "-o", picture});
   ASSERT_EQ(outcome.exit, 0) << outcome.err;
   const auto figures = outcome.json();
@@ -58,7 +58,7 @@ TEST(DeskTest, AScanDesignsAnewForEachValue) {
 /// Of s^2 + d s the loop k/((s + 1) (s^2 + d s)) has the gain margin d (d + 1)/k.
 TEST(DeskTest, UncertainDataAreDrawnAsInRuns) {
   const Folder folder;
-  const std::string file = folder.file("loop.yaml", kScanned), picture = folder.path("p.svg");
+  const std::string file = folder.file("loop.yaml", kLoopOfGain), picture = folder.path("p.svg");
   const Outcome outcome =
       gainsmith({"plot", file, "--json", "--figure", "band", "--figure", "cloud", "-o", picture});
   ASSERT_EQ(outcome.exit, 0) << outcome.err;
@@ -87,7 +87,8 @@ TEST(DeskTest, UncertainDataAreDrawnAsInRuns) {
 TEST(DeskTest, MistakesOfScansHaveTheirPlaces) {
   const Folder folder;
   const auto says = [&](const std::string& old, const std::string& fresh, const std::string& what) {
-    const Outcome outcome = gainsmith({"plot", folder.file("m.yaml", with(kScanned, old, fresh))});
+    const Outcome outcome =
+        gainsmith({"plot", folder.file("m.yaml", with(kLoopOfGain, old, fresh))});
     EXPECT_EQ(outcome.exit, 2) << fresh;
     EXPECT_TRUE(has(outcome.err, what)) << fresh << ": " << outcome.err;
   };
@@ -218,6 +219,7 @@ TEST_F(TwoDesigns, ArePresentedAsAsked) {
 
 TEST(WatchTest, RunsAgainAfterAChange) {
   const Folder folder;
+  std::filesystem::create_directory(folder.path("p"));
   const std::string file = folder.file("p/lqr.yaml", text_of(problem("designs/lqr.yaml")));
   const std::string out = folder.path("out.txt"), err = folder.path("err.txt");
   const pid_t child = start({"run", file, "--watch", "-o", folder.path("results")}, out, err);
