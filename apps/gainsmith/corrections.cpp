@@ -64,88 +64,112 @@ expr::Program part_at(const expr::Program& text, std::size_t at) {
   return all.extract(places.back());
 }
 
-/// Compares the elements of a difference with those of the variables that it reads.
-class Difference {
- public:
-  Difference(const expr::Program& program, const hybrid::System& system)
-      : system_(system),
-        function_(program, system.layout, system.constants),
-        origin_(at(Eigen::VectorXd::Zero(system.layout.size))) {
-    for (const expr::Input& input : program.inputs)
-      if (const auto slot = system.slot(input.name);
-          slot && *slot < system.dynamics.variables.size())
-        read_.push_back(*slot);
-  }
+struct Term {
+  std::size_t slot;
+  int element;
+  double factor;
 
-  /// Appends what corrects what.
-  void tell(const verify::Replay& replay, std::vector<Correction>& found) {
-    std::vector<Terms> rows(static_cast<std::size_t>(origin_.size()));
-    for (const std::size_t slot : read_)
-      for (int k = 0; k < system_.layout.slots[slot].shape.size(); ++k) add(slot, k, rows);
-    for (std::size_t r = 0; r < rows.size(); ++r) {
-      const Terms& row = rows[r];
-      if (origin_(static_cast<Eigen::Index>(r)) != 0 || row.size() != 2 ||
-          row[0].factor != -row[1].factor)
-        continue;
-      const bool swapped = is_measured(row[1].slot);
-      const Term& measured = row[swapped ? 1 : 0];
-      const Term& state = row[swapped ? 0 : 1];
-      if (!is_measured(measured.slot) || kind(state.slot) != Kind::state) continue;
-      const auto of = column_of(replay, shown_name(measured.slot), measured.element);
-      const auto by = column_of(replay, name(state.slot), state.element);
-      if (!of || !by) continue;
-      if (const Correction one{*of, *by}; std::ranges::find(found, one) == found.end())
-        found.push_back(one);
+  bool operator==(const Term&) const = default;
+};
+using Terms = std::vector<Term>;
+
+/// Of each element of an affine program what it reads; nothing for one with a constant.
+std::vector<Terms> terms_of(const expr::Program& program, const hybrid::System& system) {
+  hybrid::PointFunction function(program, system.layout, system.constants);
+  const auto at = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+    return function(x, 0).reshaped();
+  };
+  const Eigen::VectorXd origin = at(Eigen::VectorXd::Zero(system.layout.size));
+  std::vector<Terms> rows(static_cast<std::size_t>(origin.size()));
+  for (const expr::Input& input : program.inputs) {
+    const auto slot = system.slot(input.name);
+    if (!slot || *slot >= system.dynamics.variables.size()) continue;
+    for (int k = 0; k < system.layout.slots[*slot].shape.size(); ++k) {
+      const Eigen::Index place = system.layout.slots[*slot].offset + k;
+      const Eigen::VectorXd moved = at(Eigen::VectorXd::Unit(system.layout.size, place)) - origin;
+      for (std::size_t r = 0; r < rows.size(); ++r)
+        if (const double factor = moved(static_cast<Eigen::Index>(r)); factor != 0)
+          rows[r].push_back({*slot, k, factor});
     }
   }
+  for (std::size_t r = 0; r < rows.size(); ++r)
+    if (origin(static_cast<Eigen::Index>(r)) != 0) rows[r].clear();
+  return rows;
+}
 
- private:
-  struct Term {
-    std::size_t slot;
-    int element;
-    double factor;
-  };
-  using Terms = std::vector<Term>;
+bool is_affine(const expr::Program& program, const hybrid::System& system) {
+  const auto moves = [&](const std::string& name) { return !system.constants.contains(name); };
+  return hybrid::first_not_affine(program, moves) == nullptr;
+}
 
-  Eigen::VectorXd at(const Eigen::VectorXd& x) { return function_(x, 0).reshaped(); }
-  const std::string& name(std::size_t slot) const { return system_.layout.slots[slot].name; }
-  /// That of the output that is this measurement; otherwise its own.
-  const std::string& shown_name(std::size_t slot) const {
-    for (const Dynamics::Signal& signal : system_.dynamics.signals)
-      if (const auto& read = signal.value.program.inputs;
-          signal.output && read.size() == 1 && read.front().name == name(slot))
-        return signal.name;
-    return name(slot);
-  }
-  Kind kind(std::size_t slot) const { return system_.dynamics.variables[slot].kind; }
-  bool is_measured(std::size_t slot) const { return kind(slot) == Kind::measured; }
-
-  void add(std::size_t slot, int element, std::vector<Terms>& rows) {
-    const Eigen::Index place = system_.layout.slots[slot].offset + element;
-    const Eigen::VectorXd moved = at(Eigen::VectorXd::Unit(system_.layout.size, place)) - origin_;
-    for (std::size_t r = 0; r < rows.size(); ++r)
-      if (const double factor = moved(static_cast<Eigen::Index>(r)); factor != 0)
-        rows[r].push_back({slot, element, factor});
-  }
-
-  const hybrid::System& system_;
-  hybrid::PointFunction function_;
-  Eigen::VectorXd origin_;
-  std::vector<std::size_t> read_;
+/// An element of an output of the plant, and what it reads.
+struct Measured {
+  std::size_t column = 0;
+  Terms terms;
 };
+
+/// Those that show something: a state of the plant alone is drawn already.
+std::vector<Measured> outputs_of(const hybrid::System& system, const verify::Replay& replay) {
+  const Dynamics& dynamics = system.dynamics;
+  std::vector<Measured> outputs;
+  for (const Dynamics::Signal& signal : dynamics.signals) {
+    if (!signal.output || !is_affine(signal.value.program, system)) continue;
+    const std::vector<Terms> rows = terms_of(signal.value.program, system);
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      const bool state = rows[r].size() == 1 && rows[r][0].factor == 1 &&
+                         dynamics.variables[rows[r][0].slot].kind == Kind::state;
+      const auto column = column_of(replay, signal.name, static_cast<int>(r));
+      if (rows[r].empty() || state || !column) continue;
+      outputs.push_back({*column, rows[r]});
+    }
+  }
+  return outputs;
+}
+
+bool is_of_observer(const Dynamics& dynamics, const Term& term) {
+  const Dynamics::Variable& variable = dynamics.variables[term.slot];
+  return variable.kind == Kind::state && dynamics.components[variable.component].observer;
+}
+
+/// What is left of y - h where h is one state of an observer: y. Nothing otherwise.
+std::optional<std::pair<Term, Terms>> compared(const Dynamics& dynamics, Terms row) {
+  const auto of_observer = [&](const Term& term) { return is_of_observer(dynamics, term); };
+  if (std::ranges::count_if(row, of_observer) != 1) return std::nullopt;
+  const auto found = std::ranges::find_if(row, of_observer);
+  const Term estimate = *found;
+  row.erase(found);
+  for (Term& term : row) term.factor /= -estimate.factor;
+  return std::pair(estimate, std::move(row));
+}
 
 }  // namespace
 
 std::vector<Correction> corrections(const hybrid::System& system, const verify::Replay& replay) {
   std::vector<Correction> found;
-  const auto moves = [&](const std::string& name) { return !system.constants.contains(name); };
+  const std::vector<Measured> outputs = outputs_of(system, replay);
+  const auto tell = [&](const Terms& row) {
+    const auto pair = compared(system.dynamics, row);
+    if (!pair) return;
+    const auto& [estimate, terms] = *pair;
+    const auto output = std::ranges::find(outputs, terms, &Measured::terms);
+    std::optional<std::size_t> measured;
+    if (output != outputs.end())
+      measured = output->column;
+    else if (terms.size() == 1 && terms[0].factor == 1 &&
+             system.dynamics.variables[terms[0].slot].kind == Kind::measured)
+      measured = column_of(replay, system.layout.slots[terms[0].slot].name, terms[0].element);
+    const auto of = column_of(replay, system.layout.slots[estimate.slot].name, estimate.element);
+    if (!measured || !of) return;
+    const Correction one{*measured, *of};
+    if (std::ranges::find(found, one) == found.end()) found.push_back(one);
+  };
   for (const expr::Program* text : texts_of(system.dynamics))
     for (std::size_t k = 0; k < text->code.size(); ++k) {
       if (text->code[k].op != expr::Op::subtract || text->code[k].shape.cols != 1) continue;
       if (is_summed(*text, static_cast<int>(k))) continue;
       const expr::Program part = part_at(*text, k);
-      if (hybrid::first_not_affine(part, moves) == nullptr)
-        Difference(part, system).tell(replay, found);
+      if (is_affine(part, system))
+        for (const Terms& row : terms_of(part, system)) tell(row);
     }
   return found;
 }

@@ -17,8 +17,9 @@ struct Correction {
   bool operator==(const Correction&) const = default;
 };
 
-/// Of each difference y - h in the texts of the observers, where an element of the measured y is
-/// compared with one state alone: y(1) - xh(2). Differences that are not affine say nothing.
+/// Of each difference y - h in the texts of the observers, where an element of an output or of
+/// measured data is compared with one state alone: y(1) - xh(2). Differences that are not affine say
+/// nothing, nor do outputs that are a state of the plant.
 std::vector<Correction> corrections(const hybrid::System& system, const verify::Replay& replay);
 
 }  // namespace gainsmith::app
