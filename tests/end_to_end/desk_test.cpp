@@ -217,6 +217,29 @@ TEST_F(TwoDesigns, ArePresentedAsAsked) {
   EXPECT_TRUE(has(gainsmith({"simulate", calm, "--size", "500x400"}).err, "give --plot FILE"));
 }
 
+/// What corrects an estimate, unless it is the state itself.
+TEST(DeskTest, NoisySamplesLieBehindTheirEstimates) {
+  const Folder folder;
+  const std::string text = R"yaml(problem: samples
+method:
+  gains: {L: "[0.3; 0.2]"}
+  plant: {state: {x: 2}, flow: {x: "[x(2); -x(1)]"}, output: {y: {value: x(1) + w, at: sample}}}
+  events: {sample: {every: 0.1}}
+  noise: {w: {normal: 0.1, new at: sample}}
+  observer: {state: {xh: 2}, flow: {xh: "[xh(2); -xh(1)]"}, at: {sample: {xh: "xh + L*(y - xh(1))"}}}
+campaign: {horizon: 3, initial: {x: [1, 0], xh: [0, 0]}}
+)yaml";
+  const auto drawn = [&](const std::string& problem) {
+    const std::string picture = folder.path("p.svg");
+    const Outcome outcome =
+        gainsmith({"simulate", folder.file("p.yaml", problem), "--plot", picture});
+    EXPECT_EQ(outcome.exit, 0) << outcome.err;
+    return text_of(picture);
+  };
+  EXPECT_TRUE(has(drawn(text), ">y<"));
+  EXPECT_FALSE(has(drawn(with(text, "x(1) + w,", "x(1) + 0*w,")), ">y<"));
+}
+
 TEST(WatchTest, RunsAgainAfterAChange) {
   const Folder folder;
   std::filesystem::create_directory(folder.path("p"));
