@@ -69,7 +69,7 @@ std::string comparison_of(const Comparison& comparison) {
   if (comparison.names.size() == 2) heads.emplace_back("difference");
   std::string lines;
   for (const Comparison::Row& row : comparison.rows) {
-    std::string line = text_element("th", row.what);
+    std::string line = text_element("td", row.what);
     for (std::size_t k = 0; k + 1 < heads.size(); ++k) line += text_element("td", row.values[k]);
     lines += element("tr", line) + "\n";
   }
