@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/number.h"
+#include "bind/stated.h"
 #include "expr/evaluate.h"
 
 namespace gainsmith::app {
@@ -61,6 +62,14 @@ std::pair<double, double> given_range(const SystemFigure& figure, const model::S
 
 }  // namespace
 
+model::Stated nominal(const LoadedGains& loaded) {
+  const std::string plant = "plant.";
+  model::Stated stated = bind::state(loaded.stated, loaded.gains);
+  for (const model::Dynamics::Noise& noise : loaded.stated.design->varied.noise)
+    stated.values[noise.name] = stated.values.at(noise.name.substr(plant.size()));
+  return stated;
+}
+
 std::optional<std::vector<DrawnSystem>> systems_of(const SystemFigure& figure,
                                                    const model::Stated& stated,
                                                    std::string& missing) {
@@ -76,12 +85,6 @@ std::optional<std::vector<DrawnSystem>> systems_of(const SystemFigure& figure,
     drawn.label = of.label;
     drawn.system = std::move(*system);
   }
-  for (const DrawnSystem& drawn : systems)
-    if (figure.kind == SystemPicture::poles &&
-        drawn.system.is_sampled() != systems.front().system.is_sampled())
-      throw InputError(figure.place, "figures: " + figure.name +
-                                         ": poles of continuous and of sampled systems need two "
-                                         "pictures");
   return systems;
 }
 

@@ -6,10 +6,14 @@
 #include <utility>
 #include <vector>
 
+#include "gainsmith/load.h"
 #include "gainsmith/system_picture.h"
 #include "model/stated.h"
 
 namespace gainsmith::app {
+
+/// What a gain file says, with the plant's uncertain data as they are without a tolerance.
+model::Stated nominal(const LoadedGains& loaded);
 
 /// All systems of the figure, without responses yet. Nothing where one uses what has no value:
 /// `missing` then says which. InputError at the place of a system that is not finite.

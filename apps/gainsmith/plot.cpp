@@ -78,7 +78,7 @@ ExitCode plot(const PlotOptions& options) {
   std::vector<SystemResult> results = system_results(designs, options.figures);
   std::vector<report::Figure*> figures;
   for (SystemResult& one : results) figures.push_back(&one.figure);
-  if (!options.presentation.title.empty() && results.size() > 1)
+  if (!options.presentation.title.empty() && results.size() > 1 && options.figures.size() != 1)
     throw InputError({"--title"}, "of several pictures each has its own: choose one with --figure");
   present(options.presentation, figures);
   const std::vector<std::string> files = files_of(options.output, results);

@@ -296,16 +296,17 @@ ExitCode simulate_several(const SimulateOptions& options) {
   for (const std::string& file : options.files) designs.push_back(load_run(file, options.set));
   require_same_plant(designs, options.files);
   const std::uint64_t seed = options.seed.value_or(designs.front().stated.design->campaign.seed);
+  const std::vector<std::uint64_t> runs = runs_of(options.picture, options.compare, options.run);
   ExitCode exit = ExitCode::yes;
   if (options.compare) {
     for (std::size_t k = 0; k < designs.size(); ++k) {
       fmt::print("{}\n", names[k]);
-      exit = std::max(exit, compare(options, designs[k], seed, {options.run}));
+      exit = std::max(exit, compare(options, designs[k], seed, runs));
     }
     return exit;
   }
   std::vector<std::unique_ptr<const verify::Setup>> setups;
-  std::vector<DesignRun> runs;
+  std::vector<DesignRun> drawn;
   std::string text;
   for (std::size_t k = 0; k < designs.size(); ++k) {
     const model::Design& design = *designs[k].stated.design;
@@ -314,11 +315,11 @@ ExitCode simulate_several(const SimulateOptions& options) {
     verify::Replay replay = verify::replay_run(setup, seed, options.run, options.step, false);
     if (is_stopped(replay)) return ExitCode::undecided;
     text += names[k] + ": " + run_text(seed, options.run, replay);
-    runs.push_back({names[k], &design, setup.events.get(),
-                    drawn_run(setup, options.run, std::move(replay.run), options.step)});
+    drawn.push_back({names[k], &design, setup.events.get(),
+                     drawn_run(setup, options.run, std::move(replay.run), options.step)});
   }
   const Telling telling;
-  show(options, figure_of_designs(runs, [&](const model::Design& design) {
+  show(options, figure_of_designs(drawn, [&](const model::Design& design) {
          return view_of(options.picture, design);
        }));
   print_report(text, false);

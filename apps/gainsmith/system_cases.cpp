@@ -32,7 +32,9 @@ Least least_of(const std::vector<SystemCase>& cases,
   return least;
 }
 
-void add(std::string& text, const std::string& what) { text += (text.empty() ? "" : ", ") + what; }
+void add(std::string& text, const std::string& what) {
+  if (!what.empty()) text += (text.empty() ? "" : ", ") + what;
+}
 
 std::string worst_margins(const std::vector<SystemCase>& cases) {
   using Which = std::optional<response::Margin> response::Margins::*;
@@ -63,25 +65,41 @@ std::string worst_gain(const std::vector<SystemCase>& cases) {
   return least.at ? fmt::format("largest gain {} {}", brief(-least.value), least.at->where) : "";
 }
 
+/// Of what a step leaves at 0.
+std::string largest_size(const std::vector<SystemCase>& cases) {
+  const Least least = least_of(cases, [](const DrawnSystem& drawn) {
+    std::optional<double> most;
+    for (Eigen::Index i = 0; i < drawn.system.outputs(); ++i)
+      for (Eigen::Index j = 0; j < drawn.system.inputs(); ++j)
+        if (const auto facts = response::step_facts(drawn.system, j, i);
+            facts && facts->ends_at_0())
+          most = std::min(most.value_or(0), -std::abs(facts->largest));
+    return most;
+  });
+  return least.at ? fmt::format("largest size {} {}", brief(std::abs(least.value)), least.at->where)
+                  : "";
+}
+
 std::string worst_step(const std::vector<SystemCase>& cases) {
   const auto worst = [&](double response::StepFacts::*which, const char* what) {
     const Least least = least_of(cases, [which](const DrawnSystem& drawn) -> std::optional<double> {
       std::optional<double> most;
       for (Eigen::Index i = 0; i < drawn.system.outputs(); ++i)
         for (Eigen::Index j = 0; j < drawn.system.inputs(); ++j)
-          if (const auto facts = response::step_facts(drawn.system, j, i))
+          if (const auto facts = response::step_facts(drawn.system, j, i);
+              facts && !facts->ends_at_0())
             most = std::min(most.value_or(0), -((*facts).*which));
       return most;
     });
     if (least.at == nullptr) return std::string();
     const bool share = which == &response::StepFacts::overshoot;
-    return fmt::format("{} {}{} {}", what, brief(share ? -100 * least.value : -least.value),
-                       share ? " %" : "", least.at->where);
+    const double value = std::abs(share ? 100 * least.value : least.value);
+    return fmt::format("{} {}{} {}", what, brief(value), share ? " %" : "", least.at->where);
   };
-  std::string text = worst(&response::StepFacts::overshoot, "largest overshoot");
-  if (const std::string settling = worst(&response::StepFacts::settling, "longest settling");
-      !settling.empty())
-    add(text, settling);
+  std::string text;
+  add(text, worst(&response::StepFacts::overshoot, "largest overshoot"));
+  add(text, worst(&response::StepFacts::settling, "longest settling"));
+  add(text, largest_size(cases));
   return text;
 }
 
@@ -114,6 +132,25 @@ io::Json margin_json(const std::optional<response::Margin>& margin) {
 }
 
 }  // namespace
+
+void add_numbers(const std::vector<SystemCase>& cases, SystemResult& result) {
+  if (!cases.front().drawn.margins) return;
+  const auto add = [&](const char* what, std::optional<response::Margin> response::Margins::*which,
+                       double (*size)(double)) {
+    const Least least = least_of(cases, [&](const DrawnSystem& drawn) -> std::optional<double> {
+      const auto& margin = (*drawn.margins).*which;
+      return margin ? std::optional(size(margin->value)) : std::nullopt;
+    });
+    if (least.at)
+      result.numbers.push_back(
+          {0, result.name + ", " + cases.front().drawn.label + ": " + what, least.value});
+  };
+  const auto itself = [](double value) { return std::abs(value); };
+  add("least gain margin, dB", &response::Margins::gain,
+      [](double value) { return std::abs(decibels(value)); });
+  add("least phase margin, degrees", &response::Margins::phase, itself);
+  add("least delay margin", &response::Margins::delay, itself);
+}
 
 bool is_stable(const DrawnSystem& drawn) {
   return drawn.margins ? drawn.margins->stable : response::is_stable(drawn.system);

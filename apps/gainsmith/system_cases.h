@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "gainsmith/system_figures.h"
 #include "gainsmith/system_picture.h"
-#include "io/json_text.h"
 
 namespace gainsmith::app {
 
@@ -21,6 +21,9 @@ bool is_stable(const DrawnSystem& drawn);
 /// are not stable.
 std::string worst_of(const std::vector<SystemCase>& cases, model::SystemPicture kind,
                      const std::string& of);
+
+/// Adds the least margins to the numbers by which designs are compared.
+void add_numbers(const std::vector<SystemCase>& cases, SystemResult& result);
 
 /// Of each case whether it is stable, and margins or poles.
 io::Json cases_json(const std::vector<SystemCase>& cases, model::SystemPicture kind);

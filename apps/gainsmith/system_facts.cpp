@@ -171,7 +171,7 @@ void add_numbers(const DrawnSystem& drawn, SystemPicture kind, SystemResult& res
         const std::string element = element_label(drawn.system, i, j);
         const std::string which = element.empty() ? "" : "," + element;
         if (of->ends_at_0()) {
-          add("largest value" + which, of->largest);
+          add("largest size" + which, std::abs(of->largest));
           continue;
         }
         add("overshoot, %" + which, 100 * of->overshoot);

@@ -21,15 +21,6 @@ const SystemFigure* like(const SystemFigure& figure, const model::Design& design
   return found != nullptr && found->kind == figure.kind ? found : nullptr;
 }
 
-/// With the plant's own values for its uncertain data.
-model::Stated nominal(const LoadedGains& loaded) {
-  const std::string plant = "plant.";
-  model::Stated stated = bind::state(loaded.stated, loaded.gains);
-  for (const model::Dynamics::Noise& noise : loaded.stated.design->varied.noise)
-    stated.values[noise.name] = stated.values.at(noise.name.substr(plant.size()));
-  return stated;
-}
-
 SystemResult empty_result(const SystemFigure& figure, const std::string& name,
                           const std::string& title) {
   SystemResult result;
@@ -95,6 +86,7 @@ std::vector<SystemResult> system_results(const std::vector<NamedDesign>& designs
         results.push_back(result_of(*own, {{"", design.loaded}}));
       } else {
         results.push_back(empty_result(*own, "", own->title));
+        results.back().name = own->name;
         add_scan(*own, design.loaded, results.back());
       }
       for (SystemNumber& number : results.back().numbers) number.design = k;

@@ -41,6 +41,18 @@ struct Scanned {
   bool logarithmic = false;
 };
 
+/// With the gains that are designed for a value of a scalar; "plant.k" leaves them as they are.
+model::Stated stated_at(const std::string& name, double value, const LoadedGains& loaded) {
+  if (name.starts_with("plant.")) {
+    model::Stated stated = nominal(loaded);
+    stated.values[name] = numbers::Matrix::Constant(1, 1, value);
+    return stated;
+  }
+  const model::Instance instance = bind::evaluate(loaded.stated.design, {{name, value}});
+  return bind::state(instance,
+                     design::synthesize_searched(instance, wanted_search(instance), 1, {}));
+}
+
 Scanned scanned(const SystemFigure& figure, const LoadedGains& loaded, int count) {
   const search::Axis axis = design::searched_scalar(loaded.stated, *figure.scan).axis;
   Scanned all;
@@ -50,12 +62,8 @@ Scanned scanned(const SystemFigure& figure, const LoadedGains& loaded, int count
   for (const double value : search::points_on(axis, count)) {
     ++all.tried;
     try {
-      const model::Instance instance =
-          bind::evaluate(loaded.stated.design, {{figure.scan->name, value}});
-      const model::Gains gains =
-          design::synthesize_searched(instance, wanted_search(instance), 1, {});
       std::string missing;
-      auto systems = systems_of(figure, bind::state(instance, gains), missing);
+      auto systems = systems_of(figure, stated_at(figure.scan->name, value, loaded), missing);
       if (!systems) continue;
       all.values.push_back(value);
       for (std::size_t k = 0; k < systems->size(); ++k)
@@ -244,6 +252,12 @@ void add_bands(const report::Figure& figure, report::Panel& panel,
   }
 }
 
+io::Json values_json(const std::vector<double>& values) {
+  io::Json json = io::Json::array();
+  for (const double value : values) json.push_back(number_json(value));
+  return json;
+}
+
 /// Behind what a plane has: thin lines, and dots for poles.
 void add_cloud(report::Panel& panel, const std::vector<const report::Panel*>& drawn) {
   std::vector<report::Curve> cloud;
@@ -267,11 +281,42 @@ void add_cloud(report::Panel& panel, const std::vector<const report::Panel*>& dr
   panel.curves.insert(panel.curves.begin(), cloud.begin(), cloud.end());
 }
 
-std::string draws_text(const model::Design& design) {
+std::string draws_text(const model::Design& design, std::size_t corners) {
   std::string names;
   for (const model::Dynamics::Noise& noise : design.varied.noise)
     names += (names.empty() ? "" : ", ") + noise.name;
-  return fmt::format("over {} draws of {}", kDraws, names);
+  const std::string more = corners > 0 ? fmt::format(" and {} corners", corners) : "";
+  return fmt::format("over {} draws{} of {}", kDraws, more, names);
+}
+
+/// The plant's data in all draws, and at all corners of their boxes, where these are few.
+std::vector<std::pair<std::string, model::Stated>> plants(const model::Design& design,
+                                                          const model::Stated& stated) {
+  const hybrid::System noise = hybrid::make_system(design.varied, stated.values);
+  std::vector<std::pair<std::string, model::Stated>> all;
+  for (std::uint64_t run = 0; run < kDraws; ++run) {
+    all.emplace_back("", stated);
+    all.back().first = draw(design, noise, run, all.back().second);
+  }
+  constexpr std::size_t kMost = 6;
+  std::vector<std::size_t> boxes;
+  for (std::size_t k = 0; k < design.varied.noise.size(); ++k)
+    if (design.varied.noise[k].kind == model::Dynamics::NoiseKind::uniform &&
+        design.varied.noise[k].shape.is_scalar())
+      boxes.push_back(k);
+  if (boxes.empty() || boxes.size() > kMost) return all;
+  for (std::size_t corner = 0; corner < std::size_t{1} << boxes.size(); ++corner) {
+    model::Stated at = stated;
+    std::string numbers;
+    for (std::size_t k = 0; k < boxes.size(); ++k) {
+      const std::string& name = design.varied.noise[boxes[k]].name;
+      at.values[name] = noise.noise[boxes[k]].values[corner >> k & 1U];
+      numbers += fmt::format("{}{} = {}", numbers.empty() ? "" : ", ", name,
+                             brief(at.values[name](0, 0), 4));
+    }
+    all.emplace_back("at " + numbers, std::move(at));
+  }
+  return all;
 }
 
 }  // namespace
@@ -286,7 +331,7 @@ void add_scan(const SystemFigure& figure, const LoadedGains& loaded, SystemResul
   }
   result.data["scan"] = {{"name", name}, {"values", all.values}};
   if (!line) {
-    add_curves(figure, bind::state(loaded.stated, loaded.gains), all, result);
+    add_curves(figure, nominal(loaded), all, result);
   } else {
     for (std::vector<SystemCase>& cases : all.systems) {
       for (SystemCase& one : cases) compute(figure, {}, one.drawn);
@@ -295,6 +340,7 @@ void add_scan(const SystemFigure& figure, const LoadedGains& loaded, SystemResul
                    fmt::format("over {} values of {} from {} to {}", cases.size(), name,
                                brief(all.values.front()), brief(all.values.back()))));
       result.data["systems"].push_back(cases_json(cases, figure.kind));
+      add_numbers(cases, result);
     }
     take_picture(figure.kind == SystemPicture::poles
                      ? locus_picture(all)
@@ -308,15 +354,12 @@ void add_scan(const SystemFigure& figure, const LoadedGains& loaded, SystemResul
 
 void add_bands(const SystemFigure& figure, const model::Design& design, const model::Stated& stated,
                std::pair<double, double> range, SystemResult& result) {
-  const hybrid::System noise = hybrid::make_system(design.varied, stated.values);
   std::vector<std::vector<SystemCase>> systems(figure.systems.size());
   std::vector<report::Figure> pictures;
-  model::Stated drawn = stated;
-  for (std::uint64_t run = 0; run < kDraws; ++run) {
-    const std::string where = draw(design, noise, run, drawn);
+  const auto all = plants(design, stated);
+  for (const auto& [where, plant] : all) {
     std::string missing;
-    const auto values = systems_of(figure, drawn, missing);
-    std::vector<DrawnSystem> own = *values;
+    std::vector<DrawnSystem> own = systems_of(figure, plant, missing).value();
     for (std::size_t k = 0; k < own.size(); ++k) {
       compute(figure, range, own[k]);
       systems[k].push_back({where, own[k]});
@@ -331,10 +374,16 @@ void add_bands(const SystemFigure& figure, const model::Design& design, const mo
       add_cloud(panel, others);
     else
       add_bands(result.figure, panel, others);
+    for (const report::Band& band : panel.bands)
+      result.data["bands"].push_back({{"panel", panel.title},
+                                      {"x", band.t},
+                                      {"low", values_json(band.low)},
+                                      {"high", values_json(band.high)}});
   }
   for (const std::vector<SystemCase>& cases : systems) {
-    result.facts.push_back(worst_of(cases, figure.kind, draws_text(design)));
+    result.facts.push_back(worst_of(cases, figure.kind, draws_text(design, all.size() - kDraws)));
     result.data["draws"].push_back(cases_json(cases, figure.kind));
+    add_numbers(cases, result);
   }
 }
 

@@ -17,6 +17,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// What a problem may read; not pictures, pages and logs, which are written beside it.
+bool is_input(const fs::path& path) {
+  const std::string ending = path.extension().string();
+  for (const char* known : {".yaml", ".yml", ".csv", ".npy", ".mat", ".json"})
+    if (ending == known) return true;
+  return false;
+}
+
 /// Of each file beside those that are watched: when it was written, and its size.
 using Seen = std::map<fs::path, std::pair<fs::file_time_type, std::uintmax_t>>;
 
@@ -29,7 +37,7 @@ Seen seen(const std::vector<fs::path>& files, const fs::path& own) {
     for (fs::directory_iterator entry(folder, none), end; !none && entry != end;
          entry.increment(none)) {
       std::error_code gone;
-      if (!entry->is_regular_file(gone)) continue;
+      if (!is_input(entry->path()) || !entry->is_regular_file(gone)) continue;
       const auto time = entry->last_write_time(gone);
       const auto size = entry->file_size(gone);
       if (!gone) all[entry->path()] = {time, size};

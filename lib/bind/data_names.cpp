@@ -29,8 +29,9 @@ void refuse_unknown_names(const Binding& binding) {
           value.place,
           "the method " + binding.method().name + " has no " + what + " '" + value.name + "'" +
               (misplaced       ? "; write it under '" + std::string(other) + "'"
-               : known.empty() ? "; declare it under '" + std::string(key) +
-                                     "' of the method with its shape, such as " + value.name +
+               : known.empty() ? ", and no text of the problem uses it; a datum of the method is "
+                                 "declared under '" +
+                                     std::string(key) + "' with its shape, such as " + value.name +
                                      ": scalar or n x p"
                                : suggestion(value.name, missing.empty() ? known : missing)));
     }

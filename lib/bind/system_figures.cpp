@@ -53,8 +53,11 @@ void add_varied(Binding& binding, expr::Scope& scope) {
   for (const model::Dynamics::Noise& one : varied.noise) scope.symbols[one.name].moves = false;
 }
 
-/// Of a number that a scan may change.
+/// Of a number that a scan may change: one of the plant alone too, "plant.k".
 model::Range scanned(const model::ScalarRange& text, const Binding& binding) {
+  const std::vector<model::Dynamics::Noise>& varied = binding.design->varied.noise;
+  const auto found = std::ranges::find(varied, text.name, &model::Dynamics::Noise::name);
+  if (found != varied.end() && found->shape.is_scalar()) return range(text, binding.names->known);
   model::check_scalar_name(*binding.design, text.name, text.place);
   return range(text, binding.names->known);
 }
@@ -74,11 +77,18 @@ void bind_system_figures(Binding& binding) {
     for (const model::SystemFigureText::System& one : text.systems)
       figure.systems.push_back(system(one, text.kind, scope));
     for (const model::SystemFigure::System& one : figure.systems)
+      if (figure.kind == model::SystemPicture::poles &&
+          one.step.has_value() != figure.systems.front().step.has_value())
+        throw InputError(one.place, "figures: " + text.name +
+                                        ": poles of continuous and of sampled systems need two "
+                                        "pictures");
+    for (const model::SystemFigure::System& one : figure.systems)
       for (const model::Dynamics::Noise& noise : binding.design->varied.noise)
         figure.varies = figure.varies || one.matrix.uses(noise.name);
     if (text.over)
       figure.over = {scalar(text.over->first, scope), scalar(text.over->second, scope)};
     if (text.scan) figure.scan = scanned(*text.scan, binding);
+    if (figure.scan && figure.scan->name.starts_with("plant.")) figure.varies = false;
     if (figure.scan && figure.varies)
       throw InputError(text.place, "figures: " + text.name +
                                        ": either a scan, or the plant's uncertain data: two "

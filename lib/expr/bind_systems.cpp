@@ -69,7 +69,8 @@ void Binder::refuse_system(const Expression& expression, const Node& node) const
   const std::string part =
       node.kind == NodeKind::name || node.kind == NodeKind::call ? quoted : "(" + quoted + ")";
   fail(expression, node,
-       "'" + quoted + "' is a system: its matrices are written " + part + ".A, .B, .C and .D");
+       "'" + quoted + "' is a system: its matrices are written " + part +
+           ".A, .B, .C and .D; a closed loop is feedback(G, K)");
 }
 
 /// A number, or a multiple of I, is one for each of `size` signals.
@@ -232,6 +233,17 @@ Bound Binder::sum_of_systems(const Expression& expression, const Node& node, Bou
                                         {number(expression, node, "-1"), true})
                       : Bound{emit(expression, node, Op::negate, {b.at}, shape(b.at)), b.identity};
   return pair_of_systems(expression, node, Composed::parallel, a, b);
+}
+
+/// G/x of a number x.
+Bound Binder::divided_system(const Expression& expression, const Node& node, Bound system) {
+  const Bound by = bind_value(expression, *node.children[1]);
+  if (by.is_system())
+    fail(expression, node,
+         "systems are not divided: a closed loop is feedback(G, K), 1/(1 + L) is feedback(1, L)");
+  const Bound one{number(expression, node, "1"), false, -1, -1};
+  return pair_of_systems(expression, node, Composed::series, system,
+                         divide(expression, node, one, by));
 }
 
 namespace {

@@ -111,7 +111,8 @@ Bound Binder::bind_kind(const Expression& expression, const Node& node) {
       return multiply(expression, node, a, b);
     }
     case NodeKind::divide: {
-      const Bound a = child(0);
+      const Bound a = value(0);
+      if (a.is_system()) return divided_system(expression, node, a);
       return divide(expression, node, a, child(1));
     }
     case NodeKind::power:

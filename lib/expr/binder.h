@@ -246,6 +246,7 @@ class Binder {
   Bound pair_of_systems(const Expression& expression, const Node& node, Composed how, Bound first,
                         Bound second);
   Bound sum_of_systems(const Expression& expression, const Node& node, Bound a, Bound b);
+  Bound divided_system(const Expression& expression, const Node& node, Bound system);
   Bound feedback(const Expression& expression, const Node& node);
   Bound linear_fraction(const Expression& expression, const Node& node);
   Bound augmented(const Expression& expression, const Node& node);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <utility>
 
 namespace gainsmith::report {
@@ -62,6 +63,30 @@ void spread(const Series& series, double width, const std::vector<double>& momen
   }
 }
 
+/// The part of a plane between two places across, with gaps where lines leave it.
+void cut_across(Curve& curve, double from, double to) {
+  Curve part = curve;
+  part.t.clear();
+  part.value.clear();
+  const auto add = [&](double t, double value) {
+    part.t.push_back(t);
+    part.value.push_back(value);
+  };
+  for (std::size_t k = 0; k < curve.t.size(); ++k) {
+    const double t = curve.t[k], value = curve.value[k];
+    if (from <= t && t <= to) add(t, value);
+    if (k + 1 == curve.t.size() || !curve.joined) continue;
+    const double next = curve.t[k + 1];
+    const bool rises = next > t;
+    for (const double end : {rises ? from : to, rises ? to : from}) {
+      if (!(std::min(t, next) < end && end < std::max(t, next))) continue;
+      add(end, value + (end - t) / (next - t) * (curve.value[k + 1] - value));
+      if (end == (rises ? to : from)) add(end, std::numeric_limits<double>::quiet_NaN());
+    }
+  }
+  curve = std::move(part);
+}
+
 void for_each_series(Figure& figure, const std::function<void(const Series&)>& act) {
   for (Panel& panel : figure.panels) {
     if (panel.across) continue;
@@ -71,8 +96,11 @@ void for_each_series(Figure& figure, const std::function<void(const Series&)>& a
 }
 
 void for_each_name(Figure& figure, const std::function<void(std::string&)>& act) {
+  act(figure.axis);
   for (Panel& panel : figure.panels) {
     act(panel.title);
+    act(panel.axis);
+    if (panel.across) act(*panel.across);
     for (Curve& curve : panel.curves) act(curve.label);
     for (Band& band : panel.bands) act(band.label);
   }
@@ -81,6 +109,10 @@ void for_each_name(Figure& figure, const std::function<void(std::string&)>& act)
 }  // namespace
 
 void cut(Figure& figure, double from, double to) {
+  const auto is_plane = [](const Panel& panel) { return panel.across.has_value(); };
+  if (std::ranges::all_of(figure.panels, is_plane))
+    for (Panel& panel : figure.panels)
+      for (Curve& curve : panel.curves) cut_across(curve, from, to);
   for_each_series(figure, [&](const Series& series) { cut(series, from, to); });
   std::erase_if(figure.marks, [&](double t) { return t < from || t > to; });
 }

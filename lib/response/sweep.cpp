@@ -26,10 +26,13 @@ std::vector<double> features(const StateSpace& system) {
       for (const double w : {std::abs(s), std::abs(s.imag())})
         if (w > 0 && std::isfinite(w)) all.push_back(w);
     }
-  // What rounding has made of a root at 0 is none.
-  constexpr double kNothing = 1e-11;
-  const double most = all.empty() ? 0 : *std::max_element(all.begin(), all.end());
-  std::erase_if(all, [&](double w) { return w < kNothing * most; });
+  // What rounding has made of roots at 0, some 1e-8 of a double one, is none.
+  constexpr double kNothing = 1e-11, kGap = 1e-6;
+  std::sort(all.begin(), all.end());
+  std::size_t first = 0;
+  for (std::size_t k = 0; k + 1 < all.size(); ++k)
+    if (all[k] < kGap * all[k + 1] || all[k] < kNothing * all.back()) first = k + 1;
+  all.erase(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(first));
   return all;
 }
 

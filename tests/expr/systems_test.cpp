@@ -69,6 +69,7 @@ TEST_P(Systems, FollowEachOther) {
   expect("series(G, H, L)",
          [&](Complex s) { return Response(at("L", s) * at("H", s) * at("G", s)); });
   expect("2*G", [&](Complex s) { return Response(2.0 * at("G", s)); });
+  expect("G/4", [&](Complex s) { return Response(0.25 * at("G", s)); });
   expect("-G", [&](Complex s) { return Response(-at("G", s)); });
   expect("Hd*G", [&](Complex s) { return Response(world("Hd").cast<Complex>() * at("G", s)); });
 }
@@ -275,6 +276,8 @@ TEST_F(TransferFunctions, AreNoMatrices) {
   says("place(M, [1; 1], [-1, -2, -3])", "place needs 2 poles");
   says("place([0, 1; 0, 0], [0; 1], [-1, -1; 2, 3])", "with its conjugate");
   says("place(M, [1; 0], [-1, -2])", "place: ");
+  says("G/(1 + G)", "systems are not divided");
+  says("1/(1 + G)", "a closed loop is feedback(G, K)");
   says("feedback(G, M)", "needs K with 1 inputs and 1 outputs");
   says("ss(M, M, M)", "'ss' is written");
 }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace gainsmith::report {
 namespace {
 
@@ -39,6 +41,19 @@ TEST(Arrange, BeginsAtAJump) {
   cut(none, 5, 6);
   EXPECT_TRUE(none.panels[0].curves[0].t.empty());
   EXPECT_TRUE(svg(none).ends_with("</svg>\n"));
+}
+
+TEST(Arrange, CutsPlanesAcross) {
+  Figure made;
+  made.panels = {{"plane", "", false, {Curve{"c", {0, 4, 0}, {0, 4, 8}}}}};
+  made.panels.front().across = "x";
+  cut(made, 1, 3);
+  const Curve& curve = made.panels[0].curves[0];
+  EXPECT_EQ(curve.t, (std::vector<double>{1, 3, 3, 3, 1, 1}));
+  EXPECT_EQ(curve.value[1], 3);
+  EXPECT_TRUE(std::isnan(curve.value[2]));
+  EXPECT_EQ(curve.value[3], 5);
+  EXPECT_EQ(curve.value[4], 7);
 }
 
 TEST(Arrange, SpreadsJumps) {
