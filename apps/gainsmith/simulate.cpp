@@ -186,10 +186,11 @@ void check(const SimulateOptions& options) {
   if (!options.presentation.jump_width.empty() && (options.envelope || options.compare))
     refuse("--jump-width is about runs, without --envelope and --compare");
   const bool designs = options.files.size() > 1;
-  if (designs && (options.envelope || !options.given.empty() || options.judge || several))
+  if (designs && (options.envelope || !options.given.empty() || options.judge ||
+                  (several && !options.compare)))
     refuse(
-        "several designs are simulated in one run each: without --runs, --envelope, --given "
-        "and --judge");
+        "several designs are drawn in one run each, without --runs, --envelope, --given and "
+        "--judge; --compare takes --runs");
   if (designs && !options.compare && picture.file.empty())
     refuse("several designs are drawn over each other: give --plot FILE, or --compare");
   if (designs && (!options.output.empty() || options.json))

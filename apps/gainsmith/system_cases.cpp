@@ -146,6 +146,12 @@ void add_numbers(const std::vector<SystemCase>& cases, SystemResult& result) {
           {0, result.name + ", " + cases.front().drawn.label + ": " + what, least.value});
   };
   const auto itself = [](double value) { return std::abs(value); };
+  const auto unstable =
+      std::ranges::count_if(cases, [](const SystemCase& one) { return !is_stable(one.drawn); });
+  result.numbers.push_back({0,
+                            result.name + ", " + cases.front().drawn.label +
+                                fmt::format(": not stable, of {}", cases.size()),
+                            static_cast<double>(unstable)});
   add("least gain margin, dB", &response::Margins::gain,
       [](double value) { return std::abs(decibels(value)); });
   add("least phase margin, degrees", &response::Margins::phase, itself);

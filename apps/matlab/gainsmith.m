@@ -17,7 +17,9 @@ function result = gainsmith(command, subject, varargin)
 %   scan       problem   over show set threads time                       a column for each name, verdict
 %   explain    problem   set effort time                                  verdict, conflict, ...
 %   verify     design    runs probability confidence seed until strict set threads time   verdict, checks, ...
-%   simulate   design    run seed step given set time                     t, j, event, a column for each name
+%   simulate   design    run seed step given plot set time                t, j, event, a column for each name
+%   plot       either    figure output title size window set time         a cell of figures: name, systems, facts
+%   compare    a struct of designs   output time                          what, names, values (texts)
 %   check      either    strict set time                                  verdict, margins
 %   certify    design    time                                             verdict, claims
 %   report     design    output                                           the page as a text, or written to a file
@@ -33,10 +35,14 @@ function result = gainsmith(command, subject, varargin)
     error('gainsmith:input', 'gainsmith(COMMAND, PROBLEM or DESIGN, ...): see help gainsmith');
   end
   options = options_of(command, varargin);
-  source = source_of(subject);
   folder = tempname();
   mkdir(folder);
   remove = onCleanup(@() remove_folder(folder));
+  if strcmp(command, 'compare')
+    result = comparison(subject, options, folder);
+    return
+  end
+  source = source_of(subject);
   words = [{command, source.name}, words_of(command, options)];
   kept = fullfile(folder, 'kept.json');
   switch command
@@ -60,6 +66,12 @@ function result = gainsmith(command, subject, varargin)
     case 'simulate'
       done = run([words, {'--json', '-o', '-'}], source, folder);
       result = run_of(jsondecode(done.out), done.err);
+    case 'plot'
+      done = run([words, {'--json'}], source, folder);
+      result = jsondecode(done.out);
+      if isstruct(result)
+        result = num2cell(result);
+      end
     case 'check'
       done = run([words, {'--json'}], source, folder);
       result = jsondecode(done.out);
@@ -95,6 +107,34 @@ function result = gainsmith(command, subject, varargin)
   end
 end
 
+% What differs between the designs of a struct, and the page with output.
+function result = comparison(designs, options, folder)
+  if ~isstruct(designs) || numel(fieldnames(designs)) < 2
+    error('gainsmith:input', 'compare takes a struct of two designs or more, such as struct(''slow'', a, ''fast'', b)');
+  end
+  names = fieldnames(designs)';
+  files = cell(size(names));
+  for k = 1:numel(names)
+    source = source_of(designs.(names{k}));
+    files{k} = fullfile(folder, [names{k}, '.json']);
+    if isempty(source.text)
+      source.text = text_of_file(full_path(source.name));
+    end
+    write_text(files{k}, source.text);
+  end
+  none = struct('name', files{1}, 'text', '', 'folder', pwd(), 'keys', {{}});
+  words = words_of('compare', options);
+  if ~isfield(options, 'output')
+    words = [words, {'-o', fullfile(folder, 'page.html')}];
+  end
+  done = run([{'report'}, files, words, {'--json'}], none, folder);
+  table = jsondecode(done.out);
+  result = struct('what', {{table.rows.what}'}, 'names', {names}, 'values', {{}});
+  for k = 1:numel(table.rows)
+    result.values(k, :) = reshape(table.rows(k).values(1:numel(names)), 1, []);
+  end
+end
+
 % The options of each command, as above.
 function known = options_known()
   search = {'tolerance', 'set', 'time'};
@@ -105,7 +145,9 @@ function known = options_known()
     'scan', {{'over', 'show', 'set', 'threads', 'time'}}, ...
     'explain', {{'set', 'effort', 'time'}}, ...
     'verify', {{'runs', 'probability', 'confidence', 'seed', 'until', 'strict', 'set', 'threads', 'time'}}, ...
-    'simulate', {{'run', 'seed', 'step', 'given', 'set', 'time'}}, ...
+    'simulate', {{'run', 'seed', 'step', 'given', 'plot', 'set', 'time'}}, ...
+    'plot', {{'figure', 'output', 'title', 'size', 'window', 'set', 'time'}}, ...
+    'compare', {{'output', 'time'}}, ...
     'check', {{'strict', 'set', 'time'}}, ...
     'certify', {{'time'}}, ...
     'report', {{'output'}}, ...
@@ -211,6 +253,8 @@ function words = words_of(command, options)
       end
     elseif strcmp(name, 'output')
       words = [words, {'-o', full_path(value)}];
+    elseif strcmp(name, 'plot')
+      words = [words, {'--plot', full_path(value)}];
     elseif isnumeric(value)
       words = [words, {['--', name], number(value)}];
     else

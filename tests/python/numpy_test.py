@@ -77,7 +77,11 @@ class Arrays(unittest.TestCase):
         np.testing.assert_allclose(figures["margins"].systems[0].gain_margin, 6 / values, rtol=1e-9)
         for poles in figures["locus"].systems[0].locus:
             self.assertAlmostEqual(sum(poles).real, -3, 9)
-        self.assertEqual(len(figures["band"].draws[0].stable), 100)
+        # And at both ends of the box.
+        self.assertEqual(len(figures["band"].draws[0].stable), 102)
+        size, phase = figures["band"].bands
+        self.assertTrue((size["low"] < size["high"]).all())
+        self.assertEqual(size["x"].shape, phase["low"].shape)
 
     def test_designs_side_by_side(self):
         other = gs.synth(spring(parameters={"alpha": 4}))

@@ -31,6 +31,22 @@ p = struct('problem', 'spring', 'method', 'observer', 'data', struct('A', A, 'C'
            'parameters', struct('alpha', 3), ...
            'campaign', struct('horizon', 2, 'initial', struct('x', struct('box', [-1, 1]))));
 
+% Figures of linear systems, and designs side by side.
+loop = struct('problem', 'loop', 'method', struct('let', struct('L', '5*tf(1, [1, 3, 2, 0])')), ...
+              'figures', struct('loop', struct('bode', 'L'), 'modes', struct('poles', 'feedback(L)')));
+figures = gainsmith('plot', loop);
+check(abs(figures{1}.systems.margins.gain.value - 1.2) < 1e-12, 'a margin');
+check(numel(gainsmith('plot', loop, 'figure', 'modes')) == 1, 'one figure');
+picture = [tempname(), '.svg'];
+gainsmith('plot', loop, 'figure', 'loop', 'output', picture, 'size', '500x300');
+check(~isempty(strfind(fileread(picture), 'width="500"')), 'a picture');
+delete(picture);
+both = gainsmith('compare', struct('calm', gainsmith('synth', p), ...
+                                   'quick', gainsmith('synth', p, 'set', struct('alpha', 4))));
+row = find(strcmp(both.what, 'alpha'));
+check(isequal(both.values(row, :), {'3', '4'}), 'a comparison');
+refused('gainsmith:input', 'compare takes a struct', 'compare', p.problem);
+
 % A struct, a text and values that are set.
 d = gainsmith('synth', p);
 check(strcmp(d.verdict, 'yes') && all(size(d.gains.L) == [2, 1]), 'a gain');

@@ -61,12 +61,17 @@ class Figure:
 
     scan   of a scanned scalar (name, values); None otherwise
     draws  systems over draws of the plant's uncertain data; empty without
+    bands  dicts of the panel, x, low and high: where the curves of all draws lie
     """
 
     def __init__(self, file, svg):
         self.name, self.kind, self.svg = file["name"], file["kind"], svg
         self.systems = [System(one) for one in file.get("systems", [])]
         self.draws = [System(one) for one in file.get("draws", [])]
+        self.bands = [
+            {"panel": one["panel"], **{key: _with_gaps(one, key) for key in ("x", "low", "high")}}
+            for one in file.get("bands", [])
+        ]
         self.facts = file.get("facts", [])
         scan = file.get("scan")
         self.scan = scan and (scan["name"], _matrices.column(scan["values"]))
