@@ -6,8 +6,9 @@
 #include "base/nearest.h"
 #include "bind/stated.h"
 #include "gainsmith/drawn_systems.h"
+#include "gainsmith/system_bands.h"
 #include "gainsmith/system_facts.h"
-#include "gainsmith/system_variation.h"
+#include "gainsmith/system_scan.h"
 
 namespace gainsmith::app {
 

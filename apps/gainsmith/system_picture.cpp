@@ -320,7 +320,7 @@ report::Figure system_picture(SystemPicture kind, const std::vector<DrawnSystem>
     case SystemPicture::poles:
       add_poles(systems, figure);
       break;
-    case SystemPicture::margins:  // over a scalar: system_variation.h
+    case SystemPicture::margins:  // over a scalar: system_scan.h
       break;
   }
   return figure;
