@@ -29,10 +29,10 @@ void refuse_unknown_names(const Binding& binding) {
           value.place,
           "the method " + binding.method().name + " has no " + what + " '" + value.name + "'" +
               (misplaced       ? "; write it under '" + std::string(other) + "'"
-               : known.empty() ? ", and no text of the problem uses it; a datum of the method is "
-                                 "declared under '" +
-                                     std::string(key) + "' with its shape, such as " + value.name +
-                                     ": scalar or n x p"
+               : known.empty() ? "; declare it under '" + std::string(key) +
+                                     "' of the method with its shape, such as " + value.name +
+                                     ": scalar or n x p; only what the problem's own texts use "
+                                     "needs no declaration"
                                : suggestion(value.name, missing.empty() ? known : missing)));
     }
   };
