@@ -14,8 +14,8 @@ namespace gainsmith::expr {
 
 /// K of A - B K with the poles p: with vectors g of inputs, X of A X - X L = B G and K = G X^-1,
 /// where L has the poles (Bhattacharyya and de Souza). A pair s +- i w has the block [s, w; -w, s]
-/// of L; a pole that is there again in the columns before is coupled to them by a 1 above the
-/// diagonal, so that one input can move it.
+/// of L; of m inputs a pole may be there m times, each further one is coupled to the one m before by
+/// a 1 above the diagonal.
 Bound Binder::placed(const Expression& expression, const Node& node) {
   const Emitter make(*this, expression, node);
   const int a = square_argument(expression, node, node.text);
@@ -38,20 +38,22 @@ Bound Binder::placed(const Expression& expression, const Node& node) {
         right);
   };
   std::optional<Pole> last;
+  int turn_of = 0, copies = 0;
   for (const Pole& pole : poles_of(expression, *node.children[2], n)) {
     const int shifted = make.subtract(a, make.identity(pole.real, n));
-    inputs.push_back(direction(static_cast<int>(inputs.size())));
-    const bool again = last && last->value == pole.value && last->turn == pole.turn;
+    inputs.push_back(direction(turn_of++));
+    copies = last && last->value == pole.value && last->turn == pole.turn ? copies + 1 : 0;
+    const bool again = copies >= m;
     last = pole;
     int moved = make.multiply(b, inputs.back());
     if (!pole.imaginary) {
-      columns.push_back(solve(shifted, again ? make.add(moved, columns.back()) : moved));
+      columns.push_back(solve(shifted, again ? make.add(moved, *(columns.end() - m)) : moved));
       continue;
     }
     int turned = make.zeros({n, 1});
     if (again) {
-      moved = make.add(moved, *(columns.end() - 2));
-      turned = columns.back();
+      moved = make.add(moved, *(columns.end() - 2 * m));
+      turned = *(columns.end() - 2 * m + 1);
     }
     const int turn = make.identity(*pole.imaginary, n);
     const int pair = solve(make.blocks({shifted, turn, make.negate(turn), shifted}, 2),
