@@ -256,7 +256,7 @@ class Program(unittest.TestCase):
                     self.assertEqual(caught.exception.code, code)
 
     def test_an_interrupt_ends_it(self):
-        """Only Python gets the signal, as in a notebook; the program ends too."""
+        """Only Python gets the signal, as in a notebook; a program just started ends too."""
         code = textwrap.dedent(
             f"""
             import sys

@@ -1,4 +1,5 @@
 """Where the program is, and how it is run."""
+import contextlib
 import errno
 import json
 import os
@@ -6,6 +7,7 @@ import re
 import shutil
 import signal
 import subprocess
+import threading
 from typing import NamedTuple
 
 from ._errors import InputError, ProgramError
@@ -53,26 +55,14 @@ def run(arguments, source=None):
     """
     command = [find(), *arguments]
     text = None if source is None else source.text
+    process = None
     try:
-        process = subprocess.Popen(
-            command,
-            stdin=subprocess.PIPE if text is not None else subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            cwd=source.folder
-            if source and source.folder and os.path.isdir(source.folder)
-            else None,
-        )
-    except OSError as error:
-        if error.errno == errno.E2BIG:
-            raise InputError(
-                "the values of 'set' are too large for a command line: put them into the problem"
-            ) from None
-        raise ProgramError(f"{command[0]}: {error.strerror}") from None
-    try:
+        with _interrupts_deferred():
+            process = _start(command, text is not None, source)
         out, err = process.communicate(None if text is None else text.encode("utf-8"))
     except BaseException:
-        _end(process)
+        if process:
+            _end(process)
         raise
     done = Done(process.returncode, out.decode("utf-8", "replace"), err.decode("utf-8", "replace"))
     if done.code == 2:
@@ -136,6 +126,41 @@ def _fault(name, done):
         else f"ended by {signal.Signals(-done.code).name}"
     )
     return f"gainsmith {name}: {cause}\n{done.err.strip()}".strip()
+
+
+def _start(command, has_input, source):
+    in_folder = source and source.folder and os.path.isdir(source.folder)
+    try:
+        return subprocess.Popen(
+            command,
+            stdin=subprocess.PIPE if has_input else subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            cwd=source.folder if in_folder else None,
+        )
+    except OSError as error:
+        if error.errno == errno.E2BIG:
+            raise InputError(
+                "the values of 'set' are too large for a command line: put them into the problem"
+            ) from None
+        raise ProgramError(f"{command[0]}: {error.strerror}") from None
+
+
+@contextlib.contextmanager
+def _interrupts_deferred():
+    """An interrupt within the block comes at its end: Popen would leave its program running."""
+    before = signal.getsignal(signal.SIGINT)
+    if before is None or threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    deferred = []
+    signal.signal(signal.SIGINT, lambda number, _: deferred.append(number))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
+        if deferred:
+            signal.raise_signal(signal.SIGINT)
 
 
 def _end(process):
