@@ -95,14 +95,20 @@ class Draws {
     return value.reshaped();
   }
 
-  /// c + sqrt(r) inv(L)' b with Q = L L', b uniform in the unit ball.
+  /// c + sqrt(r) inv(L)' b with Q = L L', b uniform in the unit ball; of two levels [r0, r] in the
+  /// part of the ball beyond the radius sqrt(r0/r).
   VectorXd in_ellipsoid(std::size_t v, const Design::Start& start) const {
     const numbers::Matrix Q = texts_.constant(start.values[1]);
-    const double level = texts_.constant(start.values[2])(0, 0);
+    const numbers::Matrix levels = texts_.constant(start.values[2]);
+    const double level = levels.reshaped().tail(1)(0);
     const RandomStream random = stream(of_start, v);
     const Index n = Q.rows();
     VectorXd b = normals(n, random, 0);
-    const double u = random.uniform_at(static_cast<std::uint64_t>(2 * n));
+    double u = random.uniform_at(static_cast<std::uint64_t>(2 * n));
+    if (levels.size() > 1) {  // the share of the volume up to the radius
+      const double inside = std::pow(levels(0) / level, static_cast<double>(n) / 2);
+      u = inside + (1 - inside) * u;
+    }
     if (b.norm() > 0) b *= std::pow(u, 1.0 / static_cast<double>(n)) / b.norm();
     const numbers::Matrix L = numbers::Matrix((Q + Q.transpose()) / 2).llt().matrixL();
     return texts_.constant(start.values[0]).reshaped() +
@@ -159,12 +165,12 @@ class Draws {
       const Design::Law* law = laws[from_.run % laws.size()];
       return {law->kind, law};
     }
-    // Uniform, extremes, sinusoid, always the shortest where it is > 0, always the longest.
+    // Uniform, extremes, where the shortest is > 0 sinusoid and always the shortest, always the longest.
     const bool has_shortest = texts_.events[event].low > 0;
-    const std::uint64_t number = from_.run % (has_shortest ? 5 : 4);
+    const std::uint64_t number = from_.run % (has_shortest ? 5 : 3);
     if (number == 0) return {LawKind::uniform, nullptr};
     if (number == 1) return {LawKind::extremes, nullptr};
-    if (number == 2) return {LawKind::sinusoid, nullptr};
+    if (number == 2 && has_shortest) return {LawKind::sinusoid, nullptr};
     return {LawKind::constant, nullptr};
   }
 
@@ -204,9 +210,7 @@ class Draws {
     const double last = run_.end * (1 + near_horizon);
     std::uint64_t lengths = 0;
     double due = 0;
-    if (!fixed && from_.campaign->first) {
-      due = texts_.constant(*from_.campaign->first)(0, 0);
-    } else if (one.first_low) {
+    if (one.first_low || from_.campaign->first) {
       due = texts.first_low;
       if (texts.first_low != texts.first_high)
         due += (texts.first_high - texts.first_low) * stream(of_first, event).uniform_at(0);

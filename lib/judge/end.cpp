@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <variant>
 #include <vector>
@@ -99,17 +100,30 @@ bool has_escaped(Texts& texts, const hybrid::Trajectory& trajectory, const Eigen
          rate.cwiseAbs().maxCoeff() * kHardly * time >= x.cwiseAbs().maxCoeff();
 }
 
-bool is_zeno(const hybrid::Trajectory& trajectory) {
-  const std::vector<double> lengths = flow_lengths(trajectory);
-  if (lengths.size() < kFewestRatios + 1) return false;
+/// Whether each length is r < 1 times that of `period` flows before, and the sum of the last ones
+/// times r/(1 - r) leads to where the jumps accumulate.
+bool is_zeno(const hybrid::Trajectory& trajectory, const std::vector<double>& lengths,
+             std::size_t period) {
+  if (lengths.size() < kFewestRatios + period) return false;
   std::vector<double> factors;
   for (std::size_t k = lengths.size() - kFewestRatios; k < lengths.size(); ++k)
-    factors.push_back(lengths[k] / lengths[k - 1]);
+    factors.push_back(lengths[k] / lengths[k - period]);
   const auto [least, most] = std::minmax_element(factors.begin(), factors.end());
   if (!(*most < 1 && *most - *least <= kSteady * (1 - *most))) return false;
-  const double rest = factors.back() / (1 - factors.back()) * lengths.back();
-  return std::abs(trajectory.accumulation - trajectory.end - rest) <=
-         2 * kSteady * rest + time_rounding(trajectory.end, trajectory.accumulation);
+  const double last =
+      std::accumulate(lengths.end() - static_cast<std::ptrdiff_t>(period), lengths.end(), 0.0);
+  const double left = trajectory.accumulation - trajectory.end;
+  const double rounding = time_rounding(trajectory.end, trajectory.accumulation);
+  return left >= last * *least / (1 - *least) * (1 - 2 * kSteady) - rounding &&
+         left <= last * *most / (1 - *most) * (1 + 2 * kSteady) + rounding;
+}
+
+bool is_zeno(const hybrid::Trajectory& trajectory) {
+  const std::vector<double> lengths = flow_lengths(trajectory);
+  constexpr std::size_t kLongestPeriod = 3;
+  for (std::size_t period = 1; period <= kLongestPeriod; ++period)
+    if (is_zeno(trajectory, lengths, period)) return true;
+  return false;
 }
 
 bool is_chattering(const hybrid::Trajectory& trajectory) {

@@ -173,6 +173,8 @@ EventTexts Texts::event_texts(const Dynamics::Event& event) const {
   texts.first_high = texts.high;
   if (event.first_low) texts.first_low = texts.first_high = scalar(*event.first_low);
   if (event.first_high) texts.first_high = scalar(*event.first_high);
+  if (event.low && question.drawn && question.drawn->campaign->first)
+    texts.first_low = texts.first_high = scalar(*question.drawn->campaign->first);
   for (const model::Formula& formula : event.times) {
     const numbers::Matrix value = constant(formula);
     texts.times.insert(texts.times.end(), value.reshaped().begin(), value.reshaped().end());

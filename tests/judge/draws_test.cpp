@@ -3,6 +3,8 @@
 
 #include <functional>
 
+#include "expr/compile.h"
+#include "expr/parser.h"
 #include "expr/rewrite.h"
 #include "judge/judge.h"
 #include "simulate/simulator.h"
@@ -52,6 +54,13 @@ DynamicsText sampled() {
       .state("xh", 1, "v", "0")
       .reacts("sample", {{"xh", "xh + w"}})
       .reacts("maybe", {{"xh", "xh + u"}});
+  return text;
+}
+
+/// A clock whose lengths reach 0, one of one length, and a state in a hollow ellipsoid.
+DynamicsText of_corners() {
+  DynamicsText text;
+  text.state("x", 2, "-x", "").every("soon", "0", "0.3").every("even", "0.3").first("0.1");
   return text;
 }
 
@@ -122,6 +131,30 @@ TEST(JudgedDraws, LawsOfTheCampaignAndOfOneEvent) {
   };
   for (std::uint64_t run = 0; run < 4; ++run) {
     const auto faults = Drawn(run, laws).judged();
+    EXPECT_TRUE(faults.empty()) << "run " << run << "\n" << to_text(faults);
+  }
+}
+
+TEST(JudgedDraws, LengthsFrom0AHollowStartAndAGivenFirstTime) {
+  const model::Dynamics dynamics = of_corners().dynamics();
+  const model::Stated stated = of_corners().stated();
+  model::Design::Campaign campaign;
+  campaign.horizon = number("3");
+  campaign.first = number("0.3");
+  const auto formula = [](const std::string& text) {
+    return model::Formula{expr::compile(expr::parse(expr::Text(text, "")), {}), {}, text};
+  };
+  campaign.starts.push_back({0,
+                             model::StartKind::ellipsoid,
+                             {formula("[0; 0]"), formula("[2, 0; 0, 1]"), formula("[1, 1.2]")},
+                             {}});
+  const hybrid::System system = hybrid::make_system(dynamics, stated.values);
+  const hybrid::Scenario scenario = hybrid::make_scenario(campaign, system);
+  for (std::uint64_t run = 0; run < 6; ++run) {
+    const hybrid::Trajectory trajectory = simulate::Simulator(system, scenario).run(5, run);
+    Question question;
+    question.drawn = DrawnFrom{5, run, &campaign};
+    const auto faults = check_trajectory(trajectory, dynamics, stated, question);
     EXPECT_TRUE(faults.empty()) << "run " << run << "\n" << to_text(faults);
   }
 }

@@ -1,4 +1,5 @@
 // The judge on the ends of runs: each cause is believed where it is there, and nowhere else.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -112,29 +113,31 @@ TEST(JudgedEnds, PassesMeanALoopThatDoesNotEnd) {
   EXPECT_TRUE(has_fault(judged(other, flow, 1, hybrid::Ending::passes), 1, kCause));
 }
 
-/// A ball that loses half of its speed at each impact: from height 1, and where its jumps
-/// accumulate.
+/// A ball that keeps the parts `even` and `odd` of its speed at the impacts: from height 1, and where
+/// its jumps accumulate.
 struct Zeno {
   DynamicsText text;
   hybrid::Trajectory trajectory;
   double rest = 0;  ///< from the last impact to the accumulation point
 
-  explicit Zeno(int impacts) {
-    text.state("x", 2, "[x(2); -2]", "[1; 0]")
+  explicit Zeno(int impacts, double even = 0.5, double odd = 0.5) {
+    const double sum = even + odd;
+    text.state("x", 3, "[x(2); -2; 0]", fmt::format("[1; 0; {}]", even))
         .when("impact", "x(1) <= 0 and x(2) < 0")
-        .reacts("impact", {{"x", "[0; -0.5*x(2)]"}});
-    ReferenceRun run(column_of({1, 0}), 10);
+        .reacts("impact", {{"x", fmt::format("[0; -x(3)*x(2); {} - x(3)]", sum)}});
+    ReferenceRun run(column_of({1, 0, even}), 10);
     for (int k = 0; k < impacts; ++k) {
       const double from = run.t();
       const VectorXd x = run.x();
       const double length = k == 0 ? 1 : x(1);
       run.flow(from + length, [=](double t) {
         const double s = t - from;
-        return column_of({t == from + length ? 0 : x(0) + s * x(1) - s * s, x(1) - 2 * s});
+        return column_of({t == from + length ? 0 : x(0) + s * x(1) - s * s, x(1) - 2 * s, x(2)});
       });
-      run.jump(0, column_of({0, -0.5 * run.x()(1)}));
+      run.jump(0, column_of({0, -x(2) * run.x()(1), sum - x(2)}));
     }
-    rest = 2 * run.x()(1);  // flights of v, v/2, v/4, ...
+    // Flights of v, f v, f g v, f^2 g v, ...
+    rest = run.x()(1) * (1 + run.x()(2)) / (1 - even * odd);
     trajectory = run.end(hybrid::Ending::zeno, "impacts accumulate");
     trajectory.accumulation = trajectory.end + rest;
   }
@@ -150,6 +153,13 @@ TEST(JudgedEnds, ZenoMeansASteadyFactor) {
   EXPECT_TRUE(has_fault(zeno.judged(), 40, kCause));
   Zeno early(3);
   EXPECT_TRUE(has_fault(early.judged(), 6, kCause));
+}
+
+TEST(JudgedEnds, ZenoMayHaveAPeriodOfTwo) {
+  Zeno zeno(24, 0.25, 0.75);
+  EXPECT_TRUE(zeno.judged().empty()) << to_text(zeno.judged());
+  zeno.trajectory.accumulation += zeno.rest;
+  EXPECT_TRUE(has_fault(zeno.judged(), 48, kCause));
 }
 
 TEST(JudgedEnds, ChatteringMeansShortFlows) {
