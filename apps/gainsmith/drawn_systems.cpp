@@ -17,12 +17,9 @@ using model::SystemPicture;
 using response::StateSpace;
 
 bool is_over_frequency(SystemPicture kind) {
-  return kind == SystemPicture::bode || kind == SystemPicture::singular_values ||
-         kind == SystemPicture::nyquist;
+  return kind_of(kind).over == model::PictureRange::frequency;
 }
-bool is_over_time(SystemPicture kind) {
-  return kind == SystemPicture::step || kind == SystemPicture::impulse;
-}
+bool is_over_time(SystemPicture kind) { return kind_of(kind).over == model::PictureRange::time; }
 
 /// Nothing where a gain of it has no value.
 std::optional<StateSpace> value_of(const SystemFigure::System& of, const model::Stated& stated) {

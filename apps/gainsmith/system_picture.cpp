@@ -65,12 +65,26 @@ void add_margins(const DrawnSystem& drawn, int colour, report::Panel& size, repo
   phase.curves.push_back(std::move(at_phase));
 }
 
+/// A line at a value that the curves of a panel pass.
+void add_level(double value, report::Panel& panel) {
+  double low = kNone, high = kNone;
+  for (const report::Curve& one : panel.curves)
+    for (const double each : one.value) {
+      low = std::fmin(low, each);
+      high = std::fmax(high, each);
+    }
+  if (!(low < value && value < high)) return;
+  const std::vector<double>& t = panel.curves.front().t;
+  panel.curves.push_back(guide({t.front(), t.back()}, {value, value}));
+}
+
 void add_bode(const std::vector<DrawnSystem>& systems, report::Figure& figure) {
   report::Panel size, phase;
   size.title = "size";
   size.axis = "dB";
   phase.title = "phase";
   phase.axis = "degrees";
+  phase.degrees = true;
   int colour = 0;
   for (const DrawnSystem& drawn : systems) {
     for (Eigen::Index i = 0; i < drawn.system.outputs(); ++i)
@@ -85,6 +99,12 @@ void add_bode(const std::vector<DrawnSystem>& systems, report::Figure& figure) {
         phase.curves.push_back(std::move(made));
         add_margins(drawn, colour, size, phase);
       }
+  }
+  const bool loops = std::ranges::any_of(
+      systems, [](const DrawnSystem& drawn) { return drawn.margins.has_value(); });
+  if (loops) {
+    add_level(0, size);
+    add_level(-180, phase);
   }
   figure.axis = kFrequency;
   figure.logarithmic = true;
@@ -169,6 +189,34 @@ void add_nyquist(const std::vector<DrawnSystem>& systems, report::Figure& figure
   critical.label = "-1";
   critical.t = {-1};
   critical.value = {0};
+  panel.curves.push_back(std::move(critical));
+  figure.panels = {std::move(panel)};
+}
+
+/// What is far from 0 dB is left out.
+void add_nichols(const std::vector<DrawnSystem>& systems, report::Figure& figure) {
+  constexpr double kFar = 60;  // decibels
+  report::Panel panel;
+  panel.title = "size, dB";
+  panel.across = "phase, degrees";
+  panel.degrees = true;
+  report::Curve critical = points(report::Mark::cross, 6);
+  int colour = 0;
+  for (const DrawnSystem& drawn : systems) {
+    report::Curve made = curve(drawn.label, colour++);
+    const std::vector<double> phases = response::phase(drawn.sweep, 0, 0);
+    for (std::size_t k = 0; k < phases.size(); ++k) {
+      const double size = decibels(std::abs(drawn.sweep.response[k](0, 0)));
+      if (!(std::abs(size) <= kFar)) continue;
+      made.t.push_back(phases[k]);
+      made.value.push_back(size);
+      const double near = -180 + 360 * std::round((phases[k] + 180) / 360);
+      if (std::ranges::find(critical.t, near) == critical.t.end()) critical.t.push_back(near);
+    }
+    panel.curves.push_back(std::move(made));
+  }
+  critical.label = "-1";
+  critical.value.assign(critical.t.size(), 0);
   panel.curves.push_back(std::move(critical));
   figure.panels = {std::move(panel)};
 }
@@ -312,6 +360,9 @@ report::Figure system_picture(SystemPicture kind, const std::vector<DrawnSystem>
       break;
     case SystemPicture::nyquist:
       add_nyquist(systems, figure);
+      break;
+    case SystemPicture::nichols:
+      add_nichols(systems, figure);
       break;
     case SystemPicture::step:
     case SystemPicture::impulse:

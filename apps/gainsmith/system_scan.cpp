@@ -178,7 +178,7 @@ void add_curves(const SystemFigure& figure, const model::Stated& stated, const S
 }  // namespace
 
 void add_scan(const SystemFigure& figure, const LoadedGains& loaded, SystemResult& result) {
-  const bool line = figure.kind == SystemPicture::poles || figure.kind == SystemPicture::margins;
+  const bool line = kind_of(figure.kind).over == model::PictureRange::none;
   Scanned all = scanned(figure, loaded, line ? kLine : kCurves);
   const std::string& name = figure.scan->name;
   if (all.values.empty()) {

@@ -26,9 +26,7 @@ model::SystemFigure::System system(const model::SystemFigureText::System& text,
   const int outputs = shape.rows - compiled.states, inputs = shape.cols - compiled.states;
   if (inputs == 0 || outputs == 0)
     throw InputError(place, "figures: '" + text.label + "' has no input or no output");
-  const bool is_single =
-      kind == model::SystemPicture::nyquist || kind == model::SystemPicture::margins;
-  if (is_single && (inputs != 1 || outputs != 1))
+  if (kind_of(kind).single && (inputs != 1 || outputs != 1))
     throw InputError(place, "figures: " + to_string(kind) + " is of one input and one output; '" +
                                 text.label + "' has " + std::to_string(inputs) + " and " +
                                 std::to_string(outputs));

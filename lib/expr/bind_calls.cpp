@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <map>
 #include <optional>
+#include <ranges>
 #include <utility>
 #include <variant>
 
@@ -59,7 +61,69 @@ Bound Binder::bind_call(const Expression& expression, const Node& node) {
              std::to_string(count) + " arguments");
   if (const Op* op = std::get_if<Op>(&function->what))
     return bind_operation(expression, node, *function, *op);
+  if (const Written* written = std::get_if<Written>(&function->what))
+    return bind_written(expression, node, *written);
   return bind_composed(expression, node, std::get<Composed>(function->what));
+}
+
+namespace {
+
+/// A tree whose nodes are all at the place of one.
+NodePtr at_place(const Node& tree, const Node& place) {
+  auto copy = std::make_shared<Node>(tree);
+  copy->begin = place.begin;
+  copy->end = place.end;
+  for (NodePtr& child : copy->children) child = at_place(*child, place);
+  return copy;
+}
+
+/// The parameters and the tree of a text of the table.
+struct Parsed {
+  struct Parameter {
+    std::string name;
+    bool number = false;
+  };
+  std::vector<Parameter> parameters;
+  NodePtr tree;
+};
+
+const Parsed& parsed(const Written& written) {
+  static const std::map<std::string_view, Parsed> all = [] {
+    std::map<std::string_view, Parsed> made;
+    for (const Function& function : functions())
+      if (const Written* one = std::get_if<Written>(&function.what)) {
+        Parsed& to = made[one->text];
+        for (const auto part : std::views::split(one->parameters, std::string_view(", "))) {
+          constexpr std::string_view kNumber = "number ";
+          const std::string_view name(part.begin(), part.end());
+          const bool number = name.starts_with(kNumber);
+          to.parameters.push_back({std::string(name.substr(number ? kNumber.size() : 0)), number});
+        }
+        to.tree = parse(Text(std::string(one->text), std::string(function.name))).root;
+      }
+    return made;
+  }();
+  return all.at(written.text);
+}
+
+}  // namespace
+
+Bound Binder::bind_written(const Expression& expression, const Node& node, const Written& written) {
+  const Parsed& of = parsed(written);
+  Environment arguments;
+  for (std::size_t i = 0; i < of.parameters.size(); ++i) {
+    const Node& argument = *node.children[i];
+    const Bound value = bind(expression, argument);
+    arguments[of.parameters[i].name] = {of.parameters[i].number
+                                            ? materialise(expression, argument, value, {})
+                                            : sized(expression, argument, value)};
+  }
+  std::swap(environment_, arguments);
+  const std::string outer = std::exchange(fault_, std::string(written.fault));
+  const Bound value = bind(expression, *at_place(*of.tree, node));
+  fault_ = outer;
+  std::swap(environment_, arguments);
+  return value;
 }
 
 void Binder::unknown_name(const Expression& expression, const Node& node) const {
@@ -232,17 +296,6 @@ Bound Binder::fold_minmax(const Expression& expression, const Node& node, Op op)
     result = emit(expression, node, op,
                   {result, same_shape(expression, *node.children[i], values[i], common)}, common);
   return {result};
-}
-
-Bound Binder::clip(const Expression& expression, const Node& node) {
-  const auto sized_argument = [&](std::size_t i) {
-    return sized(expression, *node.children[i], bind(expression, *node.children[i]));
-  };
-  const int x = sized_argument(0);
-  const int low = same_shape(expression, *node.children[1], {sized_argument(1)}, shape(x));
-  const int high = same_shape(expression, *node.children[2], {sized_argument(2)}, shape(x));
-  const int raised = emit(expression, node, Op::maximum, {x, low}, shape(x));
-  return {emit(expression, node, Op::minimum, {raised, high}, shape(x))};
 }
 
 Bound Binder::constant_matrix(const Expression& expression, const Node& node, Composed function) {

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "expr/binder.h"
+#include "expr/emitter.h"
 
 namespace gainsmith::expr {
 
@@ -113,15 +113,12 @@ Bound Binder::skew(const Expression& expression, const Node& node) {
   return {assemble(expression, node, std::move(entries), 3, {1, 1, 1}, {1, 1, 1})};
 }
 
-Bound Binder::saturated(const Expression& expression, const Node& node) {
-  const Node& bound_node = *node.children[1];
-  const int m = sized(expression, *node.children[0], bind(expression, *node.children[0]));
-  const int bound = materialise(expression, bound_node, bind(expression, bound_node), {});
-  const int size = emit(expression, node, Op::norm, {m}, {});
-  const int times = emit(expression, node, Op::divide, {size, bound}, {});
-  const int factor =
-      emit(expression, node, Op::maximum, {number(expression, node, "1"), times}, {});
-  return {emit(expression, node, Op::divide, {m, factor}, shape(m))};
+/// sin x / cos x, with a pole where cos x is nothing but rounding.
+Bound Binder::tangent(const Expression& expression, const Node& node) {
+  const Emitter make(*this, expression, node);
+  const int x = sized(expression, *node.children[0], bind(expression, *node.children[0]));
+  return {make(Op::elementwise_quotient, {make(Op::sin, {x}), make(Op::cos, {x})},
+               {kPoleWithinRounding}, "tan has a pole here, where cos is 0 to rounding")};
 }
 
 }  // namespace gainsmith::expr

@@ -38,6 +38,7 @@ int Binder::emit(const Expression& expression, const Node& node, Op op, std::vec
   constexpr std::int64_t kMostElements = 10'000'000;
   if (std::int64_t{shape.rows} * shape.cols > kMostElements)
     fail(expression, node, "the " + to_string(op) + " is too large: " + to_string(shape));
+  if (text.empty() && is_one_of(op, {Op::sqrt, Op::log})) text = fault_;
   return assembly_.add({op, std::move(operands), shape, attributes, std::move(text),
                         expression.text, node.begin, std::move(body)});
 }
@@ -150,8 +151,8 @@ Bound Binder::bind_kind(const Expression& expression, const Node& node) {
 
 Bound Binder::bind_name(const Expression& expression, const Node& node) {
   const std::string& name = node.text;
-  if (scope_.read) scope_.read->insert(name);
   if (const auto found = environment_.find(name); found != environment_.end()) return found->second;
+  if (scope_.read) scope_.read->insert(name);
   if (const auto found = scope_.symbols.find(name); found != scope_.symbols.end()) {
     Instruction like;
     like.origin = expression.text;

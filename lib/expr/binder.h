@@ -98,7 +98,7 @@ class Binder {
   std::pair<int, int> fitted(const Expression& expression, const Node& node, Bound a, Bound b);
   Bound extreme_element(const Expression& expression, const Node& node, Op op);
   Bound skew(const Expression& expression, const Node& node);
-  Bound saturated(const Expression& expression, const Node& node);
+  Bound tangent(const Expression& expression, const Node& node);
 
   // bind_bodies.cpp: expressions as functions of a name.
   /// e of a call f(e, x, ...) or f(x, ..., e): `value` depends on the instruction `variable`, which
@@ -190,12 +190,12 @@ class Binder {
                             const Node& argument, Shape shape);
   /// derivative(P)(s), or nothing when the node is something else.
   std::optional<Bound> bind_derivative(const Expression& expression, const Node& node);
+  Bound bind_written(const Expression& expression, const Node& node, const Written& written);
   Bound bind_composed(const Expression& expression, const Node& node, Composed function);
   Bound bind_operation(const Expression& expression, const Node& node, const Function& function,
                        Op op);
   Bound symmetric(const Expression& expression, const Node& node);
   Bound fold_minmax(const Expression& expression, const Node& node, Op op);
-  Bound clip(const Expression& expression, const Node& node);
   Bound constant_matrix(const Expression& expression, const Node& node, Composed function);
   Bound diagonal(const Expression& expression, const Node& node);
   Bound block_diagonal(const Expression& expression, const Node& node);
@@ -220,8 +220,6 @@ class Binder {
   Bound lyapunov(const Expression& expression, const Node& node, bool discrete);
   Bound output_gain(const Expression& expression, const Node& node, bool discrete);
   Bound riccati(const Expression& expression, const Node& node, Op op);
-  // bind_elementary.cpp
-  Bound elementary(const Expression& expression, const Node& node, Composed function);
   // bind_tables.cpp
   Bound interpolated(const Expression& expression, const Node& node);
   void require_rising(const Expression& expression, const Node& node, int steps);
@@ -308,6 +306,7 @@ class Binder {
   int extrema_ = 0;                            ///< bound so far
   std::vector<int> ends_;                      ///< what `end` is in the indices being bound now
   Environment environment_;                    ///< parameters of the definition being bound
+  std::string fault_;                          ///< of the text of the table being bound (Written)
 };
 
 }  // namespace gainsmith::expr

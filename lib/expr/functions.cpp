@@ -9,10 +9,23 @@ namespace gainsmith::expr {
 
 namespace {
 
+constexpr int count_of(std::string_view parameters) {
+  return 1 + static_cast<int>(std::ranges::count(parameters, ','));
+}
+
 #define FUNCTION(op, operands, rule, name, usage, meaning, example, value) \
   Function{Op::op, name, operands, operands, usage, meaning, example, value},
 #define COMPOSED(name, method, fewest, most, usage, meaning, example, value) \
   Function{Composed::name, #name, fewest, most, usage, meaning, example, value},
+#define WRITTEN(name, parameters, text, fault, usage, meaning, example, value) \
+  Function{Written{parameters, text, fault},                                   \
+           #name,                                                              \
+           count_of(parameters),                                               \
+           count_of(parameters),                                               \
+           usage,                                                              \
+           meaning,                                                            \
+           example,                                                            \
+           value},
 constexpr std::array kFunctions = {
 #include "expr/operations.def"
 };

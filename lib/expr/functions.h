@@ -18,8 +18,15 @@ enum class Composed {
 #include "expr/operations.def"
 };
 
+/// The functions that are texts of the language.
+struct Written {
+  std::string_view parameters;  ///< "x, lo, hi", or "M, number r"
+  std::string_view text;
+  std::string_view fault;  ///< what a message says where a part has no value; may be empty
+};
+
 struct Function {
-  std::variant<Op, Composed> what;
+  std::variant<Op, Composed, Written> what;
   std::string_view name;
   int fewest;                ///< arguments
   int most;                  ///< -1: any number

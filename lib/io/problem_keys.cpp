@@ -97,6 +97,7 @@ constexpr std::array kSystemFigure = {
     Key{"bode", "systems", "size and phase over the frequency"},
     Key{"singular values", "systems", "over the frequency"},
     Key{"nyquist", "systems", "in the complex plane, one input and one output"},
+    Key{"nichols", "systems", "size over phase, one input and one output"},
     Key{"step", "systems", "outputs over time, for each input"},
     Key{"impulse", "systems", "the same of impulses"},
     Key{"poles", "systems", "poles and zeros in the complex plane"},
@@ -105,7 +106,7 @@ constexpr std::array kSystemFigure = {
     Key{"scan", "{range}", "a scalar for whose values the gains are designed anew"},
     Key{"title", "text", "above the picture, in place of its name"}};
 constexpr std::array kSystemFigureRules = {
-    Rule::exactly_one("bode,singular values,nyquist,step,impulse,poles,margins"),
+    Rule::exactly_one("bode,singular values,nyquist,nichols,step,impulse,poles,margins"),
     Rule::excludes("over", "poles,margins"), Rule::needs("margins", "scan")};
 
 constexpr std::array kExpectation = {

@@ -1,7 +1,5 @@
 #include "io/system_figure_yaml.h"
 
-#include <array>
-
 #include "base/nearest.h"
 #include "io/search_yaml.h"
 
@@ -10,11 +8,6 @@ namespace gainsmith::io {
 namespace {
 
 using model::SystemPicture;
-
-constexpr std::array kKinds = {SystemPicture::bode,    SystemPicture::singular_values,
-                               SystemPicture::nyquist, SystemPicture::step,
-                               SystemPicture::impulse, SystemPicture::poles,
-                               SystemPicture::margins};
 
 /// A text, a list of them, or texts with labels.
 std::vector<model::SystemFigureText::System> systems(const YamlFile& file, const YamlItem& item) {
@@ -36,6 +29,16 @@ std::vector<model::SystemFigureText::System> systems(const YamlFile& file, const
   return found;
 }
 
+/// "bode, ..., poles or margins".
+std::string all_kinds() {
+  std::string text;
+  for (const model::SystemPictureKind& kind : model::kSystemPictures) {
+    const bool last = &kind == &model::kSystemPictures.back();
+    text += (text.empty() ? "" : last ? " or " : ", ") + std::string(kind.key);
+  }
+  return text;
+}
+
 }  // namespace
 
 model::SystemFigureText system_figure(const YamlFile& file, const YamlItem& item) {
@@ -44,22 +47,21 @@ model::SystemFigureText system_figure(const YamlFile& file, const YamlItem& item
   figure.name = item.key;
   figure.place = item.place;
   std::optional<YamlItem> chosen;
-  for (const SystemPicture kind : kKinds) {
-    const auto found = map.find(to_string(kind));
+  for (const model::SystemPictureKind& kind : model::kSystemPictures) {
+    const auto found = map.find(std::string(kind.key));
     if (!found) continue;
     if (chosen)
       throw InputError(found->place, "figures: " + item.key + ": either '" + chosen->key +
                                          "' or '" + found->key + "': two pictures have two names");
     chosen = found;
-    figure.kind = kind;
+    figure.kind = kind.kind;
     figure.systems = systems(file, *found);
   }
   const auto over = map.find("over"), scan = map.find("scan"), title = map.find("title");
   map.finish();
   if (!chosen)
-    throw InputError(item.place, "figures: " + item.key +
-                                     ": expected bode, singular values, nyquist, step, impulse, "
-                                     "poles or margins, and a system");
+    throw InputError(item.place,
+                     "figures: " + item.key + ": expected " + all_kinds() + ", and a system");
   if (title) figure.title = file.string(title->value, title->key);
   if (scan) {
     const std::vector<YamlItem> scalars = items_of(file, *scan, "scan");
@@ -71,7 +73,7 @@ model::SystemFigureText system_figure(const YamlFile& file, const YamlItem& item
     throw InputError(item.place, "figures: " + item.key +
                                      ": margins are drawn over a scalar: scan: {r: [0.1, 10]}");
   if (!over) return figure;
-  if (figure.kind == SystemPicture::poles || figure.kind == SystemPicture::margins)
+  if (kind_of(figure.kind).over == model::PictureRange::none)
     throw InputError(over->place,
                      "figures: " + item.key + ": " + to_string(figure.kind) + " have no range");
   if (!over->value.IsSequence() || over->value.size() != 2)

@@ -3,6 +3,7 @@
 //   {bode: L}              size and phase of each element of H over the frequency
 //   {singular values: S}   of H over the frequency
 //   {nyquist: L}           H in the complex plane, one input and one output
+//   {nichols: L}           size over phase, one input and one output
 //   {step: T}, {impulse: T}  each output over time, for each input
 //   {poles: T}             poles and zeros in the complex plane
 //   {margins: L, scan: {r: [0.1, 10]}}  over the values of a scalar, one input and one output
@@ -13,8 +14,10 @@
 // uncertain data: bands, or clouds of poles.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -24,10 +27,34 @@
 
 namespace gainsmith::model {
 
-enum class SystemPicture { bode, singular_values, nyquist, step, impulse, poles, margins };
+enum class SystemPicture { bode, singular_values, nyquist, nichols, step, impulse, poles, margins };
 
-/// The key of each.
-std::string to_string(SystemPicture kind);
+/// What a picture is computed over.
+enum class PictureRange { frequency, time, none };
+
+struct SystemPictureKind {
+  SystemPicture kind;
+  std::string_view key;
+  PictureRange over;
+  bool single;  ///< of one input and one output alone
+};
+
+/// All kinds, in the order of SystemPicture.
+inline constexpr std::array kSystemPictures = {
+    SystemPictureKind{SystemPicture::bode, "bode", PictureRange::frequency, false},
+    SystemPictureKind{SystemPicture::singular_values, "singular values", PictureRange::frequency,
+                      false},
+    SystemPictureKind{SystemPicture::nyquist, "nyquist", PictureRange::frequency, true},
+    SystemPictureKind{SystemPicture::nichols, "nichols", PictureRange::frequency, true},
+    SystemPictureKind{SystemPicture::step, "step", PictureRange::time, false},
+    SystemPictureKind{SystemPicture::impulse, "impulse", PictureRange::time, false},
+    SystemPictureKind{SystemPicture::poles, "poles", PictureRange::none, false},
+    SystemPictureKind{SystemPicture::margins, "margins", PictureRange::none, true}};
+
+constexpr const SystemPictureKind& kind_of(SystemPicture picture) {
+  return kSystemPictures[static_cast<std::size_t>(picture)];
+}
+inline std::string to_string(SystemPicture picture) { return std::string(kind_of(picture).key); }
 
 /// As read.
 struct SystemFigureText {

@@ -1,18 +1,11 @@
 #include "model/words.h"
 
-#include "model/system_figure.h"
-
 #include "base/words.h"
 
 namespace gainsmith::model {
 
 std::string to_string(Verdict verdict) {
   return word_of<Verdict::undecided>(verdict, {"yes", "no", "undecided"});
-}
-
-std::string to_string(SystemPicture kind) {
-  return word_of<SystemPicture::margins>(
-      kind, {"bode", "singular values", "nyquist", "step", "impulse", "poles", "margins"});
 }
 
 std::string to_string(CampaignVerdict verdict) {

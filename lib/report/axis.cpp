@@ -79,7 +79,9 @@ double Axis::share(double value) const {
 Axis linear_axis(const Extent& values, double margin, int most) {
   Axis axis;
   set_ends(values, margin, axis);
-  const Ticks shown = ticks(axis.low, axis.high, most, values.whole && !values.empty() ? 0 : -310);
+  const Ticks shown =
+      values.degrees ? ticks_of_degrees(axis.low, axis.high, most)
+                     : ticks(axis.low, axis.high, most, values.whole && !values.empty() ? 0 : -310);
   axis.factor = shared_factor(shown);
   for (auto k = shown.first; k <= shown.last; ++k)
     axis.ticks.push_back({axis.share(shown.value(k)), shown.label(k, axis.factor), {}});

@@ -11,7 +11,8 @@ namespace gainsmith::report {
 struct Extent {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
-  bool whole = true;  ///< all are whole numbers
+  bool whole = true;     ///< all are whole numbers
+  bool degrees = false;  ///< of an angle: labelled at parts and multiples of a turn
 
   bool empty() const { return low > high; }
   void add(double value);

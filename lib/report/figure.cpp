@@ -110,6 +110,7 @@ Extent equal_up(const Panel& plane, double height, double width) {
 
 Axis across_axis(const Panel& plane, const Axis& up, const Box& box) {
   Extent values = extents_of(plane).first;
+  values.degrees = plane.degrees;
   if (plane.equal) {
     const double half = (up.high - up.low) / 2 * box.width / box.height;
     values = widened(values, half / (1 + kMarginAcross));
@@ -141,6 +142,7 @@ Axis value_axis(const Panel& panel, double height, double width) {
       if (shown.shows(curve.value[k]) && Axis().shows(curve.t[k])) values.add(curve.value[k]);
   if (!panel.bands.empty()) values = with_bands(panel, shown, values);
   if (panel.equal) values = equal_up(panel, height, width - 4 * right_margin);
+  values.degrees = panel.degrees && !panel.across;
   const int most = std::clamp(static_cast<int>(height / 22), 5, 10);
   return panel.logarithmic ? logarithmic_axis(values, most) : linear_axis(values, kMarginUp, most);
 }

@@ -52,7 +52,8 @@ struct Panel {
   std::optional<std::string> across{};
   /// Of a plane: at a place in it the rates of both quantities, drawn as arrows behind the curves.
   std::function<std::pair<double, double>(double across, double up)> field{};
-  bool equal = false;  ///< of a plane: a unit is as long on both axes
+  bool equal = false;    ///< of a plane: a unit is as long on both axes
+  bool degrees = false;  ///< the values are, of a plane those across
   bool bars =
       false;  ///< a plane whose curves are outlines of bars: as high as other panels, no ends
 };

@@ -7,7 +7,8 @@
 namespace gainsmith::report {
 
 /// The multiples k s, k = first, ..., last, of the step s = multiplier 10^exponent, multiplier 1, 2
-/// or 5. They are decimals, so each is the double nearest to what its label says.
+/// or 5, of degrees other whole ones. They are decimals, so each is the double nearest to what its
+/// label says.
 struct Ticks {
   std::int64_t first = 0;
   std::int64_t last = 0;
@@ -24,5 +25,8 @@ struct Ticks {
 /// 5, rounded down: 4 to 10 for 10. A ten-thousandth of a step outside is within. Demands finite
 /// ends with high - low >= 1e-300 and >= 1e-10 times the greater size of both.
 Ticks ticks(double low, double high, int most, int smallest_exponent = -310);
+
+/// The same of degrees: between 10 and 10^6 the step is 15, 30, 45, 90, 180 or a number of turns.
+Ticks ticks_of_degrees(double low, double high, int most);
 
 }  // namespace gainsmith::report

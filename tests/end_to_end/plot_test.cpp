@@ -20,6 +20,7 @@ data: {k: 5}
 figures:
   loop:   {bode: {open loop: L, closed: T}}
   circle: {nyquist: L, over: [0.1, 100]}
+  chart:  {nichols: L, over: [0.1, 100]}
   gains:  {singular values: [L, T]}
   answer: {step: T, over: [0, 40]}
   kick:   {impulse: T}
@@ -60,7 +61,7 @@ TEST_F(PlotTest, WritesAPictureForEach) {
   const std::string picture = folder.path("p.svg");
   const Outcome outcome = plot({"-o", picture});
   ASSERT_EQ(outcome.exit, 0) << outcome.err;
-  for (const char* name : {"loop", "circle", "gains", "answer", "kick", "modes"}) {
+  for (const char* name : {"loop", "circle", "chart", "gains", "answer", "kick", "modes"}) {
     const std::string svg = text_of(folder.path(std::string("p-") + name + ".svg"));
     EXPECT_TRUE(svg.starts_with("<svg ")) << name;
     EXPECT_TRUE(has(svg, std::string(">") + name + "</text>")) << name;
@@ -72,7 +73,7 @@ TEST_F(PlotTest, WritesAPictureForEach) {
 
 TEST_F(PlotTest, PrintsTheCurves) {
   const auto document = plot({"--json"}).json();
-  ASSERT_EQ(document.size(), 6U);
+  ASSERT_EQ(document.size(), 7U);
   const auto& loop = document[0]["systems"][0];
   EXPECT_NEAR(loop["margins"]["gain"]["value"].get<double>(), 1.2, 1e-12);
   const auto& w = loop["frequency"];
@@ -84,8 +85,8 @@ TEST_F(PlotTest, PrintsTheCurves) {
         std::hypot(response["real"][k].get<double>(), response["imaginary"][k].get<double>());
     EXPECT_NEAR(size * x * std::hypot(x, 1) * std::hypot(x, 2) / 5, 1, 1e-12);
   }
-  EXPECT_EQ(document[3]["systems"][0]["time"].back().get<double>(), 40);
-  EXPECT_EQ(document[5]["systems"][0]["poles"].size(), 3U);
+  EXPECT_EQ(document[4]["systems"][0]["time"].back().get<double>(), 40);
+  EXPECT_EQ(document[6]["systems"][0]["poles"].size(), 3U);
 }
 
 TEST_F(PlotTest, TakesValuesOfTheCommandLine) {
@@ -140,11 +141,11 @@ TEST_F(PlotTest, MistakesHaveTheirPlaces) {
   const std::string alike = folder.file(
       "alike.yaml", with(kLoop, "kick:   {impulse: T}", "a b: {step: T}\n  a/b: {step: T}"));
   says(gainsmith({"plot", alike, "-o", folder.path("p.svg")}), "two pictures would be");
-  says(plot_with("{poles: T}", "{pole: T}"), "changed.yaml:14:12: ");
+  says(plot_with("{poles: T}", "{pole: T}"), "changed.yaml:15:12: ");
   says(plot_with("{poles: T}", "{poles: T, bode: T}"), "two pictures have two names");
-  says(plot_with("{poles: T}", "{}"), "expected bode, singular values, nyquist");
+  says(plot_with("{poles: T}", "{}"), "expected bode, singular values, nyquist, nichols, step");
   says(plot_with("{poles: T}", "{poles: T, over: [1, 2]}"), "poles have no range");
-  says(plot_with("{poles: T}", "{poles: Q}"), "changed.yaml:14:19: unknown name 'Q'");
+  says(plot_with("{poles: T}", "{poles: Q}"), "changed.yaml:15:19: unknown name 'Q'");
   says(plot_with("{poles: T}", "{nyquist: \"append(L, T)\"}"), "one input and one output");
   says(plot_with("over: [0.1, 100]", "over: [0, 100]"), "positive and rises");
   says(plot_with("over: [0, 40]", "over: [1, 40]"), "begins at 0");

@@ -211,7 +211,7 @@ TEST_F(Messages, BothShapesAreShown) {
   expect("max(A, B)", 5, {"A (2 x 2)", "expected 2 x 3"});
   expect("where(A > B, 1, 2)", 7, {"cannot compare A (2 x 2) and B (2 x 3)"});
   expect("where(A > 0, B, 2)", 7, {"expected 2 x 3"});
-  expect("clip(delta, A, 1)", 13, {"A (2 x 2)", "expected 1 x 1"});
+  expect("clip(A, 0, B)", 1, {"clip(A, 0, B) (2 x 2)", "expected 2 x 3"});
   expect("obsv(A, B)", 1, {"2 columns", "B (2 x 3)"});
 }
 

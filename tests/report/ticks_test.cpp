@@ -55,6 +55,28 @@ TEST(Ticks, WithinFewerKeepTwoFifths) {
     }
 }
 
+TEST(Ticks, OfDegreesArePartsOfATurn) {
+  const auto labels = [](double low, double high, int most) {
+    const Ticks found = ticks_of_degrees(low, high, most);
+    std::vector<std::string> all;
+    for (auto k = found.first; k <= found.last; ++k) all.push_back(found.label(k));
+    return all;
+  };
+  using Labels = std::vector<std::string>;
+  EXPECT_EQ(labels(-5, 275, 8), (Labels{"0", "45", "90", "135", "180", "225", "270"}));
+  EXPECT_EQ(labels(0, 100, 8), (Labels{"0", "15", "30", "45", "60", "75", "90"}));
+  EXPECT_EQ(labels(0, 30, 5), (Labels{"0", "10", "20", "30"}));
+  EXPECT_EQ(labels(0, 1500, 5), (Labels{"0", "360", "720", "1080", "1440"}));
+  EXPECT_EQ(labels(0, 36e3, 6), (Labels{"0", "7200", "14400", "21600", "28800", "36000"}));
+  RandomStream draw(7, 0);
+  for (int k = 0; k < 2000; ++k) {
+    const auto [low, high] = random_range(draw);
+    const Ticks found = ticks_of_degrees(low, high, 10);
+    ASSERT_LE(found.count(), 10) << low << " " << high;
+    ASSERT_GE(found.count(), 3) << low << " " << high;
+  }
+}
+
 TEST(Ticks, LabelsAreTheNumbers) {
   RandomStream draw(3, 0);
   for (int k = 0; k < 2000; ++k) {
