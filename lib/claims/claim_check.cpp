@@ -29,6 +29,7 @@ Judgement compare(const Bounded& value, const Bounded& bound, bool holds) {
   if (holds) return Judgement::held;
   if (!is_number(value) || !is_number(bound)) return Judgement::undecided;
   const double excess = value.value - bound.value;
+  // The subtraction rounds by u |excess|; twice that is a bound.
   const double rounding = value.bound + bound.bound + 2 * kUnitRoundoff * std::abs(excess);
   if (excess > rounding) return Judgement::violated;
   if (excess <= -rounding || (excess <= 0 && value.bound + bound.bound == 0))
@@ -36,6 +37,8 @@ Judgement compare(const Bounded& value, const Bounded& bound, bool holds) {
   return Judgement::undecided;
 }
 
+/// score = (value - bound)/|scale|; infinite where that is no number or a violation has the scale
+/// 0.
 Finding finding_at(const Track& track, std::size_t sample, const Bounded& value,
                    const Bounded& bound, double scale, Judgement judgement) {
   Finding finding;
@@ -292,6 +295,7 @@ Finding ClaimCheck::shrinks(const Track& track, bool holds) const {
   const Bounded factor = track.at(0, *claim_->factor);
   Bounded bound{factor.value * start.value, 0};
   const double size = std::abs(start.value);
+  // |f s - f' s'| <= |f| ds + df (|s| + ds), and the rounding of the product.
   bound.bound = std::abs(factor.value) * start.bound + factor.bound * (size + start.bound) +
                 kUnitRoundoff * std::abs(bound.value);
   const double scale = bound.value;

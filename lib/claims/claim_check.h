@@ -121,15 +121,19 @@ class ClaimCheck {
   Finding operator()(const Track& track, bool holds = false) const;
 
  private:
+  /// By the kind of the claim; the tolerance of the finding is set by the caller.
   Finding judged(const Track& track, bool holds) const;
   Finding nonincreasing(const Track& track, bool holds) const;
   Finding cost(const Track& track, bool holds) const;
   Finding shrinks(const Track& track, bool holds) const;
   Finding bounded(const Track& track, bool holds) const;
+  /// No sample counts: held, not sampled, score minus infinity.
   Finding nothing_counts(const Track& track) const;
+  /// The value at all samples; along flows the last one where it keeps its bits.
   std::vector<Bounded> values(const Track& track) const;
   Bounded eased(const Bounded& bound, double size, double error) const;
   std::vector<double> term_sizes(const Track& track, const std::vector<Bounded>& v) const;
+  /// Whether the claim is made at a sample: by `after`, `over` and for whose sake it is there.
   bool counts(const Track& track, std::size_t sample) const;
   bool is_crowded(const Track& track, std::size_t sample) const;
   bool is_chosen(const Track& track, std::size_t sample, const Bounded& value) const;

@@ -22,6 +22,7 @@ void add_missing(const model::Formula& formula, const hybrid::System& system,
   }
 }
 
+/// The programs of one claim, and the names without a value.
 Claim claim_of(const model::Design::Claim& claim, const hybrid::System& system) {
   Claim made;
   made.name = claim.name;
@@ -58,6 +59,7 @@ bool always_holds(const Claim& claim, const hybrid::System& system) {
   return claim.kind == ClaimKind::above ? value.low >= bound.high : value.high <= bound.low;
 }
 
+/// A time in [0, horizon).
 double after_of(const model::Formula& after, const hybrid::System& system, double horizon) {
   const double t = system.scalar(after);
   if (!(t >= 0)) throw InputError(after.place, "after: a time from 0 on, found " + brief(t));

@@ -20,6 +20,7 @@ using hybrid::EventFunction;
 using hybrid::NearTurn;
 using EventKind = model::Dynamics::EventKind;
 
+/// Not a number where it has no value.
 double element(EventFunction& guard, const VectorXd& values, Index e) {
   try {
     return guard(values)(e);
@@ -28,6 +29,7 @@ double element(EventFunction& guard, const VectorXd& values, Index e) {
   }
 }
 
+/// kTermRounding times the terms; 0 where they have no value.
 double noise_of(EventFunction& guard, const VectorXd& values, Index e) {
   try {
     const double terms = guard.terms(values)(e);
@@ -64,6 +66,8 @@ VectorXd EventDoubts::whole(const VectorXd& variables) const {
   return result;
 }
 
+/// |value| <= factor max |g(run) - g(second run)| + noise, at five points from the turn back over a
+/// quarter of the flow before it.
 std::optional<std::string> EventDoubts::of_turn(const NearTurn& turn, const TwinFlow& flow) {
   const int points = 2 * kSamplesBeside + 1;
   if (flow.twin == nullptr) return std::nullopt;
@@ -284,6 +288,7 @@ std::vector<EventDoubts::Guard> EventDoubts::guards(std::size_t event, const Ins
 
 /// By the guard that comes to 0 there.
 void EventDoubts::set_time_error(Instant& at) {
+  // Rounding of the time, and the noise of the guard over its rate.
   at.time_error = 4 * std::numeric_limits<double>::epsilon() * at.t;
   const auto nearest = std::min_element(
       at.own.begin(), at.own.end(),
@@ -342,6 +347,8 @@ bool EventDoubts::fires(std::size_t event, const std::vector<Guard>& guards, con
   });
 }
 
+/// |g_b(g_a(x)) - g_a(g_b(x))| <= kValueRounding of the sizes, element by element; the second event
+/// happens only where it still fires.
 bool EventDoubts::commute(std::size_t other, const std::vector<Guard>& guards, const Instant& at) {
   if (are_independent_(at.event, other)) return true;
   try {

@@ -31,7 +31,7 @@ class EventDoubts {
   explicit EventDoubts(const hybrid::System& system);
 
   struct Doubt {
-    std::size_t part = 0;  ///< of the twins
+    std::size_t part = 0;  ///< of TwinParts
     double t = 0;
     std::string why;
   };

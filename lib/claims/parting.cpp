@@ -29,6 +29,7 @@ void Parting::compute(const Eigen::VectorXd& terms) {
     if (terms(e) > 0) terms_(e) = terms(e);
 }
 
+/// Parted: |own - other| > kParted (range so far) and > kPartedAccuracy (relative size + absolute).
 void Parting::see(double t, const Eigen::VectorXd& own, const Eigen::VectorXd& other) {
   low_ = low_.cwiseMin(own);
   high_ = high_.cwiseMax(own);

@@ -55,6 +55,8 @@ RunCosts::RunCosts(const std::vector<RunCost>& costs, const hybrid::StateLayout&
     integrals_.push_back({cost.element, value_of(cost.flow), value_of(cost.jump)});
 }
 
+/// Splits each step at the breaks of q. c on a part is c so far + half int series, half its half
+/// length.
 void RunCosts::add_to(std::vector<DenseStep>& steps, Integral& integral, bool moved) {
   constexpr double agreement = 1e-12;
   std::vector<DenseStep> all;
@@ -68,6 +70,7 @@ void RunCosts::add_to(std::vector<DenseStep>& steps, Integral& integral, bool mo
       RowVectorXd series = RowVectorXd::Constant(1, std::numeric_limits<double>::quiet_NaN());
       if (!part.undefined) {
         series = half * antiderivative(part.series);
+        // The integral of the largest error of the series of q.
         if (moved) series(0) += 2 * half * part.noise;
         series(0) += integral.total;
       }

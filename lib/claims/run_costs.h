@@ -31,10 +31,11 @@ class RunCosts {
 
   /// Writes c to its element, in all flows and jumps of a run. Where q or g has no value c is not a
   /// number from there on. `moved`: c is moved by what the quadrature may be off, so that the
-  /// difference of a run and its twin shows it.
+  /// difference of the two runs shows it.
   void add_to(hybrid::Trajectory& run, bool moved);
 
  private:
+  /// One cost: the element of c, q, g, and c so far.
   struct Integral {
     Eigen::Index element;
     std::optional<RunValue> rate, jump;

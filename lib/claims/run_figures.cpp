@@ -226,6 +226,7 @@ std::optional<double> FigureOf::mean_before(const Trajectory& run) {
 /// each part.
 template <class Rate>
 std::optional<double> FigureOf::integral(const Trajectory& run, const Rate& rate) {
+  // Nodes and weights on [-1, 1]; exact for polynomials of degree 9.
   constexpr std::array<std::pair<double, double>, 5> rule = {
       {{-0.90617984593866399, 0.23692688505618909},
        {-0.53846931010568309, 0.47862867049936647},

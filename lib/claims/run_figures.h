@@ -1,4 +1,11 @@
 // Figures of a run (model/figure.h), on its dense output.
+//
+//   peak, least       sup v, inf v over the run
+//   settles           the last time at which v >= level
+//   rms, integral     sqrt(int v^2 dt/(b - a)), int v dt over [a, b]
+//   nees              v = e' inv(P) e at one moment
+//   nis               its mean over the jumps of an event that are not lost
+//   count, passes, lost   numbers of jumps
 #pragma once
 
 #include <cstdint>
@@ -44,12 +51,15 @@ class FigureOf {
   std::optional<double> counted(std::optional<double> square);
   std::optional<double> at_event(const hybrid::Trajectory& run);
   std::optional<double> at_time(const hybrid::Trajectory& run);
+  /// The largest v for sign 1, the least for -1; not a number where v has no value somewhere.
   double extreme(const hybrid::Trajectory& run, double sign);
   double extreme(const hybrid::DenseStep& step, double sign, double most);
+  /// 0 where v is below the level from the start on; infinite where it is not below at the end.
   double settled(const hybrid::Trajectory& run, double level);
   double last_above(const hybrid::DenseStep& step, double level);
   template <class Rate>
   std::optional<double> integral(const hybrid::Trajectory& run, const Rate& rate);
+  /// None without such a jump.
   std::optional<double> mean_before(const hybrid::Trajectory& run);
   double number_of(const hybrid::Trajectory& run) const;
 

@@ -2,6 +2,19 @@
 //
 // A claim is judged by its own values along a run. The integral of a flow cost is a variable beside
 // those of the plant and the observers.
+//
+// This room turns runs into verdicts on claims, and into figures, each with an error:
+//
+//   claims, claim_check       the claims, and one claim against the samples of one run
+//   run_setup, run_tracks     what runs share; two runs as samples with error bounds
+//   sample_points, smooth_parts, run_values   where a value is sampled, and its series on a step
+//   text_ball, parting        errors of evaluation and of branches; where two runs have parted
+//   twin_parts, twin_runs     the parts of two runs beside each other
+//   event_doubts, independence   events that errors leave open, and which commute
+//   run_costs, run_figures    costs and figures along the dense output
+//
+// The verdict has three values. `held` and `violated` need the error bound on their side; anything
+// else is `undecided`. The bounds are estimates from two runs, and no proofs.
 #pragma once
 
 #include <memory>

@@ -15,9 +15,10 @@
 
 namespace gainsmith::claims {
 
-/// The runs of one (seed, number) as the samples of the functions: one to an accuracy, and its twin
-/// to a hundredth of it, of which every exact flow and every jump is moved by random units in the
-/// last place (simulate/last_places.h). One for each thread. The setup must outlive it.
+/// The runs of one (seed, number) as the samples of the functions. One is integrated to an
+/// accuracy. The second one, to a hundredth of it, is moved by random units in the last place in
+/// every exact flow and every jump (simulate/last_places.h). One object for each thread. The setup
+/// must outlive it.
 ///
 ///   samples   the sample points along each flow (claims/sample_points.h), and the values after
 ///             each jump; at a point for the sake of one claim only its values, 0 for the others; so
@@ -44,7 +45,7 @@ class RunTracks {
  public:
   explicit RunTracks(const RunSetup& setup);
 
-  /// `factor`: of the accuracy of a campaign. `twin`: one of several twins, moved by other units.
+  /// `factor`: of the accuracy of a campaign. `twin`: which of several perturbed runs.
   const Track& run(std::uint64_t seed, std::uint64_t run, double factor, std::uint64_t twin = 0);
 
   /// Whether flows are integrated, so that a smaller factor means smaller errors.
@@ -75,8 +76,12 @@ class RunTracks {
   bool has_parted(std::size_t function) const {
     return parted_[static_cast<std::size_t>(setup_->first_of_claim[function])] != 0;
   }
+  /// Rises below the noise of the integration are not sought.
   RiseLimits limits_of_rises(const Eigen::VectorXd& start, double accuracy);
+  /// Why the samples end: the horizon, an end that both runs share, or a doubt.
   void end(const hybrid::Trajectory& coarse, const hybrid::Trajectory& fine, bool certain);
+  /// Bounds of the samples from `first` on: factor (largest difference around) + 8 u |value| +
+  /// rounding of the evaluation.
   void widen(std::size_t first);
   bool counts(const SamplePoint& point, std::size_t function) const;
   void come_to(std::size_t event);

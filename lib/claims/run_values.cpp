@@ -67,6 +67,7 @@ std::optional<numbers::Range> RunValue::range() {
 
 namespace {
 
+/// Points strictly inside, then the end of the flow.
 void visit_flow(const hybrid::FlowPiece& flow, double step,
                 const std::function<void(const Moment&)>& seen) {
   const auto see = [&](const hybrid::DenseStep& in, double t) {

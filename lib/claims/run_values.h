@@ -23,6 +23,7 @@ class RunValue {
 
   /// Not a number where it has no value.
   const numbers::Matrix& operator()(const Eigen::VectorXd& x);
+  /// The same of a 1 x 1 text.
   double number(const Eigen::VectorXd& x);
 
   /// How far the computed value at x may be from the true one, constants being decimals that are

@@ -90,6 +90,7 @@ double time_of(const SamplePoints::Peak& peak, const FlowPiece& flow, RunValue& 
   double best = flow.to();
   double most = -std::numeric_limits<double>::infinity();
   for (const Top& top : tops) {
+    // A top of the series may lie above its points by the rise beside it at most.
     if (top.value + top.rise <= most) continue;
     const double refined = numerics::peak_between(at, top.before, top.after);
     for (const double t : {top.t, refined})

@@ -23,6 +23,7 @@ constexpr int largest_degree = tried_degrees.back();
 constexpr std::array<double, 2> check_points = {-0.617, 0.443};
 constexpr int evaluations_of_part = largest_degree + 1 + static_cast<int>(check_points.size());
 
+/// Adaptive interpolation: degrees 4, 8, 16 share their points; a part that none follows is halved.
 class Halving {
  public:
   Halving(RunValue& value, const hybrid::DenseStep& step, double agreement)
@@ -68,6 +69,7 @@ class Halving {
       RowVectorXd seen(degree + 1);
       for (int k = 0; k <= degree; ++k) seen(k) = values[static_cast<std::size_t>(apart * k)];
       part.series = chebyshev::coefficients(seen);
+      // The last two coefficients, and the error at two points that are no nodes.
       double error = part.series.tail(2).cwiseAbs().sum();
       for (std::size_t k = 0; k < check_points.size(); ++k)
         error = larger(error, std::abs(chebyshev::first(part.series, check_points[k]) - checks[k]));

@@ -1,6 +1,10 @@
 // Errors of a text in double, by enclosures (numbers/enclosure.h): what its evaluation
 // rounds, and what errors of the variables make of it where it branches. Two runs that are compared
 // do not show either: they round alike, and may both take the wrong branch.
+//
+// An enclosure is a mid and a radius for each element: the true value lies in [mid - rad, mid +
+// rad] for all variables in [x - r, x + r]. `where`, `max` and `min` with an uncertain branch give
+// the hull of both branches.
 #pragma once
 
 #include <Eigen/Core>

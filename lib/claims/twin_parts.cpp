@@ -120,7 +120,7 @@ class Pairs {
     return result;
   }
 
-  /// So many jumps of both; the twin's are taken again.
+  /// So many jumps of both; those of the second run are taken again.
   bool in_order(const Instant& own, std::size_t count, const Instant& other,
                 std::size_t other_count) {
     const auto start = before_next();
@@ -152,7 +152,7 @@ class Pairs {
     return true;
   }
 
-  /// The twin's values and time there; none where nothing is left of it.
+  /// Values and time of the second run there; none where nothing is left of it.
   std::optional<std::pair<VectorXd, double>> before_next() const {
     if (other_ < twin_.parts.size()) {
       const auto& part = twin_.parts[other_];

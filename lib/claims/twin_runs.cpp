@@ -67,7 +67,7 @@ TwinRun TwinRuns::made(std::uint64_t seed, std::uint64_t run, const simulate::Ac
   result.run = simulator_.run(seed, run, accuracy);
   result.twin = simulator_.run(seed, run, coarser, {}, 0);
   check_stop();
-  // The turning points are those of the twin.
+  // The turning points are those of the second run.
   const TwinParts parts = pair_twins(result.twin, result.run, setup_->system, doubts_.maps());
   compare(parts, accuracy, result);
   const bool same = parts.whole && result.run.ending == result.twin.ending &&

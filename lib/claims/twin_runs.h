@@ -12,8 +12,8 @@
 
 namespace gainsmith::claims {
 
-/// The run of a (seed, number), and a twin to a hundred times its accuracy that is moved in the last
-/// places (simulate/last_places.h).
+/// The run of a (seed, number), and a second one whose errors may be a hundred times as large. The
+/// second one is moved in the last places (simulate/last_places.h).
 struct TwinRun {
   hybrid::Trajectory run, twin;
   double accuracy = 0;  ///< of the run, relative; 0 where flows are exact
@@ -38,8 +38,8 @@ class TwinRuns {
   explicit TwinRuns(const RunSetup& setup)
       : setup_(&setup), simulator_(setup.system, setup.scenario), doubts_(setup.system) {}
 
-  /// The run to a hundredth of `usual`, the twin to it, unless the campaign asks for another
-  /// accuracy; times a factor. A stop (base/stop.h) is thrown.
+  /// The run to a hundredth of `usual`, the second one to `usual`, unless the campaign asks for
+  /// another accuracy; times a factor. A stop (base/stop.h) is thrown.
   TwinRun operator()(std::uint64_t seed, std::uint64_t run, double usual, double factor = 1);
   /// The same, both in 31 digits: of setups whose runs may be made so.
   TwinRun in_31_digits(std::uint64_t seed, std::uint64_t run, double usual);

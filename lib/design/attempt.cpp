@@ -15,6 +15,7 @@ namespace gainsmith::design {
 
 namespace {
 
+/// The margins of all inequalities at x, with the check of its decimals.
 verdict::Margins margins_at(const Posed& posed, const Attempt& attempt,
                             const std::vector<double>& x) {
   return verdict::compute_margins(posed.inequalities, posed.lmi, attempt.formulation.balance,
@@ -47,6 +48,8 @@ void take_point_beyond_double(const Posed& posed, const std::vector<double>& x, 
   result.margins = std::move(margins);
 }
 
+/// The attempt at a minimum: large programs by the solver in matrices first, whose point the
+/// interior-point method goes on from; then a refinement (minimum.h).
 void solve_objective(const Posed& posed, const Solve& solve, Attempt& result) {
   const Question& asked = result.question;
   result.formulation = lmi::pose_objective(posed.lmi, asked.bounds, asked.shift);
@@ -92,6 +95,8 @@ class Interior {
   /// More digits are worth having only for data that have them.
   bool is_wide() const { return asked_.effort.precision != "auto"; }
 
+  /// The program of one round and its solution. In double the solver in matrices is tried first; in
+  /// more digits the coefficients are those of the file's decimals.
   Solved operator()(const lmi::Round& round) {
     const lmi::Exactly exactly = [this](std::size_t k, const lmi::Balance& balance,
                                         const std::vector<int>& kept) {
@@ -129,6 +134,7 @@ class Interior {
   const Question& asked_;
   const Solve& solve_;
   std::optional<lmi::Formulation> of_all_rows_;
+  /// Made at the first use, for one balance.
   std::optional<verdict::ExactBlocks<Decimal100>> exact_;
 };
 
@@ -136,6 +142,8 @@ class Interior {
 /// the one that the result has.
 std::optional<Interior::Solved> solve_interior(const Posed& posed, Interior& interior,
                                                Attempt& result) {
+  // Each round starts from the margin of the last (lmi/formulation.h). The margin of a round must
+  // rise by 1e-3 of itself for another one.
   constexpr int kMostRounds = 8;
   constexpr double kRises = 1e-3;
   lmi::Round round;
@@ -167,6 +175,7 @@ std::optional<Interior::Solved> solve_interior(const Posed& posed, Interior& int
 }
 
 /// The multipliers of the first round.
+/// Where they exclude every solution, the attempt takes their program.
 void refute(const Posed& posed, const Solve& solve, Interior::Solved solved, Attempt& result) {
   result.refutation =
       find_certificate(posed, result.question.effort, solved.formulation, solved.solution, solve);
@@ -178,6 +187,7 @@ void refute(const Posed& posed, const Solve& solve, Interior::Solved solved, Att
 }  // namespace
 
 bool is_near_optimal(const sdp::Solution& solution) {
+  // A relative gap at which the objective is known to six digits.
   constexpr double kNear = 1e-6;
   if (solution.status == sdp::Status::optimal) return true;
   // A solver that is stopped before its first iteration has no point and no gap.
@@ -206,6 +216,7 @@ Attempt attempt(const Posed& posed, Question question, const Solve& solve) {
   std::optional<Interior::Solved> first = solve_interior(posed, interior, result);
   complete(posed, result);
   if (result.holds()) return result;
+  // A margin that was enough in double and does not hold: the largest one is asked for.
   if (result.solution.cause == sdp::Cause::enough) {
     result.question.largest = true;
     return attempt(posed, std::move(result.question), solve);
@@ -226,8 +237,8 @@ Attempt attempt(const Posed& posed, Question question, const Solve& solve) {
 
 namespace {
 
-/// At `least`, a fraction of the way to the point inside, where every inequality holds; by the
-/// records of `minimum`.
+/// The point x + fraction (x_f - x), x_f the point inside, with the records of `minimum`; none
+/// where an inequality does not hold there.
 std::optional<Attempt> between(const Posed& posed, const Attempt& minimum, std::vector<double> x,
                                const Attempt& inside, double fraction) {
   for (std::size_t i = 0; i < x.size(); ++i) x[i] += fraction * (inside.x[i] - x[i]);
@@ -247,6 +258,7 @@ std::optional<Attempt> blended_from(const Posed& posed, const Attempt& minimum,
   if (!is_finite(least)) return std::nullopt;
   constexpr std::array kFractions = {1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7,
                                      1e-6,  1e-5,  1e-4,  1e-3, 1e-2, 1e-1};
+  // Of the decade between a fraction that fails and one that holds, on a logarithmic scale.
   constexpr int kHalvings = 3;
   for (double e : kFractions) {
     auto result = between(posed, minimum, least, inside, e);
@@ -264,8 +276,8 @@ std::optional<Attempt> blended_from(const Posed& posed, const Attempt& minimum,
   return std::nullopt;
 }
 
-/// 1 + x_i/r_i >= 0 and 1 - x_i/r_i >= 0 beside the bounds, with r_i = kReach times the largest unknown of
-/// the point inside, in balanced units.
+/// |x_i| <= r_i beside the bounds, as 1 + x_i/r_i >= 0 and 1 - x_i/r_i >= 0, with r_i = kReach
+/// times the largest unknown of the point inside, in balanced units.
 lmi::GainBounds within_reach(const Attempt& minimum, const Attempt& inside) {
   constexpr double kReach = 1e3;
   lmi::GainBounds bounds = minimum.question.bounds;
@@ -292,6 +304,7 @@ lmi::GainBounds within_reach(const Attempt& minimum, const Attempt& inside) {
 
 std::optional<Attempt> near_minimum(const Posed& posed, const Attempt& minimum,
                                     const Attempt& inside) {
+  // Of the objective, and of the distance to the point inside.
   constexpr double kCost = 1e-8, kMost = 1e-3;
   const double least = posed.lmi.objective_at(minimum.x);
   const double cost = std::abs(posed.lmi.objective_at(inside.x) - least);

@@ -16,7 +16,9 @@ namespace gainsmith::design {
 /// How hard the solver tries: its arithmetic, and the relative gap at which it stops; where it
 /// begins, and what is enough (sdp::Options).
 struct Effort {
+  /// "auto", "double", "quad" (31 digits) or "100" (100 digits).
   std::string precision = "auto";
+  /// Relative gap of the objectives and infeasibility (sdp::Options).
   double tolerance = 1e-9;
   const sdp::Solution* from = nullptr;
   std::function<bool(const std::vector<double>& x)> enough = {};
@@ -63,7 +65,7 @@ struct Attempt {
   /// Of an interior question without bounds and without a point.
   std::optional<verdict::Refutation> refutation;
   /// Of an interior question without a point: what its multipliers leave for the blocks as they
-  /// were solved, gain bounds and corners of boxes included (lmi::relaxed_backward_error).
+  /// were solved, gain bounds and corners of boxes included (verdict/relaxed_backward_error.h).
   double relaxed_backward_error = 1;
   /// Whether its multipliers would have led further with more work (base/stop.h).
   bool out_of_allowance = false;
@@ -96,16 +98,17 @@ struct Attempt {
 /// Pure: the same question of the same blocks has the same answer.
 Attempt attempt(const Posed& posed, Question question, const Solve& solve);
 
-/// A point between the minimum and a point inside: x(e) = x* + e (x_f - x*) with the smallest e =
-/// 1e-12, 1e-11, ... for which every inequality holds:  B(x(e)) >= e B(x_f) + (1 - e) B(x*).  The
-/// attempt of the minimum with that point. Where there is no such e below 1, x* is the minimum over
-/// unknowns up to 1000 times those of x_f: the infimum is only approached, as they grow without end.
+/// A point between the minimum and a point inside: x(e) = x* + e (x_f - x*) with the smallest
+///   e = 1e-12, 1e-11, ... for which every inequality holds: B(x(e)) >= e B(x_f) + (1 - e) B(x*).
+/// The attempt of the minimum with that point. Where there is no such e below 1, x* is the minimum
+/// over unknowns up to 1000 times those of x_f: the infimum is only approached, as they grow
+/// without end.
 std::optional<Attempt> blended(const Posed& posed, const Attempt& minimum, const Attempt& inside,
                                const Solve& solve);
 
-/// The point between them whose objective is 1e-8 of itself above that of the minimum's point, where
-/// every inequality holds there: what fails between the points of an exchange then fails by so
-/// little that more points would not change the optimum.
+/// The point between them whose objective is 1e-8 of itself above that of the minimum's point,
+/// where every inequality holds there. What fails between the points of an exchange then fails by
+/// so little that more points would not change the optimum.
 std::optional<Attempt> near_minimum(const Posed& posed, const Attempt& minimum,
                                     const Attempt& inside);
 

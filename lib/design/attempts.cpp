@@ -22,6 +22,7 @@ struct Attempts {
   static bool has_minimum(const Climb& climb) {
     return lmi::has_minimum(climb.posed_.lmi, climb.bounds_);
   }
+  /// Neither a yes within the bounds nor a refutation.
   static bool nothing_holds(const Climb& climb) {
     const Attempt* point = climb.point();
     return (point == nullptr || !climb.is_yes(*point)) && climb.refutation() == nullptr;
@@ -49,6 +50,7 @@ struct Attempts {
     const Attempt* large = climb.find(AttemptKind::large_minimum);
     return large != nullptr ? large : climb.find(AttemptKind::minimum);
   }
+  /// The minimum is found but its point does not hold, and a point inside does.
   static bool blended_is_due(const Climb& climb) {
     const Attempt* minimum = last_minimum(climb);
     const Attempt* inside = climb.find(AttemptKind::inside);
@@ -66,9 +68,11 @@ struct Attempts {
   static bool free_minimum_is_due(const Climb& climb) {
     return is_bounded(climb) && minimum_is_due(climb) && nothing_holds(climb);
   }
+  /// More digits are of use only where the blocks come from the decimals of the file.
   static bool digits_are_due(const Climb& climb) {
     return climb.posed_.wide && climb.posed_.lmi.represents_points() && nothing_holds_at_all(climb);
   }
+  /// Nothing holds, or a certificate excludes that is not exact.
   static bool faces_are_due(const Climb& climb) {
     const Attempt* refuted = climb.refutation();
     const bool inexact = refuted != nullptr && !refuted->refutation->exact && climb.posed_.wide &&
@@ -79,6 +83,7 @@ struct Attempts {
   static bool equations_are_due(const Climb& climb) {
     return climb.posed_.lmi.represents_points() && !has_room(climb);
   }
+  /// A yes at a minimum, with a gain that is large without being at its bound.
   static bool tighter_is_due(const Climb& climb) {
     const Attempt* point = climb.point();
     if (!climb.posed_.check.describe || point == nullptr || !climb.is_yes(*point) ||
@@ -111,6 +116,7 @@ struct Attempts {
     }
     return result;
   }
+  /// Relative gap 1e-8, with the margin that the problem asks for.
   static Question objective(const Climb& climb, lmi::GainBounds bounds) {
     return {lmi::Goal::objective, std::move(bounds), {"auto", 1e-8}, climb.posed_.choices().margin};
   }
@@ -141,6 +147,7 @@ struct Attempts {
   static std::optional<Attempt> in_31_digits(const Climb& climb) {
     return ask(climb, interior({}, {"quad", 1e-22}));
   }
+  /// Without bounds on gains; where its gains are too large, once more with them.
   static std::optional<Attempt> facial_reduction(const Climb& climb) {
     auto found = measured(climb, attempt_facial_reduction(climb.posed_, {}, climb.solve_));
     if (!found || !found->holds() || climb.is_yes(*found)) return found;
@@ -160,6 +167,7 @@ struct Attempts {
 
 namespace {
 
+/// One line of the table in attempts.h: its condition, its question and its name for progress.
 struct Row {
   AttemptKind kind;
   bool (*is_due)(const Climb&);
@@ -245,7 +253,9 @@ void Climb::climb(bool to_end) {
 }
 
 double Climb::allowance() const {
+  // Seconds, and times the work of one solution in double.
   constexpr double kLeast = 2, kMost = 60, kTimes = 20;
+  // Iterations of the interior-point method, as a rule.
   constexpr double kIterations = 20;
   if (posed_.choices().full_effort) return std::numeric_limits<double>::infinity();
   // Never less than the solver itself takes in double.

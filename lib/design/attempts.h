@@ -22,8 +22,8 @@
 //                                                              them alone
 //
 // (An exchange grows by the points at which a solution fails, and begins again. After some rounds a
-// point near the minimum ends it.) Each attempt is made once at most and its record stays; what they
-// mean together is conclude(). A no comes from an attempt without bounds.
+// point near the minimum ends it.) Each attempt is made once at most and its record stays; what
+// they mean together is conclude(). A no comes from an attempt without bounds.
 #pragma once
 
 #include <functional>
@@ -87,18 +87,23 @@ class Climb {
   const lmi::GainBounds& bounds() const { return bounds_; }
   double seconds() const { return seconds_; }
   /// Whether what is left would have taken more than the allowance: 20 times the work of the solver
-  /// in double, but at least two and at most sixty seconds; any with full effort.
+  /// in double, but at least two and at most sixty seconds, and never less than twice that work.
+  /// With full effort there is no limit.
   bool is_out_of_allowance() const { return out_of_allowance_; }
 
  private:
   friend struct Attempts;
 
+  /// Makes the attempts that are due, in their order; without `to_end` until a point or a
+  /// refutation.
   void climb(bool to_end);
   /// One attempt, within the allowance.
   template <class Tries>
   void make(AttemptKind kind, const char* doing, const Tries& tries);
+  /// Seconds of work for all attempts together (base/stop.h).
   double allowance() const;
 
+  /// The inequalities and the plan that it refers to outlive this object.
   const Posed posed_;
   lmi::GainBounds bounds_;
   Solve solve_;
@@ -106,8 +111,8 @@ class Climb {
   std::optional<Attempt> inside_;  ///< holds
   std::set<AttemptKind> done_;     ///< those that came to nothing included
   std::string doing_;
-  double seconds_ = 0;
-  double spent_ = 0;
+  double seconds_ = 0;  ///< measured time of all attempts
+  double spent_ = 0;    ///< work, in the seconds of an allowance
   bool out_of_allowance_ = false;
 };
 

@@ -13,8 +13,8 @@ namespace gainsmith::design {
 
 namespace {
 
-/// A value that is infeasible for the hull or the vertex test only counts as infeasible; what the certificate
-/// is limited to is said.
+/// A value that is infeasible for the hull or the vertex test only counts as infeasible; what the
+/// certificate is limited to is said.
 search::Answer answer_of(const model::Gains& gains) {
   if (gains.verdict == model::Verdict::yes) return search::Answer::yes;
   const bool infeasible = gains.verdict == model::Verdict::no || gains.certificate;
@@ -100,6 +100,7 @@ BisectResult bisect(const model::Instance& own, const model::Overrides& fixed,
     overrides.insert(own.overrides.begin(), own.overrides.end());
     return overrides;
   };
+  // refused: the assumptions of the method exclude the value.
   const auto question = [&](double value) {
     const model::Overrides overrides = overrides_at(value);
     try {
@@ -123,6 +124,7 @@ BisectResult bisect(const model::Instance& own, const model::Overrides& fixed,
   BisectResult result;
   result.found = search::bisect(question, choices.scalar.axis, options);
   // The ends of a bracket alone are told of in full.
+  // In the search itself margins are computed only as far as the verdict rests on them.
   const bool in_full = choices.depth == Depth::thorough && !is_stopping();
   for (const auto& end : {result.found.yes, result.found.no}) {
     if (!end || !in_full) continue;

@@ -16,7 +16,7 @@ namespace gainsmith::design {
 
 struct BisectChoices {
   SearchedScalar scalar;
-  bool largest = true;
+  bool largest = true;  ///< otherwise the smallest value with gains
   search::Tolerance tolerance;
   std::optional<double> guess;  ///< see search::BisectOptions
   Depth depth = Depth::thorough;

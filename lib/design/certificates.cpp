@@ -16,6 +16,7 @@ bool excludes(const verdict::Refutation& found) {
   return found.exact || found.backward_error <= verdict::kNothing;
 }
 
+/// The certificates of certificates.h, each with its own work, for one interior solution.
 class Certificates {
  public:
   Certificates(const Posed& posed, const Effort& effort, const lmi::Formulation& formulation)
@@ -23,6 +24,7 @@ class Certificates {
 
   bool in_double() const { return effort_.precision == "auto"; }
 
+  /// Steps 1 and 6: the solver's multipliers as they are.
   verdict::Refutation exact(const sdp::Solution& solution, verdict::Exactness exactness) const {
     const auto Y = multipliers(solution);
     auto found =
@@ -50,6 +52,7 @@ class Certificates {
             std::make_shared<const verdict::AlgebraicCertificate>(*std::move(found))};
   }
 
+  /// Step 3: with the solution beside them.
   verdict::Refutation on_boundary(const sdp::Solution& solution) const {
     return verdict::refute_on_boundary(posed_.inequalities, posed_.lmi, formulation_, solution);
   }

@@ -15,6 +15,8 @@ namespace gainsmith::design {
 
 namespace {
 
+/// Status, cause and errors of the solver. The DIMACS error 3 is the infeasibility of the program
+/// in x, error 1 that of its dual in Y (sdp/solution.h).
 model::SolverRecord record_of(const Attempt& attempt, bool has_objective) {
   const sdp::Solution& solution = attempt.solution;
   model::SolverRecord record;
@@ -66,6 +68,7 @@ void note_failures(const Attempt& point, model::Gains& gains) {
 /// A gain that the objective does not determine is limited by its bound alone, wherever between
 /// them the solver stops: with a bound ten times smaller the objective stays and the gain shrinks.
 void mark_free_gains(const Attempt& tighter, const lmi::Lmi& lmi, model::Gains& gains) {
+  // Relative: to the bound, to the objective, and to the gain under the larger bound.
   constexpr double kNear = 0.01;
   constexpr double kSameObjective = 1e-6;
   constexpr double kShrunk = 0.5;
@@ -82,6 +85,7 @@ void mark_free_gains(const Attempt& tighter, const lmi::Lmi& lmi, model::Gains& 
 }
 
 /// "flow at i = 1, tau = 0.7683593750000002": with the numbers of its point in all decimals.
+/// A reader of a certificate evaluates the block at this point, so no decimal may be missing.
 std::string name_of(const lmi::Block& block) {
   std::string name = block.name;
   std::string_view rest = block.point;
@@ -151,6 +155,7 @@ void add_lower_bound(const Climb& climb, const Attempt& point, model::Gains& gai
                                 point.solution);
   };
   // What the inequalities alone show is about all gains, and anybody can repeat it.
+  // Of the objective.
   constexpr double kSame = 1e-7;
   auto least = within({});
   if (!least || least->value < *gains.objective - kSame * std::abs(*gains.objective))
@@ -178,6 +183,7 @@ std::optional<double> solver_objective(const Climb& climb) {
 
 /// The greater of two lower bounds near the objective that a certificate shows.
 void bound_by_certificate(const ExcludesObjective& excludes, model::Gains& gains) {
+  // Parts of the objective; the first is within the bracket of an optimum, 1e-6.
   for (const double away : {9e-7, 1e-4}) {
     const double below = *gains.objective - away * std::abs(*gains.objective);
     if (gains.objective_lower_bound >= below) return;
@@ -194,8 +200,8 @@ void bound_by_certificate(const ExcludesObjective& excludes, model::Gains& gains
   }
 }
 
-/// A minimum is one that a bound brackets to 1e-6 of its size: for all solutions, or for those whose
-/// unknowns are at most twice as large. A margin that was asked for has its price.
+/// A minimum is one that a bound brackets to 1e-6 of its size: for all solutions, or for those
+/// whose unknowns are at most twice as large. A margin that was asked for has its price.
 void note_bracket(const Climb& climb, const Attempt& point, const ExcludesObjective& excludes,
                   model::Gains& gains) {
   const auto& least = gains.objective_lower_bound;
@@ -219,6 +225,8 @@ void note_bracket(const Climb& climb, const Attempt& point, const ExcludesObject
           : std::string("how near the objective is to the optimum is not shown"));
 }
 
+/// The objective of a point: with a lower bound where it is a minimum, else with the reason why
+/// not.
 void note_objective(const Climb& climb, const Attempt& point, const ExcludesObjective& excludes,
                     model::Gains& gains) {
   const lmi::Lmi& lmi = climb.posed().lmi;
@@ -259,6 +267,9 @@ void note_objective(const Climb& climb, const Attempt& point, const ExcludesObje
              : std::string()));
 }
 
+/// A yes with its unknowns, margins and bounds, or what the best point falls short of. A yes
+/// without the bounds on gains is undecided where the problem states a bound and its gains exceed
+/// it.
 void accept_point(const Climb& climb, const Attempt& point, const ExcludesObjective& excludes,
                   model::Gains& gains) {
   const lmi::Lmi& lmi = climb.posed().lmi;
@@ -306,6 +317,7 @@ void accept_point(const Climb& climb, const Attempt& point, const ExcludesObject
     mark_free_gains(*tighter, lmi, gains);
 }
 
+/// The certificate as exact decimals or fractions in text: p, and (z_k, c_k) of each multiplier.
 model::AlgebraicRecord record_of(const verdict::AlgebraicCertificate& certificate,
                                  const lmi::Lmi& lmi) {
   model::AlgebraicRecord record{certificate.matrix,
@@ -342,6 +354,7 @@ model::NamedMatrices rounded_multipliers(const verdict::AlgebraicCertificate& ce
   return result;
 }
 
+/// A no with its certificate: exact multipliers, a chain of steps, or multipliers in double.
 void accept_refutation(const Climb& climb, const Attempt& refuted, model::Gains& gains) {
   const verdict::Refutation& found = *refuted.refutation;
   const lmi::Lmi& lmi = climb.posed().lmi;
@@ -359,8 +372,8 @@ void accept_refutation(const Climb& climb, const Attempt& refuted, model::Gains&
   }
 }
 
-/// What shows that the last program has no solution. It is exact of the coefficients in double where
-/// these are of corners that no value of the variables reaches.
+/// What shows that the last program has no solution. It is exact of the coefficients in double
+/// where these are of corners that no value of the variables reaches.
 model::CertificateRecord relaxed_certificate(const Climb& climb) {
   const lmi::Lmi& lmi = climb.posed().lmi;
   const Attempt& last = climb.last();
@@ -377,6 +390,7 @@ model::CertificateRecord relaxed_certificate(const Climb& climb) {
 }
 
 /// What is known where neither a point nor a certificate decides.
+/// The largest margin, and the backward error of the best certificate.
 void note_undecided(const Climb& climb, model::Gains& gains) {
   const Attempt& last = climb.last();
   const auto& refutation = last.refutation;

@@ -27,6 +27,7 @@ void require_convex(const model::Instance& instance) {
   constexpr double kClearly = 1e-9;  // of the norm: no rounding of the data or of eigenvalues
   for (const model::Design::Square& square : instance.design->squares) {
     const numbers::Matrix Q = numbers::evaluate(square.weight, instance.values);
+    // First in double; fractions decide what is near 0.
     const double least = numbers::symmetric_eigenvalues((Q + Q.transpose()) / 2)(0);
     if (least > kClearly * Q.norm()) continue;
     const std::optional<bool> convex = is_semidefinite(square.weight, instance);

@@ -42,6 +42,7 @@ void add_relaxed(const Design::Inequality& inequality, const std::string& slack,
 }
 
 /// a < b becomes a + diag(scale) < b.
+/// Only of strict comparisons.
 Design::Inequality demanding(Design::Inequality inequality, const std::vector<double>& scale) {
   for (Design::Comparison& comparison : inequality.comparisons)
     if (comparison.strict)
@@ -56,6 +57,7 @@ Design::Inequality not_negative(const std::string& slack, const Design::Inequali
   return {slack, {}, {{slack, program, false}}, of.place, of.place};
 }
 
+/// names_1 + names_2 + ... as an objective.
 model::Formula sum_of(const std::vector<std::string>& names, const std::string& file) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : " + ") + name;
@@ -85,6 +87,7 @@ model::Instance without_objective(const model::Instance& instance) {
 model::Instance with_objective_below(const model::Instance& instance, double value) {
   const model::Formula& objective = *instance.design->objective;
   expr::Composer compose(objective.place);
+  // value - c'x >= 0.
   const int difference =
       compose.apply(expr::Op::subtract,
                     {compose.number(decimal17(value)), compose.program(objective.program)}, {1, 1});

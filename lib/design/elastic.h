@@ -41,11 +41,11 @@ Diagonals row_scales_of(const model::Instance& instance);
 ByInequality scales_of(const model::Instance& instance);
 
 /// Every inequality k of `scales` relaxed by an unknown slack t_k >= 0,
-///   a < b   becomes   a < b + t_k diag(s_k)
+///     a < b   becomes   a < b + t_k diag(s_k)
 /// (each comparison of a chain), and minimize: the sum of the slacks. Where nothing has a constant
 /// part, strict inequalities, relaxed or not, have to hold with room D_k before the slack, their
-/// row_scales_of: a + D_k < b + t_k diag(s_k), so that t_k = 1 gives all of it up. `slacks` receives
-/// the names of the unknowns t_k by inequality.
+/// row_scales_of: a + D_k < b + t_k diag(s_k). So t_k = 1 gives all of it up. `slacks` receives the
+/// names of the unknowns t_k by inequality.
 model::Instance elastic(const model::Instance& instance, const Diagonals& scales,
                         std::map<std::string, std::string>& slacks);
 
@@ -62,6 +62,7 @@ Slacks smallest_slacks(const model::Instance& instance, const ByInequality& scal
 
 /// About the smallest sum of slacks, at the first points of each domain, in double and unchecked: a
 /// guide for searches, which does not depend on units. None where the solver comes to nothing.
+/// Of no use as a proof.
 std::optional<double> estimated_violation(const model::Instance& instance, const Diagonals& scales,
                                           const sdp::Options& solver);
 

@@ -21,6 +21,8 @@ bool grow(forall::Plan& plan, const lmi::Inequalities& inequalities, const lmi::
     if (plan.inequalities[violation.inequality].way == model::Way::exchange &&
         fresh[violation.inequality].size() < kMostAtOnce)
       fresh[violation.inequality].push_back(violation.point);
+  // Points that a proof shows to fail are added however near another point is; those of a search
+  // not.
   bool grown = false;
   for (const verdict::Violation& violation : attempt.margins.violations)
     if (violation.certain && plan.inequalities[violation.inequality].way == model::Way::exchange)
@@ -32,6 +34,7 @@ bool grow(forall::Plan& plan, const lmi::Inequalities& inequalities, const lmi::
     forall::Imposed& imposed = plan.inequalities[k];
     const auto sizes = lmi::multiplier_sizes(lmi, attempt.formulation, attempt.solution,
                                              statement.stated->name, imposed.points.size());
+    // tr(Y_k) of the points tells where they draw together.
     for (forall::Point& centre : forall::centres(imposed, statement.domain, sizes))
       points.push_back(std::move(centre));
     for (const forall::Point& point : points)

@@ -1,4 +1,6 @@
-// More points for the inequalities that are imposed by exchange.
+// More points for the inequalities that are imposed by exchange, an outer approximation of a
+// semi-infinite program: the inequality holds at finitely many points of its domain, and points
+// where its solution fails are added until it holds everywhere (Hettich & Kortanek 1993).
 #pragma once
 
 #include "design/attempt.h"
@@ -7,6 +9,7 @@ namespace gainsmith::design {
 
 /// Adds to each exchange of the plan the worst points at which the attempt's point fails, and those
 /// where its points draw together (forall/centres.h); false when there is none.
+/// At most 24 points that fail are added at once, the worst first, and the centres.
 bool grow(forall::Plan& plan, const lmi::Inequalities& inequalities, const lmi::Lmi& lmi,
           const Attempt& attempt);
 

@@ -14,6 +14,7 @@ namespace gainsmith::design {
 
 namespace {
 
+/// Whether a scalar of the request is in what the inequalities of the design are made of.
 bool is_changed(const model::Design& design, const SearchRequest& request) {
   const std::vector<std::string> used = scalars_in_use(design);
   const auto uses = [&](const SearchedScalar& scalar) {

@@ -1,4 +1,5 @@
-// A no for all values of what is searched.
+// A no for all values of what is searched: inequalities that contain none of the searched scalars
+// hold or fail for all values alike, and a certificate against them alone excludes every value.
 #pragma once
 
 #include <optional>

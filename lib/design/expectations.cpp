@@ -26,6 +26,7 @@ std::string listed(std::vector<std::string> names) {
   return text.empty() ? "none" : text;
 }
 
+/// Collects the differences, one sentence each.
 class Comparison {
  public:
   Comparison(const model::Instance& instance, const model::Gains& gains)
@@ -42,6 +43,7 @@ class Comparison {
     add(place, what, wanted + " (no 'expect' says otherwise)", found);
   }
 
+  /// A value within max(absolute, relative |expected|) of the expected one, at most, or at least.
   void value(const model::Design::ExpectedValue& expected) {
     const auto value = results_.value(expected.what);
     if (!value) return add(expected.place, expected.name, "a value", "none");

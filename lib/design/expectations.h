@@ -10,8 +10,8 @@
 
 namespace gainsmith::design {
 
-/// Whether the verdict is not yes where yes, or another word, is expected: then there is nothing else
-/// to compare.
+/// Whether the verdict is not yes where yes, or another word, is expected: then there is nothing
+/// else to compare.
 bool lacks_gains(const model::Design& design, const model::Gains& gains);
 
 /// The differences between what `expect:` says and what was found, one sentence each, with the

@@ -28,6 +28,7 @@ bool holds_at_zero(const model::Instance& instance) {
   return lmi::is_homogeneous(lmi.blocks) && std::ranges::none_of(lmi.blocks, &lmi::Block::strict);
 }
 
+/// Names, the last inequality first.
 std::vector<std::string> in_reverse(const std::vector<model::Design::Inequality>& inequalities) {
   std::vector<std::string> names;
   for (auto at = inequalities.rbegin(); at != inequalities.rend(); ++at) names.push_back(at->name);
@@ -120,7 +121,8 @@ std::set<std::string> all_names(const model::Design& design) {
   return names;
 }
 
-/// Appends to `relaxations`, which keep what was found when it is stopped.
+/// For each inequality the smallest slack when it alone is relaxed, and its slack in the smallest
+/// sum of all. Appends to `relaxations`, which keep what was found when it is stopped.
 void find_relaxations(const model::Instance& instance, const sdp::Options& solver,
                       std::vector<Relaxation>& relaxations) {
   const model::Instance plain = without_gains(instance);
@@ -144,6 +146,7 @@ void find_relaxations(const model::Instance& instance, const sdp::Options& solve
 }
 
 /// The reach in one direction, within the range.
+/// It is the bracket of a bisection with a tenth of the default tolerance.
 Reach reach(const model::Instance& instance, const SearchedScalar& scalar, double value,
             bool at_most, const sdp::Options& solver) {
   // A fine bracket: the number is what people remember.
@@ -188,6 +191,7 @@ std::vector<Reach> reaches_along(const model::Instance& instance, const model::R
 /// What excludes more of the scalar than the reach says, a little further out.
 void find_what_stops(const model::Instance& instance, const sdp::Options& solver, Reach& reach) {
   constexpr double kFurther = 0.01;  // of the distance to the end of the range
+  // One hundredth of what is left of the range beyond the bracket.
   const double limit = reach.beyond.value_or(*reach.feasible);
   if (limit == reach.end) return;
   reach.conflict_at = limit + kFurther * (reach.end - limit);
@@ -233,6 +237,7 @@ std::optional<Conflict> find_conflict(const model::Instance& instance, const mod
   const bool is_certified = gains.certificate && gains.certificate->is_about_problem();
   model::Gains certified = is_certified ? gains : subset(plain, names, solver);
   if (certified.verdict != model::Verdict::no) {
+    // The inequalities alone are not excluded: the bound on gains is the conflict, or part of it.
     const bool bounded = design.synthesis.gain_bound && !design.gains.empty();
     conflict.gain_bound = bounded && certified.verdict == model::Verdict::yes;
     conflict.within_gain_bound = bounded && !conflict.gain_bound;
@@ -242,6 +247,8 @@ std::optional<Conflict> find_conflict(const model::Instance& instance, const mod
     return conflict;
   }
   // Later inequalities often imply earlier, simpler ones; those are what is kept.
+  // The deletion filter (Chinneck & Dravnieks 1991), which needs one synthesis an inequality and
+  // leaves an irreducible set where every synthesis decides.
   for (const std::string& name : in_reverse(design.inequalities)) {
     names.erase(name);
     model::Gains rest = subset(plain, names, solver);
@@ -284,6 +291,7 @@ std::optional<Conflict> guess_conflict(const model::Instance& instance, const mo
   return conflict;
 }
 
+/// Two bisections a scalar, one for each side of the problem's value.
 std::vector<Reach> find_reaches(const model::Instance& instance, const sdp::Options& solver) {
   std::vector<Reach> reaches;
   try {

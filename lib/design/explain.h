@@ -45,6 +45,8 @@ struct Relaxation {
 struct Reach {
   std::string name;
   double value = 0;     ///< the problem's
+  /// `feasible` is then the largest feasible value of that side of the range; otherwise the
+  /// smallest.
   bool at_most = true;  ///< go down to `feasible`; otherwise up
   /// The nearest value found, with every margin recomputed; none when nothing in the range is.
   std::optional<double> feasible;
@@ -57,6 +59,7 @@ struct Reach {
   double conflict_at = 0;
 };
 
+/// What explain() found; parts that do not apply, or that a stop left out, are empty.
 struct Explanation {
   model::Gains gains;  ///< the problem's own result
   std::optional<Conflict> conflict;

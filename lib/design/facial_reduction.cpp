@@ -37,6 +37,7 @@ std::vector<std::string> names_of(const lmi::Lmi& lmi, const lmi::GainBounds& bo
 }
 
 /// The bounds last, as their doubles are.
+/// The inequalities as fractions of the file's decimals.
 std::vector<RationalBlock> blocks_of(const Posed& posed, const lmi::GainBounds& bounds) {
   auto blocks = verdict::rational_blocks(posed.inequalities, posed.lmi.blocks);
   for (const lmi::Block& of : bounds.blocks) {
@@ -96,6 +97,8 @@ Left left_of(const Faces& faces, const lmi::Lmi& stated) {
   return left;
 }
 
+/// The loop of facial_reduction.h over `faces_`, the face so far x = x_0 + N y. Each step ends with
+/// a point, with an exclusion, with a smaller face or with nothing; then the loop is done.
 class FacialReduction {
  public:
   FacialReduction(const Posed& posed, const lmi::GainBounds& bounds, const Solve& solve)
@@ -123,6 +126,7 @@ class FacialReduction {
   }
 
  private:
+  /// What a solution is asked for.
   enum class Want { point, point_or_multipliers };
 
   /// On a face that was only guessed nothing is excluded.
@@ -155,6 +159,8 @@ class FacialReduction {
     return solution;
   }
 
+  /// One pass of facial_reduction.h: plain steps, then solutions in double, in 31 and in 100 digits
+  /// until the face shrinks or the loop is done.
   void step() {
     faces_.find_plain();
     if (faces_.excluded()) return finish();
@@ -179,6 +185,7 @@ class FacialReduction {
     if (faces_.steps() == steps) finish();
   }
 
+  /// Nothing is left to choose: the blocks are numbers, and the point x_0 is checked.
   void try_only_point() {
     faces_.exclude_numbers();
     if (faces_.excluded()) return;
@@ -188,6 +195,7 @@ class FacialReduction {
 
   void finish() { done_ = true; }
 
+  /// The largest margin on the face, its coefficients rounded once from fractions to 31 digits.
   lmi::Formulation formulate(const Left& left, const lmi::Round& round) const {
     return lmi::formulate_interior(
         left.lmi, {}, round,
@@ -197,6 +205,9 @@ class FacialReduction {
         });
   }
 
+  /// Solves for the largest margin on the face with these digits, tries its point, from there the
+  /// objective, and with `want` the multipliers. A round whose margin rises by half leads to
+  /// another.
   void solve_left(const Left& left, const Effort& effort, Want want) {
     constexpr int kMostRounds = 4;
     constexpr double kRises = 1.5;
@@ -224,9 +235,11 @@ class FacialReduction {
     const bool interior = round.margin > std::max(kRoots * std::sqrt(effort.tolerance), kRounding);
     if (faces_.steps() > 0 && inside && is_finite(*inside)) {
       try_point(*inside);
+      // A point that shows a violation ends the reduction without a minimum.
       const bool fails = done_ && !result_.holds();
       if (posed_.lmi.has_objective && interior && !fails) minimise(left, *inside);
-      // An optimum wants the face that has an interior; more digits show no more of one that is there.
+      // An optimum wants the face that has an interior; more digits show no more of one that is
+      // there.
       if (!fails && (interior || posed_.lmi.has_objective)) done_ = interior;
     }
     if (want == Want::point_or_multipliers && !done_ && !solved_.x.empty()) take_multipliers(left);
@@ -239,6 +252,8 @@ class FacialReduction {
     verdict::Margins margins;
   };
 
+  /// None where no decimals with so many digits are on the face and satisfy the exact blocks. With
+  /// 16 digits the fractions of the point itself take their place.
   std::optional<Decimals> decimals(const std::vector<double>& y, int digits) const {
     constexpr int kMostDigits = 16;  // of a decimal that is a double
     std::vector<double> units;
@@ -301,6 +316,7 @@ class FacialReduction {
     return gain_at(x) <= std::max(*bound, kMore * gain_at(result_.x));
   }
 
+  /// The largest gain at x (gain_values.h).
   double gain_at(const std::vector<double>& x) const {
     const lmi::Inequalities& of = posed_.inequalities;
     numbers::Values values = of.instance.values;
@@ -316,7 +332,8 @@ class FacialReduction {
     double cost_unit = 1;
   };
 
-  /// By a solver; none where there is none, or it was not found.
+  /// The minimum of c'x on the face, by the solver with several gaps; the one with the greatest
+  /// lower bound counts. None where there is none, or it was not found.
   std::optional<Minimum> minimum_of(const Left& left) {
     std::optional<Minimum> best;
     lmi::Formulation formulation = lmi::pose_objective(left.lmi, {}, posed_.choices().margin);
@@ -363,6 +380,8 @@ class FacialReduction {
   }
 
   /// From a point inside to the least objective on the face: as near as decimals hold.
+  /// y(e) = y* + e (y_f - y*) for e = 0, 1e-12, ..., 0.1, y* the minimum and y_f the point inside:
+  /// the first whose decimals hold.
   void minimise(const Left& left, const std::vector<double>& inside) {
     const verdict::Costs of = costs();
     if (std::all_of(of.begin() + 1, of.end(), [](const auto& cost) { return cost.is_zero(); }))
@@ -406,6 +425,7 @@ class FacialReduction {
     return found;
   }
 
+  /// The multipliers of the blocks on the face, and v of their constant parts.
   verdict::FoundMultipliers multipliers(const Left& left) const {
     const verdict::Multipliers Y =
         verdict::multipliers_of(posed_left_, left.blocks.size(), solved_);
@@ -414,8 +434,11 @@ class FacialReduction {
     return found;
   }
 
-  /// Projectors onto the kernels of the blocks at the point of the largest margin.
+  /// Projectors K K' onto the kernels of the blocks at the point of the largest margin, K the
+  /// eigenvectors of small eigenvalues. A face of all solutions has B_k(x) V = 0, so its range is
+  /// in them.
   verdict::FoundMultipliers kernels(const Left& left) const {
+    // Of the largest eigenvalue of all blocks: smaller ones count as 0.
     constexpr double kSmall = 1e-6;
     const double one = posed_left_.homogenised ? solved_.x[solved_.x.size() - 2] : 1;
     std::vector<numbers::SymmetricEigen> eigen;
@@ -450,6 +473,8 @@ class FacialReduction {
     }
   }
 
+  /// Multipliers near those of the solver in fractions: they exclude every solution or lead to a
+  /// smaller face.
   void take_multipliers(const Left& left) {
     const verdict::ExactMultipliers exact = verdict::exact_multipliers(faces_, multipliers(left));
     if (exact.say == verdict::ExactMultipliers::Say::nothing) return;
@@ -464,7 +489,8 @@ class FacialReduction {
     faces_.restrict_to(exact);
   }
 
-  /// Of all steps.
+  /// The multipliers V_k S_k V_k' of all steps as sums of weighted squares c z z', in the form of
+  /// an algebraic certificate whose polynomial is l.
   std::shared_ptr<const verdict::AlgebraicCertificate> multipliers_of_blocks() const {
     auto found = std::make_shared<verdict::AlgebraicCertificate>();
     found->p = {0, 1};

@@ -48,6 +48,7 @@ const std::string* only_input(const expr::Program& program) {
   return alone ? &program.inputs[0].name : nullptr;
 }
 
+/// Makes data of the gains of a file, one after the other in the order of the method.
 class Fixing {
  public:
   Fixing(const model::Instance& instance, const model::Gains& gains)
@@ -125,6 +126,8 @@ class Fixing {
     return names;
   }
 
+  /// Three cases: the formula is a datum, which takes the value; it is solved for an unknown, which
+  /// is replaced everywhere; or neither, and an edited gain is stuck.
   void fix(const model::Design::Gain& gain) {
     const model::GainFunction* function = find_named(gains_.gain_functions, gain.name);
     const bool is_function = function != nullptr;
@@ -215,8 +218,9 @@ class Fixing {
     return false;
   }
 
-  /// The unknown that a formula is solved for and what it is there, over the gain's datum; with as few
-  /// inverses as can be, as what has an inverse of an unknown is not affine in it. None: nothing is.
+  /// The unknown that a formula is solved for and what it is there, over the gain's datum. Of
+  /// several the one with the fewest inverses: what has an inverse of an unknown is not affine in
+  /// it. None: nothing is.
   std::optional<std::pair<std::string, expr::Program>> simplest(
       const std::vector<std::string>& unknowns, const model::Design::Gain& gain,
       const expr::Program& formula) const {
@@ -241,6 +245,7 @@ class Fixing {
     return *find_named(design_.unknowns, name);
   }
 
+  /// Puts the solution in the place of the unknown, also in the replacements made before.
   void replace(const std::string& name, const expr::Program& solution,
                const model::Design::Gain& gain, const model::GainFunction* function) {
     Replaced given;
@@ -356,6 +361,7 @@ GainCheck check_gains(const model::Instance& instance, const model::Gains& gains
     return check;
   }
   const lmi::Inequalities inequalities(fixed.instance);
+  // Step 1 where the file has all unknowns that remain, then step 2 where it may help.
   const bool nothing_unknown = inequalities.unknowns.size() == 0;
   if (const auto x = packed(inequalities.unknowns, gains)) {
     const bool fails = check_own(inequalities, *x, options, check);

@@ -1,7 +1,8 @@
 // The inequalities at gains that are given: those of a gain file, whoever wrote them.
 //
 // A gain is a number there, and the unknown that its formula was made of follows from it: with
-// L = inv(P)*Y and L given, Y is P*L in every inequality. What remains unknown, P, only has to exist.
+// L = inv(P)*Y and L given, Y is P*L in every inequality. What remains unknown, P, only has to
+// exist.
 //
 //   1  with the unknowns of the file: every inequality at their decimals and those of the gains
 //   2  where that does not show all of them: solved anew for what remains unknown
@@ -22,7 +23,8 @@ struct FixedGains {
   /// Without gains and objective: gains are data, and the unknowns that follow from them are none.
   model::Instance instance;
   std::vector<std::string> edited;  ///< gains that are not what their formulas give at the unknowns
-  /// Edited gains whose formulas cannot be turned around, "K: inv(Q)*Y*R'": nothing is shown of them.
+  /// Edited gains whose formulas cannot be turned around, "K: inv(Q)*Y*R'": nothing is shown of
+  /// them.
   std::vector<std::string> stuck;
   bool solvable =
       true;  ///< false: a gain is a formula over the unknowns, so these are given as well
@@ -31,6 +33,7 @@ struct FixedGains {
 /// `gains`: of a file that states `instance`. InputError as bind::state.
 FixedGains fix_gains(const model::Instance& instance, const model::Gains& gains);
 
+/// The verdict about given gains, with what it rests on.
 struct GainCheck {
   model::Verdict verdict = model::Verdict::undecided;
   bool own_unknowns = false;           ///< a yes that the unknowns of the file show

@@ -30,6 +30,7 @@ std::optional<std::vector<numbers::Matrix>> polynomial(const expr::Program& prog
   }
   std::vector<numbers::Matrix> coefficients;
   for (const auto& [key, matrix] : form.terms) {
+    // Exponentials and waves are no polynomials.
     const forall::Monomial& monomial = monomials[key.first];
     const forall::Atom atom = monomial.empty() ? forall::Atom{} : monomial.front().atom;
     if (atom.rate != 0 || atom.frequency != 0) return std::nullopt;
@@ -44,6 +45,7 @@ std::optional<std::vector<numbers::Matrix>> polynomial(const expr::Program& prog
 }
 
 /// Whether the formula calls an unknown function in this basis.
+/// Such gains are told in their own basis.
 bool calls(const lmi::Inequalities& inequalities, const expr::Program& formula,
            model::Basis::Kind basis) {
   return std::any_of(inequalities.functions.begin(), inequalities.functions.end(),
@@ -99,6 +101,7 @@ void add_gain_values(const lmi::Inequalities& inequalities, const numbers::Value
 }
 
 double largest_gain(const lmi::Inequalities& inequalities, const numbers::Values& values) {
+  // Pieces of an interval.
   constexpr int kPoints = 64;
   double largest = 0;
   double share = 1;

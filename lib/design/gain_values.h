@@ -1,4 +1,4 @@
-// The gains of a point.
+// The gains of a point: formulas in its unknowns, such as L = inv(P)*Y, with their values.
 #pragma once
 
 #include "lmi/inequalities.h"
@@ -22,9 +22,9 @@ void add_gain_values(const lmi::Inequalities& inequalities, const numbers::Value
 /// one cannot be evaluated.
 double largest_gain(const lmi::Inequalities& inequalities, const numbers::Values& values);
 
-/// Evaluates what the method asks to be shown and what has a value, into `gains.report`; what cannot
-/// be evaluated at these gains goes into `gains.not_computed`. Says which of all that is there are
-/// estimates.
+/// Evaluates what the method asks to be shown and what has a value, into `gains.report`. What
+/// cannot be evaluated at these gains goes into `gains.not_computed`. Says which of all that is
+/// there are estimates.
 void add_report(const model::Instance& instance, model::Gains& gains);
 
 }  // namespace gainsmith::design

@@ -28,6 +28,7 @@ numbers::Matrix real_form(const numbers::Matrix& X, const numbers::Matrix& Y) {
   return whole;
 }
 
+/// [A - lambda I; C] in real form, 2 (n + p) x 2 n.
 numbers::Matrix hautus_matrix(const numbers::Matrix& A, const numbers::Matrix& C,
                               std::complex<double> lambda) {
   const Eigen::Index n = A.rows();
@@ -74,14 +75,15 @@ numbers::Vector row_sizes(const numbers::Matrix& C) {
                        : numbers::Vector(C.cwiseAbs().rowwise().maxCoeff());
 }
 
+/// The smallest singular value of [A - lambda I; C] over its largest.
 double hautus_residual(const numbers::Matrix& A, const numbers::Matrix& C,
                        std::complex<double> lambda) {
   const numbers::Vector s = numbers::singular_values(hautus_matrix(A, C, lambda));
   return s.tail(1)(0) / s(0);
 }
 
-/// An eigenvalue of a Jordan block is known to the root of rounding: a part that may be 0 is 0, where
-/// the rank is lost there too.
+/// An eigenvalue of a Jordan block is known to the root of rounding: a part that may be 0 is 0,
+/// where the rank is lost there too.
 std::complex<double> snapped(const numbers::Matrix& A, const numbers::Matrix& C,
                              std::complex<double> lambda) {
   constexpr double kRoot = 1e-6;  // of |A|
@@ -97,14 +99,16 @@ double largest(const numbers::Vector& v) {
   return v(at);
 }
 
+/// Modes that decay are of no interest to what asks for the others.
 bool is_left_out(std::complex<double> lambda, double accuracy, Modes which) {
   return which == Modes::not_decaying    ? lambda.real() < -accuracy
          : which == Modes::not_shrinking ? std::abs(lambda) < 1 - accuracy
                                          : false;
 }
 
-/// The eigenvalues of A in the upper half plane that are asked for, with what the output shows of
-/// them; the rows of C in units of `sizes`.
+/// The eigenvalues of A (n x n) in the upper half plane that are asked for, with what the output C
+/// (p x n) shows of them; the rows of C in units of `sizes`. A is divided by its largest row sum.
+/// The direction is the last right singular vector of [A - lambda I; C], its largest element 1.
 std::vector<HiddenMode> modes_of(const numbers::Matrix& A, const numbers::Matrix& C,
                                  const numbers::Vector& sizes, Modes which) {
   const Eigen::Index n = A.rows();
@@ -139,6 +143,7 @@ std::optional<HiddenMode> hidden_among(const std::vector<HiddenMode>& modes, dou
 }
 
 /// A formula of the plant and its slope by the state, everything else that moves being 0.
+/// Slopes by automatic differentiation (numbers/dual.h).
 class Linearised {
  public:
   Linearised(Linearised&&) = delete;  // the evaluator reads the members
@@ -188,6 +193,7 @@ struct StateBox {
     if (std::ssize(low) != size) low = high = {};
   }
 
+  /// The point of the diagonal of the box at this fraction, 0 its lowest corner.
   std::vector<double> at(double part) const {
     std::vector<double> x = low;
     for (std::size_t k = 0; k < x.size(); ++k) x[k] += part * (high[k] - low[k]);
@@ -206,6 +212,7 @@ class Linearisation {
         sizes_ = sizes_.size() == 0 ? row_sizes(C) : sizes_.cwiseMax(row_sizes(C)).eval();
   }
 
+  /// Of A = df/dx and C = dh/dx at a point, n x n and p x n; empty where one has no value.
   std::vector<HiddenMode> modes(const std::vector<double>& at) {
     const numbers::Matrix A = plant_.slope(column(at)), C = output_.slope(column(at));
     if (A.size() == 0 || C.rows() != sizes_.size()) return {};
@@ -225,6 +232,7 @@ class Linearisation {
 
 std::optional<HiddenMode> hidden_mode(const numbers::Matrix& A, const numbers::Matrix& C,
                                       Modes modes) {
+  // Balanced coordinates: D^-1 A D and C D, with powers of two in D.
   const std::vector<int> units = numerics::units(A.cwiseAbs(), C.cwiseAbs());
   numbers::Vector D(A.rows());
   for (Eigen::Index i = 0; i < D.size(); ++i)

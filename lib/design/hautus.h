@@ -1,5 +1,9 @@
 // Why no gains can be found: a mode of the plant that its output does not show, or that its input
 // does not reach.
+//
+// (A, C), n x n and p x n, is detectable exactly when [A - lambda I; C] has rank n at every lambda
+// with Re lambda >= 0, and stabilisability of (A, B) is that of (A', B') (Hautus 1969). It is
+// enough to test the eigenvalues of A, by singular values in balanced units.
 #pragma once
 
 #include <complex>
@@ -13,8 +17,8 @@
 
 namespace gainsmith::design {
 
-/// An eigenvalue lambda of A, Re lambda >= 0 or, of x+ = A x, |lambda| >= 1, at which [A - lambda I; C] loses rank (Hautus): v is
-/// the direction, (A - lambda I) v = 0 and C v = 0 up to rounding.
+/// An eigenvalue lambda of A, Re lambda >= 0 or, of x+ = A x, |lambda| >= 1, at which [A - lambda
+/// I; C] loses rank: v is the direction, (A - lambda I) v = 0 and C v = 0 up to rounding.
 struct HiddenMode {
   std::complex<double> eigenvalue;
   numbers::Vector direction;  ///< real part of v, or its imaginary part where that is larger

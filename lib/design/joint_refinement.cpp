@@ -37,6 +37,7 @@ void require_figure_of_unknowns(const model::Instance& own, const SearchRequest&
 
 /// A lower triangular L with L L' = M, M (whose terms are of size 1) made positive definite.
 Matrix factor(const Matrix& matrix) {
+  // Eigenvalues below it are raised to it: a factor of a singular block has no derivative.
   constexpr double kFloor = 1e-8;
   const numbers::SymmetricEigen eigen(matrix);
   const Eigen::VectorXd lifted = eigen.values().cwiseMax(kFloor);
@@ -45,6 +46,9 @@ Matrix factor(const Matrix& matrix) {
 }
 
 /// The smooth program. Unknowns and rows are scaled to their sizes at the start.
+/// v = (s, x, L_1, L_2, ...): the scalars as fractions of their ranges, unknowns over their sizes
+/// at the start, and the factors column by column. Residuals are the lower triangles of (B_k -
+/// shift_k I)/scale_k - L_k L_k', block by block.
 class SmoothDesign {
  public:
   SmoothDesign(const model::Instance& own, const SearchRequest& request, const model::Gains& gains)
@@ -115,6 +119,7 @@ class SmoothDesign {
   const SmoothBlocks& at(const Vector& v) {
     const Vector key(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(scalars_.size()));
     if (const auto found = cache_.find(key); found != cache_.end()) return found->second;
+    // Values of the scalars with their blocks.
     constexpr std::size_t kKept = 32;
     if (cache_.size() > kKept) cache_.clear();
     SmoothBlocks blocks = smooth_blocks(instance_at(scalars(key)));
@@ -144,6 +149,8 @@ class SmoothDesign {
     }
   }
 
+  /// Starts the L_k at the Cholesky factors of the shifted blocks, whose unit is the size of their
+  /// terms.
   void add_factors(const SmoothBlocks& blocks) {
     const Vector x = unknowns(start_);
     for (std::size_t k = 0; k < blocks.list.size(); ++k) {
@@ -179,6 +186,7 @@ class SmoothDesign {
     return x;
   }
 
+  /// B_k(x) - shift_k I.
   static Matrix shifted(const SmoothBlocks& blocks, std::size_t k, const Vector& x) {
     Matrix block = blocks.list[k].value(x);
     block.diagonal().array() -= blocks.shifts[k];
@@ -198,6 +206,7 @@ class SmoothDesign {
 
   /// v with scalar j a step further and back, within [0, 1], and the distance of the two.
   std::pair<std::pair<Vector, Vector>, double> steps(const Vector& v, std::size_t j) const {
+    // Of the range of a scalar.
     constexpr double kStep = 1e-5;
     Vector forward = v;
     Vector backward = v;
@@ -206,6 +215,7 @@ class SmoothDesign {
     return {{forward, backward}, forward[j] - backward[j]};
   }
 
+  /// Exact in the unknowns, by central differences in the scalars, 0 in the factors.
   Vector gradient(const Vector& v) {
     Vector result(v.size(), 0.0);
     if (extreme_ >= 0) {
@@ -222,6 +232,7 @@ class SmoothDesign {
     return result;
   }
 
+  /// L_k, n_k x n_k, from its elements in v.
   Matrix lower(const Vector& v, const Factor& entry) const {
     Matrix result = Matrix::Zero(entry.size, entry.size);
     std::size_t at = entry.variable;
@@ -236,6 +247,7 @@ class SmoothDesign {
       for (Eigen::Index i = j; i < matrix.rows(); ++i) out.push_back(matrix(i, j));
   }
 
+  /// c(v), one element for each element of the lower triangles of all blocks.
   Vector residuals(const Vector& v) {
     const SmoothBlocks& blocks = at(v);
     const Vector x = unknowns(v);
@@ -283,6 +295,7 @@ class SmoothDesign {
     });
   }
 
+  /// The elements of dc/dv that may be nonzero, block by block, in the order of for_each_element().
   Vector jacobian(const Vector& v) {
     const Vector x = unknowns(v);
     std::vector<std::vector<Matrix>> slopes;  // by scalar, by block

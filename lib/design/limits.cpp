@@ -17,6 +17,7 @@ using model::Design;
 /// The part of the largest price below which a multiplier is what the solver leaves of 0.
 constexpr double kNothing = 1e-6;
 
+/// The minimum of a changed problem by an ordinary synthesis.
 Changed changed(const model::Instance& instance, const sdp::Options& solver) {
   check_stop();
   const model::Gains gains = synthesize(instance, solver, Depth::verdict);
@@ -70,6 +71,7 @@ model::Instance with_wider_bound(const model::Instance& instance, double times) 
   });
 }
 
+/// Neither one bound for all gains nor bounds of single gains.
 model::Instance without_gain_bound(const model::Instance& instance) {
   return with_design(instance, [](Design& design) {
     design.synthesis.gain_bounds.clear();
@@ -193,6 +195,7 @@ Limits find_limits(const model::Instance& instance, const model::Gains& gains,
         if (inequality.name != limit.name) others.insert(inequality.name);
       limit.without = with_others(instance, others, solver);
       // It is no worse than with all of them, however roughly the solver finds it.
+      // A minimum over fewer inequalities is at most that over all.
       if (limit.without->minimum)
         limit.without->minimum = std::min(*limit.without->minimum, *gains.objective);
     }

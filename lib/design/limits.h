@@ -29,6 +29,7 @@ struct Changed {
 /// A requirement that the minimum would be smaller without.
 struct Limit {
   std::string name;
+  /// Relaxed by t I, the inequality lowers the minimum by price t at most.
   double price = 0;  ///< sum of tr(Y) over its comparisons and points
   double scale = 0;  ///< of the inequality (elastic.h)
   /// Where its multipliers are, and their parts of the price, largest first; without variables

@@ -36,6 +36,8 @@ struct Minimum {
   sdp::Solution solution;
 };
 
+/// The steps of minimum.h. A minimum is rated by two things: whether its point is positive definite
+/// in all blocks, then by its price.
 class Refinement {
  public:
   Refinement(const Posed& posed, const Question& asked, const Solve& solve)
@@ -61,6 +63,7 @@ class Refinement {
 
   bool is_good() const { return is_point_ && price_ <= kCheap; }
 
+  /// Sets is_point_ and price_.
   void rate(const Minimum& one) {
     is_point_ = one.solution.status == sdp::Status::optimal &&
                 is_positive(posed_, lmi::read_back(posed_.lmi, one.formulation, one.solution));
@@ -68,6 +71,7 @@ class Refinement {
   }
 
   /// A point before none, the cheaper of two.
+  /// Iterations of both are counted.
   void take_if_better(std::optional<Minimum> other) {
     if (!other || other->solution.status != sdp::Status::optimal) return;
     const bool was_point = is_point_;
@@ -98,6 +102,8 @@ class Refinement {
   }
 
   /// None where the solution has no number.
+  /// The second line of minimum.h's list. The weight w is such that w sum_k tr(B_k), with blocks
+  /// near 1, is a hundredth of a cheap price.
   std::optional<Minimum> in_units_of(const Minimum& near) const {
     constexpr double kPart = 0.01;
     const double value = value_of(near);
@@ -105,6 +111,7 @@ class Refinement {
     lmi::Formulation formulation =
         lmi::in_units_of_solution(posed_.lmi, asked_.bounds, near.formulation, near.solution.x);
     // What is above the default is wished for, whatever it costs.
+    // A margin above the default is the user's; the default one is as large as costs little.
     if (asked_.shift <= model::SynthesisOptions{}.margin)
       formulation.shift = cheap_shift(near, formulation.balance);
     // The traces of the blocks are not above their numbers of rows.
@@ -113,7 +120,8 @@ class Refinement {
     return solved(std::move(formulation), asked_.effort);
   }
 
-  /// The shift that costs a part of kCheap in other units: to first order it costs shift tr(Y).
+  /// The shift that costs kPart kCheap of the objective in other units: to first order a shift t
+  /// raises the minimum by t sum_k tr(Y_k), with Y_k in these units.
   double cheap_shift(const Minimum& near, const lmi::Balance& units) const {
     constexpr double kPart = 0.3;
     constexpr double kLeast = 1e-13;  // less is no margin beside rounding
@@ -131,6 +139,7 @@ class Refinement {
   }
 
   Minimum with_finer_gap(const Minimum& of) const {
+    // Of the gap that was asked for.
     constexpr double kFiner = 1e-3;
     Effort finer = asked_.effort;
     finer.tolerance *= kFiner;

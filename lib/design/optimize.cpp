@@ -35,6 +35,9 @@ double smallest_margin(const model::Gains& gains) {
   return std::isfinite(smallest) ? smallest : 0;
 }
 
+/// The outer problem: minimise over the scalars s the figure f(s), such as the optimum of the
+/// semidefinite program at s. f has no value where that is infeasible, is not convex and has kinks.
+/// So it is searched without derivatives (search/minimize.h), on a grid first.
 class OuterSearch {
  public:
   OuterSearch(const model::Instance& own, const SearchRequest& request, unsigned threads,
@@ -49,6 +52,7 @@ class OuterSearch {
     options.evaluations = request_.evaluations;
     options.threads = threads_;
     options.starts = {own_values()};
+    // `cold` has no guess of the extreme; options.warm begins at the best one so far.
     const auto cold = [&](const search::Point& point) {
       doing_->step();
       return known_.value("figure", point, [&] { return figure(point, std::nullopt); });
@@ -72,6 +76,7 @@ class OuterSearch {
       doing_ = &doing;
       return search::minimize(cold, axes, local_, asked);
     };
+    // With a mode that no gain moves a few points are enough to say that nothing was found.
     if (keeps_a_hidden_mode()) {
       search::MinimizeOptions few;
       few.starts = corners();
@@ -151,6 +156,7 @@ class OuterSearch {
     return std::move(excluded->gains);
   }
 
+  /// The problem's own overrides with the searched scalars at a point.
   model::Overrides overrides(const search::Point& point) const {
     model::Overrides values = own_.overrides;
     for (std::size_t i = 0; i < point.size(); ++i) values[request_.over[i].name] = point[i];
@@ -218,6 +224,7 @@ class OuterSearch {
     return gains.objective ? *gains.objective : -smallest_margin(gains);
   }
 
+  /// The extreme of the scalar that is bisected, the outer scalars held.
   BisectResult bracket(const model::Overrides& values, double sharper, std::optional<double> guess,
                        Depth depth = Depth::thorough) const {
     return bisect(own_, values,
@@ -281,6 +288,7 @@ class OuterSearch {
   }
 
   /// The gains at the best point, with the record of the search.
+  /// The design at the best point is made anew, thoroughly, and perhaps refined.
   model::Gains result(const search::Minimum& minimum) const {
     model::Gains gains;
     std::optional<double> best;

@@ -13,8 +13,8 @@ namespace gainsmith::design {
 /// nothing feasible was found the verdict is undecided: that each value tried is infeasible says
 /// nothing of those between. It is no where excluded_inequalities() are. Deterministic for any
 /// number of threads.
-/// What is in `known`, of an earlier search for the same, is not computed again, and what is computed
-/// is added; the result does not depend on it.
+/// What is in `known`, of an earlier search for the same, is not computed again, and what is
+/// computed is added; the result does not depend on it.
 /// InputError where the optimisation libraries are not installed.
 model::Gains optimize(const model::Instance& own, const SearchRequest& request, unsigned threads,
                       const sdp::Options& solver, search::KnownValues& known);

@@ -24,6 +24,7 @@ using numbers::Matrix;
 /// No name that a text may use.
 constexpr const char* kStep = "the step";
 
+/// Dinkelbach's iteration for min over x of lambda_max(M(x), N(x)) (quotient.h).
 class Quotient {
  public:
   Quotient(const model::Instance& instance, const sdp::Options& options, Depth depth)
@@ -39,6 +40,8 @@ class Quotient {
     });
   }
 
+  /// From a point with N > 0, or one where N is more even, by steps to the least l; then settled by
+  /// verdicts.
   model::Gains run() {
     model::Gains best = solve(base_);
     if (best.verdict != model::Verdict::yes) return best;
@@ -59,6 +62,7 @@ class Quotient {
   }
 
  private:
+  /// Steps end when one lowers l by less than kSmallStep of itself.
   static constexpr int kMostSteps = 60;
   static constexpr double kSmallStep = 1e-10;
   static constexpr double kRoom = 100;  ///< of N in a step
@@ -78,7 +82,8 @@ class Quotient {
     return numbers::evaluate(program, values);
   }
 
-  /// The largest eigenvalue of the pair.
+  /// The largest eigenvalue of the pair (M, N) at the unknowns: that of L^-1 M L^-T with N = L L'.
+  /// N is positive definite there, as every point satisfies N > 0.
   double value_at(const model::Gains& gains) const {
     const Matrix L = numbers::Cholesky(evaluated(denominator_, gains)).lower();
     const Matrix M = evaluated(numerator_, gains);
@@ -103,6 +108,7 @@ class Quotient {
     return compose.take(result);
   }
 
+  /// (M + M')/2 in 17 digits.
   static int constant(expr::Composer& compose, const Matrix& matrix) {
     std::vector<int> elements;
     for (Eigen::Index i = 0; i < matrix.rows(); ++i)
@@ -153,6 +159,7 @@ class Quotient {
   }
 
   /// A point with a smaller value.
+  /// minimise t subject to M - l N <= t N_k and N <= 100 N_k; none where the value does not fall.
   std::optional<model::Gains> step(const model::Gains& from, double value) const {
     const Matrix denominator = evaluated(denominator_, from);
     model::Gains gains = solve(
@@ -161,6 +168,7 @@ class Quotient {
     return gains;
   }
 
+  /// The verdict for "M <= value N" beside the inequalities.
   model::Gains at(double value) const {
     return solve(with_design(base_, [&](Design& design) {
       design.inequalities.push_back(
@@ -171,6 +179,7 @@ class Quotient {
   /// The gains at the least value that the check of decimals accepts, with one that a certificate
   /// excludes: from the value found outwards, then between the two.
   model::Gains settled(double value, double size) {
+    // Of the size of l: distances of values that are asked, first above and then below.
     constexpr std::array kAway = {2e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2};
     constexpr double kNear = 1e-8;
     std::optional<model::Gains> best;

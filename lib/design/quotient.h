@@ -16,6 +16,7 @@ namespace gainsmith::design {
 /// The gains of the point with the smallest l that was found, `objective` its l. The objective's
 /// lower bound is a value that a certificate excludes; absent, with a message, when none was found.
 /// When the inequalities with N > 0 have no solution, what synthesize() says of them.
+/// A verdict no is that of the inequalities with N > 0 alone.
 model::Gains smallest_quotient(const model::Instance& instance, const sdp::Options& options,
                                Depth depth);
 

@@ -6,6 +6,7 @@
 
 namespace gainsmith::design {
 
+/// shift_k = margin / u^2 for strict blocks, u the largest unit of a row of the block.
 SmoothBlocks smooth_blocks(const model::Instance& instance) {
   const lmi::Inequalities inequalities(instance);
   const lmi::Lmi lmi = lmi::compile(inequalities);
@@ -44,6 +45,7 @@ std::vector<double> packed(const SmoothBlocks& blocks, const model::Gains& gains
       x[static_cast<std::size_t>(unknown.first + k - 1)] = (*matrix)(row, column);
     }
   }
+  // The largest value of the scalar that the bound's own block allows at these unknowns.
   for (const lmi::BoundedProduct& bound : blocks.bounds.list) {
     if (bound.scalar == 0) continue;
     x[static_cast<std::size_t>(bound.scalar) - 1] =

@@ -21,8 +21,8 @@ struct NotSmooth {
 struct SmoothBlocks {
   int unknowns = 0;
   std::vector<lmi::Block> list;
-  std::vector<double> shifts;
-  std::vector<double> cost;  ///< of the unknowns; empty when the figure is a scalar
+  std::vector<double> shifts;  ///< shift_k of joint_refinement.h, one a block
+  std::vector<double> cost;    ///< of the unknowns; empty when the figure is a scalar
   double constant = 0;
   lmi::GainBounds bounds;
   lmi::Unknowns layout;  ///< where each unknown is among them

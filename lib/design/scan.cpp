@@ -29,6 +29,7 @@ ScanRow answer(const model::DesignPtr& design, const std::vector<std::string>& n
   try {
     instance = bind::evaluate(design, overrides);
     gains = synthesize(*instance, solver, Depth::verdict);
+    // An undecided point of a stopped scan has no answer yet.
     if (gains.verdict == model::Verdict::undecided) check_stop();
   } catch (const InputError& error) {
     row.refused = error.what();

@@ -1,4 +1,5 @@
-// A problem solved at every point of a grid of scalars.
+// A problem solved at every point of a grid of scalars. Each point is an ordinary synthesis,
+// independent of the others.
 #pragma once
 
 #include <functional>

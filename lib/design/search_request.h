@@ -1,4 +1,6 @@
-// What is searched besides the unknowns, with its ranges as numbers.
+// What is searched besides the unknowns, with its ranges as numbers: scalars in which the
+// inequalities are not affine together with the unknowns. At most one of them is bisected
+// (`extreme`); the others are searched without derivatives (`over`).
 #pragma once
 
 #include <functional>
@@ -27,14 +29,14 @@ using Measure =
 /// large as it can be.
 struct SearchRequest {
   std::optional<SearchedScalar> extreme;
-  bool largest = true;
+  bool largest = true;          ///< of `extreme`; otherwise the smallest
   search::Tolerance tolerance;  ///< of the bracket of `extreme`
   std::vector<SearchedScalar> over;
   std::optional<model::Formula> minimize;
   Measure measure;           ///< called from several threads at once; the caller knows how to run
   std::string measure_name;  ///< in messages and in the record
-  int evaluations = 200;
-  bool refine = false;  ///< move scalars and unknowns together at the end (joint_refinement.h)
+  int evaluations = 200;     ///< of the figure, at most
+  bool refine = false;       ///< move scalars and unknowns together at the end (joint_refinement.h)
 
   bool empty() const { return !extreme && over.empty(); }
 };
@@ -64,6 +66,7 @@ search::Tolerance default_tolerance(const search::Axis& axis);
 search::Tolerance tolerance_of(const std::optional<double>& width, const search::Axis& axis);
 
 /// The scalar with the range's ends as numbers, at the instance's values.
+/// Logarithmic where search::axis() makes it so.
 SearchedScalar searched_scalar(const model::Instance& instance, const model::Range& range);
 
 /// The name of the figure: "largest T2", "trace(P1)", "objective", "margin".

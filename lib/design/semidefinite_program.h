@@ -16,6 +16,7 @@ struct SemidefiniteProgram {
 
 /// The one that synthesize() solves first, in balanced units (see lmi/formulation.h). InputError
 /// when there is none or not one alone.
+/// Blocks F_0, ..., F_m of sum_i x_i F_i - F_0 >= 0 and c of c'x, as in SDPA files.
 SemidefiniteProgram semidefinite_program(const model::Instance& instance);
 
 }  // namespace gainsmith::design

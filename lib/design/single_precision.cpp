@@ -71,6 +71,7 @@ std::vector<SinglePrecisionRemedy> candidates(const model::Design& design,
       if (margin > design.synthesis.margin) list.push_back({kMargin, margin, {}});
   double reached = 0;
   for (const model::GainBound& bound : gains.bounds) reached = std::max(reached, bound.reached);
+  // Of the largest gain: smaller gains lose less to rounding.
   for (const double part : {0.5, 0.1})
     if (reached > 0) {
       const auto value = parse_decimal(brief(part * reached, 2));

@@ -10,6 +10,7 @@ namespace gainsmith::design {
 /// One for each statement.
 std::vector<model::SumOfSquaresRecord> identity_records(const sos::Decision& decision,
                                                         const SosStatements& stated);
+/// For each statement the moments by "monomial" or "row(i)*row(j)*monomial"; empty without moments.
 std::vector<std::map<std::string, std::string>> moment_records(
     const std::map<sos::Key, Rational>& moments, const SosStatements& stated);
 

@@ -20,6 +20,7 @@ bool has_sums_of_squares(const model::Design& design) {
 
 namespace {
 
+/// An unknown as a matrix of polynomials of degree 0: its scalars, each a term of its own.
 PolynomialMatrix unknown_matrix(const lmi::Unknown& unknown) {
   PolynomialMatrix result(unknown.shape.rows, unknown.shape.cols);
   for (int k = 0; k < unknown.count; ++k)
@@ -88,6 +89,7 @@ class Statements {
         return {domain};
       }
       case model::Over::interval: {
+        // x in [low, high] is (x - low) (high - x) >= 0.
         const Polynomial x = next();
         domain.values[variable.name] = PolynomialMatrix::Constant(1, 1, x);
         domain.within.push_back((x - Polynomial(number(variable.points[0]))) *
@@ -116,6 +118,7 @@ class Statements {
                          variable.name);
   }
 
+  /// Every combination of the elements of sets is a domain of its own.
   void add(std::size_t at) {
     const lmi::Statement& statement = of_.statements[at];
     std::vector<Domain> domains = {{values_, {}, {}, ""}};
@@ -163,6 +166,7 @@ class Statements {
   /// Of a diagonal matrix its elements one by one.
   void add_parts(std::size_t at, sos::Statement statement, const Domain& domain) {
     const PolynomialMatrix M = statement.matrix;
+    // A diagonal matrix is a sum of squares exactly when each of its elements is one.
     const bool is_diagonal = M.rows() > 1 && M == PolynomialMatrix(M.diagonal().asDiagonal());
     const Eigen::Index parts = is_diagonal ? M.rows() : 1;
     for (Eigen::Index k = 0; k < parts; ++k) {

@@ -22,11 +22,11 @@ struct SosStatements {
 };
 
 /// One for each comparison and each element of the sets that variables run over; comparisons of the
-/// elements of a column one by one. InputError at its place for what is no polynomial, or not affine
-/// in the unknowns, and for variables over a polytope.
+/// elements of a column one by one. InputError at its place for what is no polynomial, or not
+/// affine in the unknowns, and for variables over a polytope.
 SosStatements sos_statements(const lmi::Inequalities& of);
 
-/// Whether no part is without unknowns, and nothing is strict.
+/// Whether all unknowns 0 satisfy everything: no part is without unknowns, and nothing is strict.
 bool hold_at_zero(const SosStatements& stated);
 
 }  // namespace gainsmith::design

@@ -53,6 +53,8 @@ void within_double(const lmi::Inequalities& inequalities, const std::function<vo
   }
 }
 
+/// The path to a verdict: equations alone, the least value, any point; all in fractions
+/// (sos/decide.h).
 class Solving {
  public:
   Solving(const lmi::Inequalities& inequalities, const sdp::Options& options, SosStatements stated,
@@ -87,6 +89,7 @@ class Solving {
   }
 
  private:
+  /// With `level` that equation is one more, and one program in double is solved.
   sos::Decision decided(const sos::Program& program, const std::optional<Equation>& level) {
     sos::Decision decision = sos::decide(program, options_, level);
     note(decision.solution, decision.iterations);
@@ -118,6 +121,7 @@ class Solving {
     gains_.solver.unbounded = least.status == sdp::Status::primal_infeasible;
     if (least.x.empty() || least.status != sdp::Status::optimal) return false;
     const double optimum = -least.dual_objective - nearest_double(sum->value);
+    // Parts of the least value by which the point may be above it.
     for (const double paid : {1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4}) {
       Equation level = cost;
       level.value += Rational(optimum + paid * std::max(std::abs(optimum), 1.0));
@@ -131,6 +135,7 @@ class Solving {
     return false;
   }
 
+  /// By moments in fractions near the solver's, moved towards a point inside where they need it.
   void add_lower_bound(const sos::Eliminated& eliminated, const sos::Semidefinite& posed,
                        const Equation& sum, const sdp::Solution& least) {
     auto bound = lower_bound(program_, eliminated, posed, sum, least.x, {});
@@ -157,6 +162,7 @@ class Solving {
               : std::string("how near the objective is to the optimum is not shown"));
   }
 
+  /// A yes: unknowns as decimals or fractions, the identities, the objective at the point.
   void accept(const sos::Decision& decision) {
     const std::vector<Rational>& u = *decision.u;
     gains_.verdict = model::Verdict::yes;
@@ -191,6 +197,8 @@ class Solving {
     if (!is_printed) gains_.decimals["unknowns." + unknown.name] = std::move(texts);
   }
 
+  /// Of each Gram matrix Q of the inequalities themselves: its unit-free margin, after the
+  /// identity.
   void add_margins(const sos::Decision& decision) {
     gains_.margins.clear();
     for (std::size_t g = 0; g < decision.program.grams.size(); ++g) {
@@ -270,6 +278,7 @@ class Solving {
     return "";
   }
 
+  /// Neither an identity nor moments in fractions.
   void note_open() {
     gains_.solver.add_message(
         gains_.solver.cause == "certificate"

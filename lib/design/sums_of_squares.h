@@ -1,4 +1,6 @@
-// Gains from inequalities that are shown as sums of squares.
+// Gains from inequalities that are shown as sums of squares: p(x) = b(x)' Q b(x), Q >= 0, with b a
+// vector of monomials (Parrilo 2000); on a set g_i(x) >= 0 with multipliers that are sums of
+// squares themselves (Putinar 1993). Identities and moments are in fractions (sos/program.h).
 #pragma once
 
 #include "design/semidefinite_program.h"
@@ -9,9 +11,9 @@
 namespace gainsmith::design {
 
 /// The verdict, with its unknowns and margins.
-///   yes        an identity in fractions shows each inequality at the decimals of the unknowns
-///   no         no unknowns make them sums of squares of these degrees: by the equations themselves,
-///              or by moments in fractions
+///     yes   an identity in fractions shows each inequality at the decimals of the unknowns
+///     no    no unknowns make them sums of squares of these degrees: by the equations
+///           themselves, or by moments in fractions
 /// Of an objective the point is one near the least value, at which the identities hold; the lower
 /// bound, by moments in fractions, is of sums of squares of these degrees.
 void solve_sums_of_squares(const lmi::Inequalities& inequalities, const sdp::Options& options,

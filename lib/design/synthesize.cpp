@@ -103,6 +103,7 @@ void note_stop(const std::string& doing, int iterations, model::Gains& gains) {
 }
 
 verdict::CheckOptions check_options(Depth depth) {
+  // Of one check over a domain (forall/proof.h).
   constexpr std::size_t kQuickPieces = 1000;
   verdict::CheckOptions check;
   check.describe = depth != Depth::verdict;
@@ -110,8 +111,8 @@ verdict::CheckOptions check_options(Depth depth) {
   return check;
 }
 
-/// Names the gains that are larger than a bound that the problem states: a bound is imposed on products
-/// with an inverse, and only where these are affine otherwise.
+/// Names the gains that are larger than a bound that the problem states: a bound is imposed on
+/// products with an inverse, and only where these are affine otherwise.
 void note_larger_gains(const model::Design& design, const model::SynthesisOptions& asked,
                        model::Gains& gains) {
   if (!asked.gain_bound_stated || !asked.gain_bound) return;
@@ -167,6 +168,7 @@ class Synthesis {
       : inequalities_(instance), options_(options), depth_(depth) {}
 
   /// What is known, also when it was stopped.
+  /// Rounds of attempts until the plan grows no more, then the verdict, gains and reasons.
   model::Gains run() {
     model::Gains gains = stated(inequalities_.instance);
     bool stopped = false;
@@ -198,6 +200,7 @@ class Synthesis {
   }
 
  private:
+  /// The plan of points, the blocks at these points and the bounds on gains.
   void prepare() {
     plan_ = forall::make_plan(inequalities_.design());
     lmi_ = lmi::compile(inequalities_, plan_);
@@ -207,6 +210,7 @@ class Synthesis {
   }
 
   /// Where an inequality has no value on its domain.
+  /// A search (forall/faults.h): none found does not say that there is none.
   std::optional<forall::Fault> fault_in_a_domain() const {
     for (const lmi::Statement& statement : inequalities_.statements)
       for (const expr::Program& difference : statement.differences)
@@ -233,6 +237,7 @@ class Synthesis {
                                to_string(fault->place) + ": " + fault->message);
   }
 
+  /// A certificate against the inequalities with c'x <= value beside them.
   ExcludesObjective excludes() const {
     return [this](double value) -> std::optional<model::CertificateRecord> {
       const Concluding stops_at_once(0);
@@ -252,6 +257,8 @@ class Synthesis {
     climb_.emplace(Posed{inequalities_, plan_, lmi_, depth_ != Depth::quick, check_options(depth_)},
                    bounds_, [this](const auto&... asked) { return solve(asked...); });
     climb_->to_point();
+    // After so many rounds the points of an exchange draw together, and a point near the minimum
+    // may end it.
     constexpr int kDrawsOn = 6;  // rounds after which an exchange does
     if (round_ >= kDrawsOn) {
       climb_->to_near_minimum(std::move(inside_));
@@ -263,6 +270,7 @@ class Synthesis {
       again = grown();
     }
     const Attempt* point = climb_->point();
+    // Neither yes nor no.
     const bool undecided = climb_->refutation() == nullptr && (point == nullptr || !point->holds());
     // What the hull's own expansion of the functions rounded away shows at points.
     if (!again && undecided) again = plan_.leave_hulls(inequalities_.design());
@@ -275,7 +283,9 @@ class Synthesis {
     return true;
   }
 
+  /// Whether an exchange has new points: those where the best point so far fails.
   bool grown() {
+    // Rounds of an exchange.
     constexpr int kMostRounds = 60;
     const Attempt* point = climb_->point();
     if (point == nullptr || point->holds() || climb_->refutation() != nullptr ||
@@ -291,6 +301,7 @@ class Synthesis {
            grow(plan_, inequalities_, lmi_, *attempt);
   }
 
+  /// The solver with the caller's options, or the stricter tolerances of an effort.
   sdp::Solution solve(const sdp::Problem& problem, const Effort& effort) {
     sdp::Options solver = options_;
     if (effort.precision != "auto") solver.precision = effort.precision;

@@ -1,4 +1,17 @@
-// From an instance to gains.
+// From an instance of a design problem to gains.
+//
+// An instance states inequalities B_k(x, t) > 0 or >= 0, for all t of a domain, in unknown matrices
+// whose scalars are x, with data as numbers. Gains are formulas in the unknowns, such as
+// L = inv(P)*Y. This folder asks the solver and says yes, no or undecided:
+//   synthesis   synthesize.h; its programs and their order in attempts.h, one program in attempt.h,
+//               a point near a minimum in minimum.h, certificates in certificates.h
+//   equations   facial_reduction.h; squares of polynomials in sums_of_squares.h; quotients of
+//               matrices in quotient.h
+//   scalars     that no program can have as unknowns: bisect.h, scan.h, optimize.h
+//   reasons     explain.h, elastic.h, limits.h; modes that no gain moves in hautus.h
+//   gains       their values in gain_values.h, those of others in fixed_gains.h
+// The formulation follows Boyd, El Ghaoui, Feron & Balakrishnan, Linear Matrix Inequalities in
+// System and Control Theory, 1994. What a yes and a no prove is said in verdict/rational_blocks.h.
 #pragma once
 
 #include "model/gains.h"

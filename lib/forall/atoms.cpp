@@ -8,6 +8,7 @@
 
 namespace gainsmith::forall {
 
+/// std::pow makes t^0 = 1 at t = 0 too.
 double evaluate(const Atom& atom, double t) {
   const double wave = atom.sine ? std::sin(atom.frequency * t) : std::cos(atom.frequency * t);
   return std::pow(t, atom.power) * std::exp(atom.rate * t) * wave;
@@ -80,6 +81,7 @@ Range wave_range(const Atom& atom, double begin, double end) {
 /// t^k exp(a t) cos(b t), k > 0: interval products on pieces, a bound from outside that tightens
 /// with their number.
 Range product_range(const Atom& atom, double begin, double end) {
+  // The interval is cut into pieces of 1/64 half wave, but into no more than 1e5.
   constexpr double kPiecesPerHalfWave = 64;
   constexpr double kMostPieces = 1e5;
   const double half_waves = atom.frequency * (end - begin) / std::numbers::pi;
@@ -104,6 +106,7 @@ Range range(const Atom& atom, double begin, double end) {
 }
 
 std::optional<double> place_of(const Atom& atom, double value, double begin, double end) {
+  // Of a wave; later ones are not tried.
   constexpr int kMostExtrema = 1000;
   constexpr double kSame = 1e-9;
   std::vector<double> places = {begin, end};

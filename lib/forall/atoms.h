@@ -25,6 +25,7 @@ struct Atom {
   bool is_one() const { return power == 0 && rate == 0 && frequency == 0 && !sine; }
 };
 
+/// theta(t), infinite or NaN where double overflows.
 double evaluate(const Atom& atom, double t);
 
 /// The atom of a variable as the result of a program.
@@ -33,6 +34,7 @@ int compose(expr::Composer& composer, const Atom& atom, const std::string& varia
 /// "exp(0.03*tau)", with the variable's name; with 17 digits the text gives back the same atom.
 std::string to_string(const Atom& atom, const std::string& variable, int digits = 6);
 
+/// An interval [low, high] of values.
 struct Range {
   double low = 0;
   double high = 0;
@@ -48,6 +50,7 @@ Range range(const Atom& atom, double begin, double end);
 std::optional<double> place_of(const Atom& atom, double value, double begin, double end);
 
 /// d theta/dt as a combination of atoms.
+/// t^k e^(at) cos(bt) has k t^(k-1) e^(at) cos(bt) + a theta - b t^k e^(at) sin(bt).
 std::vector<std::pair<double, Atom>> derivative(const Atom& atom);
 
 /// theta_a theta_b as a combination of atoms.

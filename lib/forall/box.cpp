@@ -10,6 +10,7 @@ namespace gainsmith::forall {
 
 namespace {
 
+/// The range of an atom; InputError where it is not finite.
 Range finite_range(const Atom& atom, const std::string& variable, double low, double high,
                    const Place& place) {
   const Range result = range(atom, low, high);
@@ -51,6 +52,7 @@ Box box_of(std::vector<Atom> atoms, const std::string& variable, double low, dou
     std::vector<double> values;
     bool repeated = false;
     for (std::size_t k = 0; k < count; ++k) {
+      // Bit k of the number of a vertex says which end of the k-th range it is at.
       const bool upper = ((vertex >> k) & 1U) != 0;
       repeated |= upper && box.ranges[k].low == box.ranges[k].high;
       values.push_back(upper ? box.ranges[k].high : box.ranges[k].low);

@@ -12,7 +12,8 @@
 
 namespace gainsmith::forall {
 
-/// More vertices than this are refused.
+/// More vertices than this are refused: 2^12, a box of twelve functions, each vertex an inequality
+/// of its own.
 constexpr std::size_t kMostVertices = 4096;
 
 struct Box {
@@ -37,6 +38,7 @@ Box box_of(std::vector<Atom> atoms, const std::string& variable, double low, dou
 /// They are >= 0 and sum to 1, and theta(tau) = sum_i alpha_i(tau) v_i.
 model::Basis weights(const Box& box, const std::string& variable, const Place& place);
 
+/// InputError: the hull has more than kMostVertices vertices.
 [[noreturn]] void refuse_vertices(const Place& place);
 
 }  // namespace gainsmith::forall

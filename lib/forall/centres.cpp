@@ -43,6 +43,7 @@ std::vector<Point> centres(const Imposed& imposed, const Domain& domain,
   const auto axes = intervals(domain);
   if (axes.size() != 1 || sizes.empty() || sizes.size() != imposed.points.size()) return {};
   const std::string& axis = axes.front()->name;
+  // Points without a multiplier separate the runs.
   const double least = kSmall * *std::max_element(sizes.begin(), sizes.end());
   std::vector<Point> found;
   for (const Point& element : combinations(domain, model::Over::set)) {

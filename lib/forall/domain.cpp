@@ -11,6 +11,7 @@ namespace {
 
 using model::Over;
 
+/// InputError for low > high, and where an end is not a number.
 Variable variable_of(const model::Design::Variable& stated, const numbers::Values& values) {
   Variable result;
   result.name = stated.name;

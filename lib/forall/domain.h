@@ -1,4 +1,16 @@
-// What the variables of `forall` run over, with numbers.
+// Inequalities for all values of their variables: B(x, t) > 0 for all t in a domain.
+//
+// B is a symmetric matrix, n x n, affine in the unknown scalars x; t are variables over intervals,
+// finite sets or polytopes. A program has finitely many inequalities, so B is imposed
+//   at the vertices of a hull   of the functions of t in B: sufficient, sometimes exact (hull.h,
+//                               box.h, atoms.h, monomials.h; expm as such functions, residues.h)
+//   by exchange                 at points of the domain, to which those are added where a solution
+//                               fails: necessary at each step (plan.h, worst.h, centres.h)
+// Whatever the method, a solution counts only where it is proved on the whole domain by bounds on
+// second derivatives (proof.h). The hull is that of Tran, Bernard & Marconi, equation (42);
+// exchange is the method of semi-infinite programming (Hettich & Kortanek 1993).
+//
+// In this file is what the variables run over, with numbers.
 #pragma once
 
 #include <string>
@@ -13,7 +25,7 @@ namespace gainsmith::forall {
 struct Variable {
   std::string name;
   model::Over over = model::Over::interval;
-  double low = 0;
+  double low = 0;  ///< the ends of an interval, low <= high
   double high = 0;
   std::vector<numbers::Matrix> elements;
   std::vector<std::string> labels;  ///< "k = 2", "A = A2": one an element
@@ -54,6 +66,7 @@ std::vector<Point> combinations(const Domain& domain, model::Over over);
 std::vector<Point> finite_points(const Domain& domain);
 
 /// The interval variables, in order.
+/// The pointers are into `domain`, which must outlive them.
 std::vector<const Variable*> intervals(const Domain& domain);
 
 }  // namespace gainsmith::forall

@@ -50,7 +50,8 @@ class Part {
   std::vector<numbers::Matrix> moving_;
 };
 
-/// A regular grid with the middles and ends of all axes.
+/// A regular grid with the middles and ends of all axes: some 1200 points at most, or three values
+/// an axis where these are more. Of more than nine axes only the first 20000 points are kept.
 std::vector<At> grid(const std::vector<const Variable*>& axes) {
   constexpr double kPoints = 1200;
   const double root = std::pow(kPoints, 1 / static_cast<double>(axes.size()));
@@ -106,11 +107,14 @@ std::optional<At> zero_between(const Function& f, At above, At below) {
     if (*value == 0) return middle;
     (*value < 0 ? below : above) = middle;
   }
+  // Of the values at the two ends: a pole grows instead.
   constexpr double kZero = 1e-9;
   const auto value = f(middle);
   return value && std::abs(*value) <= kZero * size ? std::optional(middle) : std::nullopt;
 }
 
+/// A zero of a divisor: at a point of the grid, or between two points of it at which an element, or
+/// the determinant, has opposite signs.
 std::optional<At> zero_of(const Program& divisor, bool inverted, const numbers::Values& values,
                           const std::vector<const Variable*>& axes, const std::vector<At>& points) {
   Part part(divisor, values, axes);
@@ -136,6 +140,7 @@ std::optional<At> zero_of(const Program& divisor, bool inverted, const numbers::
   return std::nullopt;
 }
 
+/// The first point of the grid at which the program has no value, with the reason.
 std::optional<std::pair<At, std::string>> without_value(const Program& program,
                                                         const numbers::Values& values,
                                                         const std::vector<const Variable*>& axes,
@@ -170,6 +175,7 @@ std::string said_of_zero(const expr::Instruction& one) {
   }
 }
 
+/// Operations that have no result for some operands.
 bool is_partial(Op op) {
   return op == Op::divide || op == Op::elementwise_quotient || op == Op::inverse || op == Op::log ||
          op == Op::sqrt || op == Op::real_power;
@@ -194,6 +200,7 @@ std::optional<Fault> find_fault(const expr::Program& difference, const Domain& d
     for (std::size_t k = 0; k < program.code.size(); ++k) {
       const expr::Instruction& one = program.code[k];
       if (!is_partial(one.op)) continue;
+      // Only what this operation needs, so that another fault does not hide it.
       const Program part = part_of(program, static_cast<int>(k));
       if (!std::all_of(part.inputs.begin(), part.inputs.end(), is_known)) continue;
       if (const auto found = without_value(part, values, axes, points))

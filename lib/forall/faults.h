@@ -16,9 +16,9 @@ struct Fault {
 };
 
 /// An operation of the inequality, or of what it differentiates, without a result at a point of the
-/// intervals: a point of a grid, or one between two points at which a divisor, or a determinant, has
-/// opposite signs. Of what `known` leaves open nothing is found. A search: none found does not say
-/// that there is none.
+/// intervals: a point of a grid, or one between two points at which a divisor, or a determinant,
+/// has opposite signs. Of what `known` leaves open nothing is found. A search: none found does not
+/// say that there is none.
 std::optional<Fault> find_fault(const expr::Program& difference, const Domain& domain,
                                 const numbers::Values& known);
 

@@ -42,6 +42,8 @@ void add_box(Corners& corners, const Variable& variable, double low, double high
   std::move(box.labels.begin(), box.labels.end(), std::back_inserter(corners.labels));
 }
 
+/// One box for each of `slices` equal parts of the interval, or one for all of it where that is
+/// exact.
 Corners interval_corners(const Variable& variable, std::vector<Factor> factors, int slices,
                          const Place& place) {
   Corners corners{std::move(factors), {}, {}, {}, true};
@@ -69,6 +71,7 @@ Corners interval_corners(const Variable& variable, std::vector<Factor> factors, 
   return corners;
 }
 
+/// Weight j is 1 at vertex j and 0 at all others.
 Corners polytope_corners(const Variable& variable, std::vector<Factor> factors) {
   Corners corners{std::move(factors), {}, {}, {}, true};
   if (corners.factors.empty()) return {{}, {{}}, {""}, {variable.elements.front()}, true};
@@ -83,6 +86,7 @@ Corners polytope_corners(const Variable& variable, std::vector<Factor> factors) 
   return corners;
 }
 
+/// The largest |f| on the domain of its variable, or more.
 double factor_size(const Factor& factor, const Variable& variable) {
   if (factor.weight > 0) return 1;
   const Range r = range(factor.atom, variable.low, variable.high);
@@ -100,6 +104,7 @@ std::vector<Vertex> all_vertices(const std::vector<Corners>& corners,
   std::vector<Vertex> vertices;
   for (std::size_t at = 0; at < count; ++at) {
     Vertex vertex;
+    // A point of the domain as long as each corner is one.
     vertex.point.emplace();
     std::vector<std::size_t> choice;
     for (std::size_t v = 0, rest = at; v < corners.size(); ++v) {
@@ -138,6 +143,7 @@ double largest_value(const Monomial& monomial, const MonomialTable& monomials) {
 }
 
 std::set<int> noise(const Sizes& coefficients, const MonomialTable& monomials) {
+  // Of the largest term on the whole domain.
   constexpr double kNoise = 1e-13;
   Sizes sizes;
   double whole = 0;

@@ -1,4 +1,9 @@
 // "For all tau" by vertices: the box of the ranges of the functions that occur in an inequality.
+//
+// With phi_1(t), ..., phi_N(t) the functions of an interval in B(t) = B_0 + sum_k phi_k(t) B_k, B
+// is affine in phi, and phi lies in the box of its ranges. So B > 0 at the 2^N vertices of the box
+// is enough for all t. With one function, whose range is exact but for t^k e^(at) cos(bt) with k >
+// 0, the vertices are points of the interval, and it is necessary too.
 #pragma once
 
 #include <map>

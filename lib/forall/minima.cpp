@@ -38,6 +38,9 @@ class Samples {
     return value;
   }
 
+  /// Halves [left, right] as long as the lowest minimum may hide in it: min(a, b, m) - 4 bend <=
+  /// lowest, with a, b, m the values at the ends and the middle and bend = |m - (a + b)/2|. It ends
+  /// where bend is rounding (1e-10 of the values) or small beside min(a, b, m) - lowest (1e-3).
   void refine(double left, double right, int depth) {
     constexpr int kDeepest = 24;
     constexpr double kSafety = 4;
@@ -120,6 +123,7 @@ using BoxFunction = std::function<double(const std::vector<double>&)>;
 /// Pattern search: a step along each coordinate while it helps, then half the step.
 BoxMinimum descend(const BoxFunction& f, BoxMinimum start, const std::vector<double>& low,
                    const std::vector<double>& high, double first_step) {
+  // Of the edges of the box.
   constexpr double kLast = 1e-10;
   double step = first_step;
   while (step > kLast) {
@@ -147,6 +151,7 @@ class Grid {
  public:
   Grid(const BoxFunction& f, const std::vector<double>& low, const std::vector<double>& high)
       : dimensions_(low.size()) {
+    // Of the grid in all; at least two values a coordinate.
     constexpr double kPoints = 1200;
     const double side = std::pow(kPoints, 1.0 / static_cast<double>(dimensions_));
     side_ = std::max<std::size_t>(2, static_cast<std::size_t>(side));
@@ -170,6 +175,7 @@ class Grid {
 
   /// The points that are no higher than their neighbours along each coordinate, and lower than
   /// those before them.
+  /// Of equal neighbours the first counts.
   std::vector<BoxMinimum> local_minima() const {
     std::vector<BoxMinimum> minima;
     for (std::size_t which = 0; which < points_.size(); ++which)

@@ -20,9 +20,10 @@ struct CurveMinimum {
 };
 
 /// The local minima on [low, high] from the left, ends included. The interval is halved until the
-/// bend of each piece suggests that no minimum below the smallest value found hides in it; each bracketed
-/// minimum is then refined to a root of the derivative. A search: what turns many times between
-/// the first 49 points, which have different distances, can be missed (proof.h does not miss it).
+/// bend of each piece suggests that no minimum below the smallest value found hides in it; each
+/// bracketed minimum is then refined to a root of the derivative. A search: what turns many times
+/// between the first 49 points, which have different distances, can be missed (proof.h does not
+/// miss it).
 std::vector<CurveMinimum> local_minima(const Curve& curve, double low, double high);
 
 struct BoxMinimum {

@@ -46,6 +46,8 @@ std::vector<std::pair<double, Factor>> factor_product(const Factor& f, const Fac
 
 }  // namespace
 
+/// Factors of different variables are multiplied as they are; those of one variable are a sum of
+/// atoms by the addition theorems of sine and cosine.
 Combination MonomialTable::product(int a, int b) {
   if (a == 0) return {{1.0, b}};
   if (b == 0) return {{1.0, a}};

@@ -46,8 +46,10 @@ class MonomialTable {
     return monomials_[static_cast<std::size_t>(index)];
   }
   int size() const { return static_cast<int>(monomials_.size()); }
+  /// The place of a monomial, which is added where it is new.
   int index(const Monomial& monomial);
   int index(int variable, const Atom& atom);
+  /// That of alpha_j, j = `weight` > 0.
   int index_of_weight(int variable, int weight);
 
   /// phi_a phi_b as a combination. EvaluationError for a product of two weights of one polytope.

@@ -51,6 +51,7 @@ Plan make_plan(const model::Design& design) {
   for (const model::Design::Inequality& inequality : design.inequalities) {
     Imposed imposed{way, true, {}};
     if (way == model::Way::vertex_gains) {
+      // Without unknown functions or intervals the test at vertices is an ordinary one.
       imposed.exact = !inequality.calls_functions() || !has_interval(inequality);
       if (imposed.exact) imposed.way = model::Way::automatic;
     }
@@ -76,6 +77,7 @@ std::vector<Point> first_points(const Domain& domain) {
   for (const Point& element : combinations(domain, model::Over::set)) {
     for (std::size_t corner = 0; corner < (std::size_t{1} << axes.size()); ++corner) {
       Point point = element;
+      // An interval of one point has one corner.
       bool repeated = false;
       for (std::size_t v = 0; v < axes.size(); ++v) {
         const bool upper = ((corner >> v) & 1U) != 0;

@@ -1,4 +1,5 @@
-// How each inequality is imposed for all values of its variables, and where.
+// How each inequality is imposed for all values of its variables, and where: at the vertices of a
+// hull, which is fixed, or at the points of an exchange, which grow from round to round.
 #pragma once
 
 #include <vector>

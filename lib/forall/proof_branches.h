@@ -14,9 +14,9 @@
 
 namespace gainsmith::forall::proof {
 
-/// The operations where(c, a, b) on numbers in a program. At each point B is that with one branch of each.
-/// So where a piece meets both branches, B > 0 follows from B > 0 over the whole piece with either of them: these have
-/// the derivatives that B lacks there.
+/// The operations where(c, a, b) on numbers in a program. At each point B is that with one branch
+/// of each. So where a piece meets both branches, B > 0 follows from B > 0 over the whole piece
+/// with either of them: these have the derivatives that B lacks there.
 template <class S>
 class Branches {
  public:
@@ -34,6 +34,7 @@ class Branches {
 
   /// B with each choice of the branches that a piece meets; empty where it meets none or too many.
   std::vector<Function<S>*> over(const Piece& piece) {
+    // Operations `where`: at most 16 choices.
     constexpr std::size_t kMost = 4;
     std::vector<int> met;
     for (Condition& condition : conditions_) {

@@ -23,6 +23,7 @@ using numbers::Enclosed;
 using numbers::Matrix;
 using numbers::Sign;
 
+/// A box low_i <= t_i <= high_i of the interval variables; without variables the one point.
 struct Piece {
   static constexpr int kWhole = 1000;
 
@@ -31,6 +32,7 @@ struct Piece {
   /// What a cut left of a piece: the part that was cut off is 2^-cut of that piece.
   int cut = kWhole;
 
+  /// Bit i of `which`: at high_i.
   std::vector<double> corner(std::size_t which) const {
     std::vector<double> at = low;
     for (std::size_t i = 0; i < at.size(); ++i)
@@ -61,6 +63,8 @@ void drop_zero_rows(Enclosed<S>& B, Matrix& more) {
 template <class S>
 class Function {
  public:
+  /// At a point: (B + B')/2 with bounds of errors, its sign, and a direction that shows where it is
+  /// not positive.
   struct Corner {
     Enclosed<S> value;
     Sign sign = Sign::open;
@@ -97,6 +101,7 @@ class Function {
     }
   }
 
+  /// B at a point in S, with its sign; each point once. `margin` becomes the smallest so far.
   const Corner& corner(const std::vector<double>& at, double& margin) {
     const auto [found, is_new] = corners_.try_emplace(at);
     Corner& corner = found->second;
@@ -122,10 +127,13 @@ class Function {
     return corner;
   }
 
+  /// Whether B certainly violates the comparison there.
   bool fails_at(const Corner& corner) const {
     return corner.sign == Sign::negative || (strict_ && corner.sign == Sign::not_positive);
   }
 
+  /// Enclosures over a piece in double, by one evaluation of second-order Taylor arithmetic a
+  /// variable (numbers/jet.h).
   Spread over(const Piece& piece) {
     Spread spread;
     try {
@@ -161,6 +169,7 @@ class Function {
   bool strict() const { return strict_; }
 
  private:
+  /// w^2/8 B'' with its rounding.
   static Enclosed<double> sag(const Enclosed<double>& bend, double width) {
     const double part = width * width / 8;
     Enclosed<double> result = bend;
@@ -172,6 +181,8 @@ class Function {
     return result;
   }
 
+  /// min(w/2 rad(B'), w^2/8 |B''|) element by element, rounded upward: a function with B' in a ball
+  /// of radius r is within r w/2 of its chord, and one with |B''| <= b within b w^2/8.
   static Matrix chord_error(const numbers::Jet& jet, double width) {
     const Eigen::Index n = jet.value().rows();
     if (jet.order < 2) return Matrix::Zero(n, n);  // affine: it is its chord

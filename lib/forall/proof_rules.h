@@ -49,6 +49,7 @@ class Search {
  private:
   using Corner = typename Function<S>::Corner;
 
+  /// Keeps the first piece that is left open, and why.
   void leave(const Piece& piece, std::string_view why) {
     if (open) return;
     open = piece;
@@ -56,6 +57,8 @@ class Search {
     budget_ = std::min(budget_, pieces + kMoreAfterOpen);
   }
 
+  /// One piece: it fails at a corner, holds, or is cut in two. The tests are, in the order of their
+  /// cost, the corners, the piece between them, and each branch by itself.
   void visit(const Piece& piece) {
     std::vector<const Corner*> corners;
     bool all_positive = true;
@@ -86,15 +89,16 @@ class Search {
     halve(piece, steepest(piece, spread, corners), kTooSteep);
   }
 
+  /// E = sum_i errors_i, rounded upward.
   static Matrix error_of(const typename Function<S>::Spread& spread) {
     Matrix error = spread.errors.front();
     for (std::size_t i = 1; i < spread.errors.size(); ++i) error += spread.errors[i];
     return error * (1 + 0x1p-40);
   }
 
-  /// With the sags d_i: B(t) lies between the corners, less the sum of theta_i d_i with 0 <=
-  /// theta_i <=
-  /// 1. What a corner is nearly singular along then counts only by its own second derivative.
+  /// With the sags d_i = w_i^2/8 B''_i: B(t) lies between the corners, less the sum of theta_i d_i
+  /// with 0 <= theta_i <= 1. What a corner is nearly singular along then counts only by its own
+  /// second derivative. Linear in theta, so theta_i = 0 and 1 are enough: 2^d - 1 tests a corner.
   bool above_sags(const std::vector<const Corner*>& corners,
                   const typename Function<S>::Spread& spread) const {
     if (spread.sags.size() != spread.errors.size()) return false;
@@ -112,12 +116,14 @@ class Search {
     });
   }
 
+  /// B(c) + F > 0 for all |F| <= E at all corners.
   bool at_corners(const std::vector<const Corner*>& corners, const Matrix& error) const {
     return error.allFinite() && std::all_of(corners.begin(), corners.end(), [&](const Corner* c) {
              return holds(c->value, error);
            });
   }
 
+  /// Whether B holds over the piece with each choice of its branches.
   bool at_branches(const Piece& piece) {
     const auto all = branches_.over(piece);
     return !all.empty() && std::ranges::all_of(all, [&](Function<S>* function) {
@@ -132,6 +138,7 @@ class Search {
     });
   }
 
+  /// Any of the three criteria of proof.h.
   bool holds_between(const std::vector<const Corner*>& corners,
                      const typename Function<S>::Spread& spread) const {
     return at_corners(corners, error_of(spread)) || above_sags(corners, spread) ||
@@ -142,6 +149,7 @@ class Search {
   /// one.
   int quarterings(const Corner& corner, const typename Function<S>::Spread& spread,
                   Matrix error) const {
+    // A cut is no nearer to a corner than 2^-24 of the piece.
     constexpr int kMost = 24;
     const bool has_sag = !spread.sags.empty();
     Enclosed<double> sag = has_sag ? spread.sags.front() : Enclosed<double>{};
@@ -175,6 +183,8 @@ class Search {
           {at_low ? Piece::kWhole : most, at_low ? most : Piece::kWhole});
   }
 
+  /// M + F > 0 for all M in the enclosure and |F| <= more; of >= without the rows that are exactly
+  /// 0.
   template <class T>
   bool holds(const Enclosed<T>& value, const Matrix& more) const {
     if (function_.strict()) return numbers::is_positive_definite(value, more);
@@ -256,6 +266,7 @@ class Search {
     split(piece, along, piece.low[along] + (piece.high[along] - piece.low[along]) / 2, why);
   }
 
+  /// Cuts a piece in two; left open where no double lies between its ends.
   void split(const Piece& piece, std::size_t along, double at, std::string_view why,
              std::pair<int, int> cuts = {Piece::kWhole, Piece::kWhole}) {
     if (!(piece.low[along] < at && at < piece.high[along])) return leave(piece, why);
@@ -282,6 +293,7 @@ class Search {
   std::vector<Piece> stack_;
 };
 
+/// "k = 2, tau in [0.2, 0.25]".
 inline std::string label_of(const Point& fixed, const std::vector<const Variable*>& axes,
                             const Piece& piece) {
   std::string label = fixed.label;
@@ -301,6 +313,7 @@ struct Choice {
   numbers::EnclosedValues<S> known;
 };
 
+/// Every combination of elements of sets and vertices of polytopes.
 template <class S>
 std::vector<Choice<S>> choices(const expr::Program& program, const Domain& domain,
                                const numbers::EnclosedValues<S>& known,
@@ -345,6 +358,7 @@ DomainProof prove_on_domain(const expr::Program& difference, const Domain& domai
     if (program.uses(axis->name)) axes.push_back(axis);
   proof::Piece whole;
   for (const Variable* axis : axes) {
+    // Intervals that the program does not read are left out: B is constant along them.
     whole.low.push_back(axis->low);
     whole.high.push_back(axis->high);
   }

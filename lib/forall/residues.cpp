@@ -63,6 +63,7 @@ std::vector<Cluster> clusters_of(const Eigen::VectorXcd& eigenvalues, double nor
 /// rule, whose error falls like 2^-points.
 ComplexMatrix projector(const numbers::Matrix& F, const Cluster& cluster, double norm) {
   constexpr int kPoints = 64;
+  // Halfway to the nearest other eigenvalue, or around all of them.
   const double radius = cluster.distance > 0 ? 0.5 * cluster.distance : norm + 1;
   const Eigen::Index n = F.rows();
   ComplexMatrix sum = ComplexMatrix::Zero(n, n);
@@ -75,6 +76,7 @@ ComplexMatrix projector(const numbers::Matrix& F, const Cluster& cluster, double
   return sum / kPoints;
 }
 
+/// Adds a term without the elements that are rounding, and none where nothing is left.
 void add(std::vector<std::pair<Atom, numbers::Matrix>>& terms, const Atom& atom,
          numbers::Matrix matrix, double size) {
   const double noise = kRounding * std::max(size, 1.0) * static_cast<double>(matrix.rows());
@@ -82,12 +84,14 @@ void add(std::vector<std::pair<Atom, numbers::Matrix>>& terms, const Atom& atom,
   if (!matrix.isZero(0)) terms.emplace_back(atom, std::move(matrix));
 }
 
-/// The terms of one eigenvalue with Im l >= 0.
+/// The terms of one eigenvalue l with Im l >= 0: R_j = (F - l I)^j R_0, j! below, until R_j
+/// longest^j / j! is rounding.
 void add_terms(std::vector<std::pair<Atom, numbers::Matrix>>& terms, const numbers::Matrix& F,
                const Cluster& cluster, double norm, double longest) {
   const Complex l = cluster.mean;
   const double size = norm + 1;
   ComplexMatrix residue = projector(F, cluster, norm);
+  // Of R_0: without a Jordan block the further terms are rounding.
   const double noise = 1e-11 * residue.cwiseAbs().maxCoeff();
   double factor = 1;  // 1 / j!
   for (int j = 0; j < cluster.size; ++j) {
@@ -156,6 +160,7 @@ numbers::Matrix in_units(numbers::Matrix M, const std::vector<int>& units, int s
   return M;
 }
 
+/// EvaluationError unless the sum is expm(F t) to 1e-10 at seven points.
 void verify(const std::vector<std::pair<Atom, numbers::Matrix>>& terms, const numbers::Matrix& F,
             double low, double high) {
   constexpr int kPieces = 6;

@@ -24,6 +24,7 @@ namespace gainsmith::forall {
 /// are rounding noise are 0. EvaluationError when the sum differs from expm(F tau) by more than
 /// 1e-10 of its size at one of seven points of [low, high]: eigenvalues that are close but not
 /// equal.
+/// `low` and `high`: the interval of tau, in the unit of 1/F.
 std::vector<std::pair<Atom, numbers::Matrix>> residue_expansion(const numbers::Matrix& F,
                                                                 double low, double high);
 

@@ -53,6 +53,8 @@ class Family {
   /// of fourth order inside [low, high].
   double slope(double t, double low, double high) {
     const double width = high - low;
+    // Steps stay inside the interval; next to an end, where there is no room, one-sided of first
+    // order.
     const double h = std::min({1e-3 * width, (t - low) / 2, (high - t) / 2});
     solver_.compute(matrix({t}));
     const Eigen::VectorXd v = solver_.vectors().col(0);
@@ -72,6 +74,7 @@ class Family {
   numbers::SymmetricEigen solver_;
 };
 
+/// No interval: the value itself; one: all minima of the curve; several: a descent from a grid.
 void add_minima(Family& family, const Point& fixed, const std::vector<const Variable*>& axes,
                 std::vector<Minimum>& minima) {
   if (axes.empty()) {

@@ -1,4 +1,5 @@
-// Where an inequality holds least, the unknowns fixed.
+// Where an inequality holds least, the unknowns fixed: the local minima over t of the smallest
+// eigenvalue of B(t), from which an exchange grows.
 #pragma once
 
 #include <vector>
@@ -13,8 +14,8 @@ struct Minimum {
   Point point;       ///< values of all variables
 };
 
-/// Of diag(s) B diag(s): s the given units of the rows (empty: 1), or those in which the diagonal is
-/// 1, where it is positive (lmi/correlation.h).
+/// Of diag(s) B diag(s): s the given units of the rows (empty: 1), or those in which the diagonal
+/// is 1, where it is positive (lmi/correlation.h).
 enum class Measure { eigenvalue, margin };
 
 /// The local minima over the domain, the smallest first, of the smallest eigenvalue of a symmetric

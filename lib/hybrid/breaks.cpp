@@ -145,6 +145,8 @@ std::vector<const Program*> Breaks::differences() const {
   return all;
 }
 
+/// min_e |D_e(x)| / max(rounding_e, max_b |D_e(x + s_b r) - D_e(x)|), where the signs s_b of move b
+/// are the bits b of the numbers of the elements: log2(n) + 1 moves of n variables.
 double Breaks::distance(std::size_t k, const VectorXd& x, const VectorXd& r) {
   const double none = std::numeric_limits<double>::infinity();
   Text& text = texts_[k];
@@ -173,11 +175,15 @@ bool Breaks::is_far(std::size_t k, const VectorXd& x, const VectorXd& r, double 
     box_[static_cast<std::size_t>(e)] = {x(e) - width, x(e) + width};
   }
   const auto size = static_cast<std::size_t>(text.program->shape().size());
+  // Interval arithmetic over the box x +- times (r + rounding) first; it needs no moves.
   bool apart = text.value.enclose(box_);
   for (std::size_t e = 0; e < size && apart; ++e) apart = text.value.range(e).least() > 0;
   return apart || distance(k, x, r) > times;
 }
 
+/// For each element of each D, cheapest test first: an interval over the box excludes a root; three
+/// points of the step exclude one of a slow D; else the roots are searched on the pieces between
+/// the breaks so far. A D below kAddedUp of its terms all along is rounding and has none.
 std::optional<std::vector<ode::Break>> Breaks::on(const std::function<const VectorXd&(double)>& x,
                                                   double from, double to, const numbers::Box& box,
                                                   std::vector<double>* near) {

@@ -1,6 +1,9 @@
 // Where a text along a flow is not smooth: where what it branches on (expr/branches.h) comes to 0.
 // That may branch itself: its roots are searched on the pieces between the breaks before it,
 // where it is smooth. So a branch is found however short it is taken.
+//
+// A break is a bracket [left, right] of one root of such a D. It says whether the text jumps there
+// or has a kink.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,6 +17,8 @@
 
 namespace gainsmith::hybrid {
 
+/// Texts are split once, when it is made: each branch is one program D that is 0 where the branch
+/// changes.
 class Breaks {
  public:
   /// The constants must outlive it.

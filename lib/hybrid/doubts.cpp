@@ -50,11 +50,13 @@ class Readers {
  public:
   Readers(const Dynamics& dynamics, const std::string& name) : dynamics_(dynamics), name_(name) {}
 
+  /// Whether an initial value reads it.
   bool starts() const {
     return std::ranges::any_of(dynamics_.variables, [&](const auto& one) {
       return one.start && one.start->program.uses(name_);
     });
   }
+  /// Whether a rate of the plant or of an observer reads it.
   bool flows() const {
     return std::ranges::any_of(dynamics_.flow,
                                [&](const auto& one) { return one.value.program.uses(name_); });
@@ -66,6 +68,7 @@ class Readers {
       if (reads(reaction, name_)) found.insert(reaction.event);
     return {found.begin(), found.end()};
   }
+  /// Whether an event reads it in `when`, `if` or a crossing.
   bool conditions() const {
     return std::ranges::any_of(dynamics_.events,
                                [&](const auto& event) { return reads(event, name_); });
@@ -103,6 +106,8 @@ using VariableKind = Dynamics::VariableKind;
 
 std::string quoted(const std::string& name) { return "'" + name + "'"; }
 
+/// One sentence for each thing that is allowed and probably not meant. It judges the texts and the
+/// constants alone, and runs nothing.
 class Doubts {
  public:
   Doubts(const Dynamics& dynamics, const numbers::Values& constants)
@@ -116,6 +121,7 @@ class Doubts {
   }
 
  private:
+  /// Observers that never change, events whose loss changes nothing, observers without an output.
   void about_observers() {
     std::vector<char> has_states(dynamics_.components.size(), 0), changes(has_states);
     for (const Dynamics::Variable& variable : dynamics_.variables)
@@ -155,6 +161,7 @@ class Doubts {
     return one.kind == VariableKind::state || one.kind == VariableKind::mode;
   }
 
+  /// A `shrinks` whose factor exceeds 1.
   void about(const model::Design::Claim& claim) {
     if (const auto factor = value_of(claim.factor); factor && (*factor)(0, 0) > 1)
       found_.push_back("the claim " + quoted(claim.name) + " lets a value above 0 grow: `to` is " +
@@ -174,12 +181,14 @@ class Doubts {
     }
   }
 
-  /// As it stands in the text: a datum that is 0 is meant.
+  /// As it is written: a datum that is 0 is meant.
   bool is_zero(const model::Formula& formula) const {
     const auto value = value_of(formula);
     return value && value->isZero(0) && formula.program.inputs.empty();
   }
 
+  /// A name `plant.p` is an uncertain datum p. Any other name is noise: constant 0, drawn once and
+  /// so a bias, older than the sample that reads it, or shared by outputs.
   void about(const Dynamics::Noise& noise) {
     const std::string& name = noise.name;
     const Readers readers(dynamics_, name);
@@ -247,6 +256,8 @@ class Doubts {
     }
   }
 
+  /// Of a scalar noise in several outputs, or in several elements of one: their errors have
+  /// correlation 1.
   void about_outputs(const Dynamics::Noise& noise,
                      const std::vector<const Dynamics::Signal*>& outputs) {
     if (!noise.shape.is_scalar() || outputs.empty()) return;

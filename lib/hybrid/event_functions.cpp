@@ -30,6 +30,7 @@ numbers::StackedFunctions stacked(std::vector<const expr::Program*> programs,
 
 SystemFunction::SystemFunction(const expr::Program& program, const System& system)
     : function_(stacked({&program}, system)) {
+  // A line needs affine dependence on variables of constant rate alone: its root is one division.
   bool flows = false;
   for (const expr::Input& input : program.inputs) {
     const auto slot = system.slot(input.name);
@@ -52,11 +53,14 @@ EventFunction::EventFunction(const expr::Program& program, const System& system)
       breaks_(program, system.layout, system.constants,
               [&](const std::string& name) { return system.is_moving(name); }) {}
 
+/// |f_e| <= kTermRounding T_e, with T_e the sum of the sizes of its terms at this point.
 bool EventFunction::is_noise(const VectorXd& values, Eigen::Index element) {
   const double size = std::abs(value_(values)(element));
   return size <= kTermRounding * terms_(values)(element);
 }
 
+/// sign(f) where |f| >= least(f) > kTermRounding T + max(near T, kTurnsNear |f|_max) on the box. T
+/// bounds the sum of the sizes of the terms. Else 0.
 const std::vector<int>& EventFunction::sides(const numbers::Box& values, double near) {
   sides_.clear();
   if (!value_.enclose(values) || !terms_.enclose(values)) return sides_;

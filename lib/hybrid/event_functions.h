@@ -18,6 +18,8 @@ namespace gainsmith::hybrid {
 /// Programs over the variables of a system as one function of all its values.
 numbers::StackedFunctions stacked(std::vector<const expr::Program*> programs, const System& system);
 
+/// One program over all values of a system, variables and branches. Inputs that are no variables
+/// are constants, fixed when it is made.
 class SystemFunction {
  public:
   SystemFunction(const expr::Program& program, const System& system);
@@ -77,6 +79,8 @@ class EventFunction {
   std::vector<int> sides_;
 };
 
+/// A tree of comparisons (expr/condition.h) with `and`, `or`, `not`. A comparison of matrices is
+/// true where it is true of all elements.
 class EventCondition {
  public:
   struct Comparison {
@@ -90,12 +94,14 @@ class EventCondition {
 
   EventCondition(const expr::Condition& condition, const System& system);
 
+  /// Whether it is true at these values.
   bool operator()(const Eigen::VectorXd& values);
   /// What a flow from these values on cannot change.
   Truth at_rest(const Eigen::VectorXd& values);
   /// Whether it were true if that comparison were as it is not.
   bool if_changed(const Eigen::VectorXd& values, std::size_t comparison);
 
+  /// All leaves of the tree, left to right. Their zero crossings are where it may change.
   std::vector<Comparison>& comparisons() { return comparisons_; }
   const std::string& text() const { return text_; }
   const Place& place() const { return place_; }
@@ -103,12 +109,15 @@ class EventCondition {
   std::string differences(const Eigen::VectorXd& values);
 
  private:
+  /// A node of the tree: all, any or none of `parts`, or one comparison.
   struct Part {
     expr::Condition::Kind kind = expr::Condition::Kind::all;
     std::size_t comparison = 0;
     std::vector<Part> parts;
   };
   Part make(const expr::Condition& condition, const System& system);
+  /// Kleene logic with yes, no and unknown: an unknown leaf leaves the whole unknown unless the
+  /// others decide it.
   template <class Compare>
   static Truth truth(const Part& part, const Compare& compare);
   bool is_true(std::size_t comparison, const Eigen::VectorXd& values);

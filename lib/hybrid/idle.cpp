@@ -19,12 +19,14 @@ std::uint64_t values_of(const StartRule& rule) {
   return rule.kind == Kind::expression ? 1 : 0;
 }
 
+/// Vertices: run k takes element k/stride modulo their number, so the period is stride times that.
 std::uint64_t values_of(const Dynamics::Noise& noise, const System::NoiseValues& rule) {
   if (noise.has_center()) return rule.values[1].isZero(0) ? 1 : 0;
   if (noise.kind == Dynamics::NoiseKind::uniform) return rule.values[0] == rule.values[1] ? 1 : 0;
   return rule.stride * rule.values.size();
 }
 
+/// Run k takes law k modulo their number. The laws uniform and extremes draw; the others do not.
 std::uint64_t values_of(const std::vector<Law>& laws) {
   const bool drawn =
       laws.empty() || std::any_of(laws.begin(), laws.end(), [](const Law& law) {
@@ -45,6 +47,7 @@ std::uint64_t values_of_event(std::size_t event, const System& system, const Sce
 
 }  // namespace
 
+/// By the earliest first time that a clock may draw. Other events have none.
 std::vector<std::size_t> late_events(const System& system, const Scenario& scenario) {
   std::vector<std::size_t> late;
   for (std::size_t e = 0; e < system.dynamics.events.size(); ++e) {
@@ -59,6 +62,8 @@ std::vector<std::size_t> late_events(const System& system, const Scenario& scena
   return late;
 }
 
+/// The least common multiple of the periods of all draws. One random draw, or a period above 10^9
+/// runs, leaves none.
 std::optional<std::uint64_t> different_runs(const System& system, const Scenario& scenario) {
   constexpr std::uint64_t kMostRuns = 1000000000;
   std::uint64_t all = 1;

@@ -29,12 +29,14 @@ void read_ellipsoid(StartRule& rule, const std::string& state) {
     fail("its matrix is not positive definite");
   const numbers::Matrix unit = numbers::Matrix::Identity(Q.rows(), Q.cols());
   rule.values = {rule.values[0], std::sqrt(level) * factors.matrixU().solve(unit)};
+  // The share of the volume inside the lower level: (sqrt(r0/r))^n in n dimensions.
   if (least > 0) rule.hollow = std::pow(least / level, static_cast<double>(Q.rows()) / 2);
 }
 
 Eigen::VectorXd in_shell(const StartRule& rule, const Eigen::VectorXd& b) {
   if (rule.hollow <= 0) return b;
   const double length = b.norm(), n = static_cast<double>(b.size());
+  // The radius rho is uniform in rho^n on [hollow, 1]. So the density stays uniform in the shell.
   const double moved = std::pow(rule.hollow + (1 - rule.hollow) * std::pow(length, n), 1 / n);
   return length > 0 ? Eigen::VectorXd(b * (moved / length))
                     : Eigen::VectorXd(moved * Eigen::VectorXd::Unit(b.size(), 0));
@@ -48,6 +50,8 @@ numbers::Matrix spread_map(const numbers::Matrix& spread, bool covariance, Eigen
     if (spread.size() == 1) return spread(0, 0) * numbers::Matrix::Identity(size, size);
     return spread.reshaped().asDiagonal();
   }
+  // Cholesky: M_ij = (V_ij - sum_(k<j) M_ik M_jk) / M_jj, without pivoting, so that M stays lower
+  // triangular.
   numbers::Matrix M = numbers::Matrix::Zero(size, size);
   for (Eigen::Index j = 0; j < size; ++j)
     for (Eigen::Index i = j; i < size; ++i) {
@@ -56,6 +60,7 @@ numbers::Matrix spread_map(const numbers::Matrix& spread, bool covariance, Eigen
       if (i > j && M(j, j) > 0) M(i, j) = left / M(j, j);
       if (i == j && left > kTermRounding * spread(j, j)) M(j, j) = std::sqrt(left);
     }
+  // |(M M' - V)_ij| <= kMeantEqual s_i s_j, s the deviations; this does not depend on units.
   const Eigen::VectorXd deviation = spread.diagonal().cwiseAbs().cwiseSqrt();
   const double least = size > 0 ? kTermRounding * spread.cwiseAbs().maxCoeff() : 0;
   const auto rounding = kMeantEqual * (deviation * deviation.transpose()).array() + least;
@@ -65,6 +70,8 @@ numbers::Matrix spread_map(const numbers::Matrix& spread, bool covariance, Eigen
   return M;
 }
 
+/// Box & Muller 1958, the cosine alone: every number takes two draws, so that draws have fixed
+/// places.
 Eigen::VectorXd draw_normal(Eigen::Index n, RandomStream& random) {
   Eigen::VectorXd z(n);
   for (Eigen::Index k = 0; k < n; ++k) {

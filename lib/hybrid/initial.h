@@ -45,6 +45,7 @@ Eigen::VectorXd draw_normal(Eigen::Index n, RandomStream& random);
 /// Around a center c. ellipsoid: c + M b, with b uniform in the unit ball: b = u^(1/n) z/|z|, z
 /// normal, one more draw, then in_shell(); normal: c + M z; lognormal: c .* exp(M z).
 numbers::Matrix draw_around(const StartRule& rule, RandomStream& random);
+/// c + M z, or c .* exp(M z), with z reshaped to the shape of c.
 numbers::Matrix around(const numbers::Matrix& center, const numbers::Matrix& M,
                        const Eigen::VectorXd& z, bool is_lognormal);
 

@@ -33,10 +33,13 @@ double Law::reset_value(std::size_t jump, double t, RandomStream& random) const 
     case LawKind::extremes:
       return random.uniform() < 0.5 ? low : high;
     case LawKind::sinusoid:
+      // A sine of the time since the start, of angular frequency 1/high.
       return sinusoid_of(sine(t / high), low, high);
     case LawKind::list:
       return values[jump % values.size()];
     case LawKind::golden: {
+      // low + (high - low) frac((jump + 1) phi), phi = (sqrt(5) - 1)/2: a sequence of low
+      // discrepancy.
       constexpr double golden_ratio = 0.6180339887498949;
       const double turns = static_cast<double>(jump + 1) * golden_ratio;
       return low + (high - low) * (turns - std::floor(turns));

@@ -32,6 +32,7 @@ bool has_pulses(const expr::Program& program,
     return false;
   const std::vector<numbers::Degree> degrees = numbers::degrees(program, is_clock);
   const std::vector<char> waves = waves_of(program);
+  // Not affine in clocks, and no sine in it: such an argument turns once, as (t - 5)^2 does.
   const auto turns_alone = [&](int operand) {
     const auto at = static_cast<std::size_t>(operand);
     return degrees[at] == numbers::kNotAffine && waves[at] == 0;

@@ -25,6 +25,12 @@ bool only_arranges(const Program& program, int at) {
                      here.operands.end(), [&](int one) { return only_arranges(program, one); });
 }
 
+/// Appends to a program the instructions of the sizes of its terms. With [v] for those of v:
+///
+///   [a + b] = [a - b] = [a] + [b]     [-a] = [a]     [a/b] = [a]/|b|     [A B] = [A] [B]
+///   [v] = |v| where v is one term
+///
+/// What counts as one term depends on `Of`: rounding, value or sign (rounding_terms.h).
 class Terms {
   using enum Op;
 
@@ -33,6 +39,7 @@ class Terms {
 
   Terms(Program& program, Of of) : program_(program), of_(of), known_(program.code.size(), -1) {}
 
+  /// The index of the instruction that computes [v] of instruction `at`; each is made once.
   int of(int at) {
     const auto k = static_cast<std::size_t>(at);
     if (known_[k] < 0) known_[k] = make(at);
@@ -70,6 +77,7 @@ class Terms {
     return made(where, {difference, larger, smaller}, here);
   }
 
+  /// The rules above, by operation.
   int make(int at) {
     const Instruction here = instruction(at);
     const std::vector<int>& operands = here.operands;

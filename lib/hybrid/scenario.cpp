@@ -105,6 +105,8 @@ std::vector<std::optional<StartRule>> rules_of(const std::vector<model::Design::
   return rules;
 }
 
+/// low + (high - low) u element by element, u uniform in [0, 1). Of a symmetric state the lower
+/// triangle is drawn and mirrored.
 numbers::Matrix box_value(const StartRule& rule, bool symmetric, RandomStream& random) {
   numbers::Matrix value = rule.values[0];
   for (Eigen::Index j = 0; j < value.cols(); ++j)
@@ -116,6 +118,8 @@ numbers::Matrix box_value(const StartRule& rule, bool symmetric, RandomStream& r
   return value;
 }
 
+/// InputError for a mode that is no whole number and for an asymmetry above kMeantEqual of the
+/// largest element. A smaller one is removed: (P + P')/2.
 void check_value(const Dynamics::Variable& variable, const Place& place, numbers::Matrix& value) {
   if (variable.kind == Dynamics::VariableKind::mode && value(0) != std::round(value(0)))
     throw InputError(place, "the mode " + variable.name + " starts at " + brief(value(0), 17) +
@@ -249,6 +253,7 @@ VectorXd draw_start(const System& system, const Scenario& scenario, std::uint64_
     check_value(variable, rule.place, value);
     values.segment(system.layout.slots[i].offset, value.size()) = value.reshaped();
   }
+  // d = a - b takes the place of b.
   for (const auto& [b, a] : scenario.differences) {
     const Slot& slot = system.layout.slots[b];
     auto d = values.segment(slot.offset, slot.shape.size());
@@ -268,6 +273,8 @@ EventClocks::EventClocks(const System& system, const Scenario& scenario, std::ui
   }
 }
 
+/// In this order: given times of `at`, the given run, the campaign, one length, a draw in the
+/// range.
 double EventClocks::first_due(std::size_t event, Clock& clock, std::uint64_t seed) const {
   const std::vector<double>& times = system_->times[event];
   if (!times.empty()) return times.front();
@@ -283,6 +290,7 @@ double EventClocks::first_due(std::size_t event, Clock& clock, std::uint64_t see
   return low + (high - low) * draw_stream(seed, run_, Purpose::first, event).uniform();
 }
 
+/// The next length in [low, high]: given, by the law of this run, or uniform.
 double EventClocks::drawn_length(std::size_t event, Clock& clock, double t) const {
   const System::Clock& rule = *system_->clocks[event];
   const std::uint64_t number = clock.lengths++;
@@ -312,6 +320,7 @@ void EventClocks::advance(std::size_t event, double t) {
     clock.due = clock.occurrences < times.size() ? times[clock.occurrences] : never;
   } else if (rule->low == rule->high) {
     clock.length = rule->low;
+    // first + k T by one product: a sum of k lengths would collect rounding.
     clock.due = clock.first + static_cast<double>(clock.occurrences) * rule->low;
   } else {
     clock.length = drawn_length(event, clock, t);
@@ -319,6 +328,7 @@ void EventClocks::advance(std::size_t event, double t) {
   }
 }
 
+/// Bernoulli of probability `lost`, except that after `in_a_row` losses in a row none follows.
 bool EventClocks::loses(std::size_t event) {
   const Dynamics::Event& one = system_->dynamics.events[event];
   Clock& clock = clocks_[event];
@@ -344,6 +354,8 @@ NoiseDraws::NoiseDraws(const System& system, const Scenario& scenario, std::uint
     random_.push_back(draw_stream(seed, run, Purpose::noise, i));
 }
 
+/// Given values first; of vertices element run/stride modulo their number; else c + M z, c .* exp(M
+/// z), or uniform.
 VectorXd NoiseDraws::next_value(std::size_t noise) {
   const Dynamics::Noise& one = system_->dynamics.noise[noise];
   const std::vector<numbers::Matrix>& rule = system_->noise[noise].values;

@@ -17,6 +17,9 @@
 //                      of uniform noise; none of vertices and corners, where run k takes one by its
 //                      number
 //   places   moved run signs of moves in the last places (simulate/last_places.h)
+//
+// Philox4x32-10 is the counter-based generator of Salmon, Moraes, Dror & Shaw 2011: a run can be
+// repeated alone, in any order and on any thread.
 #pragma once
 
 #include <cstdint>
@@ -63,6 +66,8 @@ Scenario make_scenario(const model::Design::Campaign& campaign, const System& sy
 /// Where the dynamics say that states start, up to a horizon.
 Scenario make_scenario(double horizon, const System& system);
 
+/// What a stream of draws is for: the first column of the table above. Its numbers are part of the
+/// draws, so that a change of them changes all runs.
 enum class Purpose : std::uint32_t { start = 1, first, length, lost, noise, last_places };
 
 /// The key of a stream, which all runs of a seed share.

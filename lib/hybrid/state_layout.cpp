@@ -11,6 +11,7 @@ std::optional<std::size_t> StateLayout::slot(const std::string& name) const {
   return static_cast<std::size_t>(found - slots.begin());
 }
 
+/// Offsets are sums of the sizes of the variables before.
 StateLayout layout_of(const model::Dynamics& dynamics) {
   StateLayout layout;
   for (const model::Dynamics::Variable& variable : dynamics.variables) {

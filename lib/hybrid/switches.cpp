@@ -86,6 +86,8 @@ class Rewritten {
   std::vector<int> at_;
 };
 
+/// Copies a program instruction by instruction into an assembly and replaces each branch on what
+/// moves. A branch on constants stays as it is.
 class BranchFixer {
  public:
   BranchFixer(const std::function<bool(const std::string&)>& moves, std::vector<Switch>& switches)

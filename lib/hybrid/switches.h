@@ -9,6 +9,9 @@
 //
 // H is an input that a run sets; D is an event function. What is inside a jacobian is fixed
 // by the same H as outside of it.
+//
+// A flow with fixed H is smooth, so that the order of an integrator holds on every step. The run
+// stops at each root of D, sets H anew and goes on.
 #pragma once
 
 #include <functional>

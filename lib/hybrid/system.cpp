@@ -28,6 +28,7 @@ void check_texts(System& system) {
   });
 }
 
+/// Offsets of all variables. All rest at first, except clocks.
 void stack_variables(System& system) {
   system.layout = layout_of(system.dynamics);
   system.whole = system.size = system.layout.size;
@@ -54,6 +55,7 @@ void leave_out_resting(System& system) {
   });
 }
 
+/// Replaces branches of flows by inputs H, and appends one slot for each H to the layout.
 void fix_branches_of_flows(System& system) {
   for (const Dynamics::Assignment& one : system.dynamics.flow)
     system.moves[one.variable] = Moves::flows;
@@ -99,6 +101,7 @@ void classify_flows(System& system) {
   });
 }
 
+/// 0 <= low <= high, 0 < high < infinity; else InputError at the place of the text.
 System::Clock make_clock(const Dynamics::Event& event, const System& system) {
   System::Clock clock;
   clock.low = system.scalar(*event.low);
@@ -120,6 +123,7 @@ System::Clock make_clock(const Dynamics::Event& event, const System& system) {
   return clock;
 }
 
+/// Given times and rows of a file, in rising order, each once.
 std::vector<double> times_of(const Dynamics::Event& event, const System& system) {
   std::vector<double> times;
   for (const model::Formula& formula : event.times) {
@@ -191,6 +195,8 @@ System::NoiseValues noise_values(const Dynamics::Noise& noise, const System& sys
   return made;
 }
 
+/// Vertices of several noises run through all combinations: noise i has the stride product of the
+/// numbers of vertices of those before it.
 void read_noise(System& system) {
   constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
   std::uint64_t stride = 1;
@@ -234,6 +240,7 @@ void check_measured(const System& system) {
   }
 }
 
+/// The most passes of each map of a jump: 1, or `at_most` or `times`, or kMost without either.
 void read_passes(System& system) {
   for (const Dynamics::Reaction& reaction : system.dynamics.reactions) {
     std::vector<std::int64_t>& most = system.most_passes.emplace_back();
@@ -309,6 +316,8 @@ System make_system(const model::Dynamics& dynamics, numbers::Values constants) {
   check_texts(system);
   leave_out_resting(system);
   fix_branches_of_flows(system);
+  // Order matters: branches are found among what flows, and rates are classified after their
+  // branches are fixed.
   classify_flows(system);
   read_events(system);
   read_noise(system);

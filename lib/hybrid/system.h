@@ -11,6 +11,22 @@
 //   flows    everything else
 //
 // The whole flow is affine when x' = M x + b with M and b made of what rests: then it is exact.
+//
+// This room turns dynamics into a hybrid system in the sense of Goebel, Sanfelice & Teel (Hybrid
+// Dynamical Systems, 2012), and holds what all runs of it share:
+//
+//   flow   x' = f(x)      where the conditions `while` hold and no event is due
+//   jump   x+ = g_k(x)    at event k, alone; of several due events the first in their order
+//
+// A solution is a hybrid arc x(t, j): j counts jumps, several may lie at one t (trajectory.h).
+//
+//   system, state_layout     values of the constants, places of the variables
+//   switches, breaks         branches of flows and of other texts, and where they change
+//   event_functions          conditions and crossings as functions of all values
+//   rounding_terms           sizes of terms, for rounding errors
+//   scenario, initial, law   horizon, initial states, sampling intervals, noise, random streams
+//   zeno, trajectory         accumulation of jumps, and the solution itself
+//   idle, doubts             what has no effect, and what is unlikely to be meant
 #pragma once
 
 #include <cstdint>
@@ -29,8 +45,11 @@
 
 namespace gainsmith::hybrid {
 
+/// What a variable does inside a flow.
 enum class Moves { rests, steady, flows };
 
+/// Invariants: layout.slots and moves have one element a variable, then one a switch; free_flow has
+/// one an assignment of dynamics.flow; clocks and times have one an event.
 struct System {
   /// Of an event with `every`.
   struct Clock {

@@ -1,5 +1,8 @@
 // A solution of Dynamics (model/dynamics.h) in hybrid time: flows with dense output, and jumps with
 // their events. What is judged, written and drawn.
+//
+// The domain is a hybrid time domain: a union of intervals [t_j, t_(j+1)] x {j}. A jump goes from
+// (t, j) to (t, j + 1). A flow of length 0 has no FlowPiece.
 #pragma once
 
 #include <Eigen/Core>
@@ -83,8 +86,8 @@ struct JumpPoint {
   bool lost = false;       ///< the plant alone jumped
   Eigen::VectorXd before;  ///< what the maps saw: noise of the event is drawn anew already
   Eigen::VectorXd after;
-  /// Of a twin, by element: the size of the terms that a map has computed it from, next to nothing of
-  /// a copy; kConstantTerms: it is a constant of the text; 0: it is what it was.
+  /// Of a perturbed run, by element: the size of the terms that a map has computed it from, next to
+  /// nothing of a copy; kConstantTerms: it is a constant of the text; 0: it is what it was.
   Eigen::VectorXd terms{};
 };
 
@@ -97,7 +100,7 @@ struct Trajectory {
   double end = 0;               ///< its time
   std::string message;          ///< why it ended, with time, place and values; empty at the horizon
   double accumulation = 0;      ///< zeno: the time at which jumps accumulate
-  std::vector<NearTurn> turns;  ///< of a twin (simulate/simulator.h), in order
+  std::vector<NearTurn> turns;  ///< of a perturbed run (simulate/simulator.h)
   std::vector<std::string> notes;  ///< such as a condition that came near without being met
 };
 

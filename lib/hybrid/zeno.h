@@ -7,6 +7,10 @@
 //                While a state counts, what is left is to be below 1e-8.
 //   chattering   a hundred flows in a row below 1e-9 of the horizon, without such an r; the clock
 //                of an event ends the row
+//
+// With lengths T_k -> r T_k over a period, what is left is the geometric sum T r/(1 - r), T the sum
+// of the last period. Such a solution is Zeno: infinitely many jumps in finite time (Goebel,
+// Sanfelice & Teel 2012). The bouncing ball has r = its restitution.
 #pragma once
 
 #include <Eigen/Core>
@@ -55,7 +59,9 @@ class ZenoDetector {
     std::size_t event = 0;  ///< that ended it
     Eigen::VectorXd state;  ///< there
   };
+  /// T r/(1 - r), when the last `ratios` ratios of lengths one period apart agree; otherwise none.
   std::optional<double> steady_rest(std::size_t period, std::size_t ratios) const;
+  /// Whether no state has changed by more than kSteady of its largest size over the last period.
   bool settles(std::size_t period) const;
   /// So many flows before the last, below `count_`.
   const Flow& before(std::size_t count) const {

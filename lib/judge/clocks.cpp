@@ -24,6 +24,7 @@ EventClock::EventClock(const Texts& texts, std::size_t event, std::vector<double
       jumps_(std::move(jumps)),
       faults_(faults) {
   if (is_given()) {
+    // Times before the start are no occurrences.
     while (occurrences_ < texts_.times.size() && texts_.times[occurrences_] < 0) ++occurrences_;
   } else if (has_one_length() && texts_.first_low == texts_.first_high) {
     base_ = texts_.first_low;
@@ -101,6 +102,7 @@ void EventClock::flow(std::size_t part, double t, const Eigen::VectorXd& x) {
   check_left(part, t, x);
 }
 
+/// |t + left - next| is rounding of times.
 void EventClock::check_left(std::size_t part, double t, const Eigen::VectorXd& x) {
   if (!left_of_ || unseen_ || !std::isfinite(next_)) return;
   faults_.check(part, t, "what is left of the clock is wrong: " + name_,

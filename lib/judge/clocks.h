@@ -1,4 +1,10 @@
 // Internal to the judge (judge.h): when the events `every` and `at` are due.
+//
+//   at t_1, t_2, ...      occurrence k is t_k
+//   every T               first + k T, by one product
+//   every [low, high]     low <= t_(k+1) - t_k <= high, and the first within its own range
+//
+// Times of sums are compared up to time_rounding (faults.h).
 #pragma once
 
 #include <Eigen/Core>
@@ -36,8 +42,11 @@ class EventClock {
  private:
   bool is_given() const { return kind_ == model::Dynamics::EventKind::at; }
   bool has_one_length() const { return texts_.low == texts_.high; }
+  /// The next occurrence after one at t.
   void reset(double t);
+  /// The time since the last jump against the range; with an `if` it has no upper bound.
   void check_length(std::size_t part, double t);
+  /// What is left of the clock, by the variable event.left.
   double left(const Eigen::VectorXd& x) const;
 
   const Texts& all_;

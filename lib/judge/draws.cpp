@@ -43,6 +43,7 @@ class Draws {
   }
 
  private:
+  /// u(p, i, k) is draw k of it.
   RandomStream stream(std::uint32_t purpose, std::size_t index) const {
     const auto word = [](std::uint64_t x, int k) {
       return static_cast<std::uint32_t>(x >> (32 * k));
@@ -64,6 +65,7 @@ class Draws {
                   (here - wanted).cwiseAbs().maxCoeff(), kRounding * wanted.cwiseAbs().maxCoeff());
   }
 
+  /// Where the state starts, a column; the draws are those of p = 1 and the variable.
   VectorXd start_value(std::size_t v, const Design::Start& start) const {
     const expr::Shape shape = texts_.layout.slots[v].shape;
     if (start.kind == model::StartKind::list)
@@ -140,6 +142,7 @@ class Draws {
     return M * z;
   }
 
+  /// c + M z, or c .* exp(M z), z from draw `at` on.
   VectorXd around(const std::vector<model::Formula>& values, bool covariance, bool logarithmic,
                   expr::Shape shape, const RandomStream& random, std::uint64_t at) const {
     const VectorXd center = filled(values[0], shape).reshaped();
@@ -149,6 +152,7 @@ class Draws {
 
   // --- Clocks. ---
 
+  /// Those of the event, or else those of all events.
   std::vector<const Design::Law*> laws_of(std::size_t event) const {
     std::vector<const Design::Law*> own, all;
     for (const Design::Law& law : from_.campaign->laws) {
@@ -174,6 +178,7 @@ class Draws {
     return {LawKind::constant, nullptr};
   }
 
+  /// Length k of the event by the law of this run, in [low, high]; t: where it begins.
   double length(std::size_t event, std::uint64_t k, double t) const {
     const double low = texts_.events[event].low;
     const double high = texts_.events[event].high;
@@ -233,6 +238,8 @@ class Draws {
     return t >= run_.horizon ? std::max(rounding, near_horizon * t) : rounding;
   }
 
+  /// Matches the jumps of the event to its due times, in order. With an `if` due times without a
+  /// jump are passed over.
   void check_clock(std::size_t event) {
     const std::vector<double> due = due_times(event);
     const bool conditional = texts_.dynamics.events[event].only_if.has_value();
@@ -255,6 +262,8 @@ class Draws {
                   "does not jump when it is drawn: " + texts_.dynamics.events[event].name);
   }
 
+  /// Jump k is lost where u(4, event, k) < probability, unless `in_a_row` losses come just before
+  /// it.
   void check_losses(std::size_t event) {
     const Dynamics::Event& one = texts_.dynamics.events[event];
     const RandomStream random = stream(of_losses, event);
@@ -275,11 +284,13 @@ class Draws {
 
   // --- Noise. ---
 
+  /// Vertices and corners are numbered by the run; nothing is drawn.
   static bool is_taken(const Dynamics::Noise& noise) {
     return noise.kind == Dynamics::NoiseKind::vertices ||
            noise.kind == Dynamics::NoiseKind::corners;
   }
 
+  /// The value of a text; a number fills the whole shape.
   numbers::Matrix filled(const model::Formula& text, expr::Shape shape) const {
     const numbers::Matrix value = texts_.constant(text);
     if (value.size() != 1) return value;
@@ -313,6 +324,8 @@ class Draws {
     return value;
   }
 
+  /// Drawing `drawing` = 0, 1, ... of the noise: one draw an element of uniform noise, two of the
+  /// others.
   VectorXd noise_value(std::size_t noise, std::uint64_t drawing) const {
     const Dynamics::Noise& one = texts_.dynamics.noise[noise];
     if (is_taken(one)) return taken(noise);
@@ -331,6 +344,7 @@ class Draws {
     return value;
   }
 
+  /// Whether x holds this drawing, up to kRounding.
   bool is_drawing(std::size_t v, std::uint64_t drawing, const VectorXd& x) const {
     const VectorXd wanted = noise_value(texts_.dynamics.variables[v].of, drawing);
     const VectorXd here = texts_.part(x, v);
@@ -338,6 +352,8 @@ class Draws {
            (here - wanted).cwiseAbs().maxCoeff() <= kRounding * wanted.cwiseAbs().maxCoeff();
   }
 
+  /// The number of the drawing goes up at each jump of its event, or with the time. Where `if`
+  /// spends occurrences some numbers may have left no trace.
   void check_noise(std::size_t v) {
     const std::size_t noise = texts_.dynamics.variables[v].of;
     const auto event = texts_.dynamics.noise[noise].event;

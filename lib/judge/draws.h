@@ -23,6 +23,8 @@
 
 namespace gainsmith::judge {
 
+/// A fault for each start, length, loss and noise of the run that is not its draw, up to kRounding
+/// of its size. `from`: the seed, the run and its campaign.
 void check_draws(Texts& texts, const hybrid::Trajectory& trajectory, const DrawnFrom& from,
                  Faults& faults);
 

@@ -38,6 +38,7 @@ std::vector<double> flow_lengths(const hybrid::Trajectory& trajectory) {
   return lengths;
 }
 
+/// The number of jumps at the end without a flow between them.
 std::int64_t last_chain(const hybrid::Trajectory& trajectory) {
   std::int64_t jumps = 0;
   for (auto part = trajectory.parts.rbegin();
@@ -77,6 +78,8 @@ Eigen::VectorXd ahead(Texts& texts, const Eigen::VectorXd& x, double dt) {
   return x + dt * rate;
 }
 
+/// At x, or where the flow leads in 1e-15 to 1e-7 of max(1, t): the simulator may have stopped a
+/// little before.
 bool is_undefined(Texts& texts, double t, const Eigen::VectorXd& x) {
   const double scale = std::max(1.0, std::abs(t));
   for (const double share : {0.0, 1e-15, 1e-13, 1e-11, 1e-9, 1e-7})
@@ -84,6 +87,8 @@ bool is_undefined(Texts& texts, double t, const Eigen::VectorXd& x) {
   return false;
 }
 
+/// A value is not finite or has grown by kEscape; or at its rate x would double within kHardly of
+/// the time.
 bool has_escaped(Texts& texts, const hybrid::Trajectory& trajectory, const Eigen::VectorXd& x) {
   if (!x.allFinite() || x.size() == 0) return true;
   const double start = trajectory.start.cwiseAbs().maxCoeff();
@@ -126,6 +131,7 @@ bool is_zeno(const hybrid::Trajectory& trajectory) {
   return false;
 }
 
+/// The last kAtOnce flows are each below kHardly of the horizon.
 bool is_chattering(const hybrid::Trajectory& trajectory) {
   const std::vector<double> lengths = flow_lengths(trajectory);
   if (lengths.size() < hybrid::kAtOnce) return false;
@@ -133,6 +139,7 @@ bool is_chattering(const hybrid::Trajectory& trajectory) {
                      [&](double length) { return length <= kHardly * trajectory.horizon; });
 }
 
+/// The rate kHardly before or behind x along the flow differs by more than kSteady of its size.
 bool is_sliding(Texts& texts, double t, const Eigen::VectorXd& x) {
   const double dt = kHardly * std::max(1.0, std::abs(t));
   Eigen::VectorXd here, there;
@@ -149,12 +156,14 @@ bool is_sliding(Texts& texts, double t, const Eigen::VectorXd& x) {
   return false;
 }
 
+/// Whether the jump of some event, from x, has a loop that ends without its `until`.
 bool exhausts_a_loop(Texts& texts, const Eigen::VectorXd& x) {
   for (std::size_t e = 0; e < texts.events.size(); ++e)
     if (jump_values(texts, e, false, x).exhausted) return true;
   return false;
 }
 
+/// A flow set is left, or may be within the rounding of x.
 bool is_outside(Texts& texts, double t, const Eigen::VectorXd& x) {
   const Eigen::VectorXd rounding = rounding_at(texts, t, x, texts.by_variable(x.cwiseAbs()));
   return std::any_of(texts.flow_sets.begin(), texts.flow_sets.end(), [&](FlowSetText& flow_set) {
@@ -162,6 +171,7 @@ bool is_outside(Texts& texts, double t, const Eigen::VectorXd& x) {
   });
 }
 
+/// Whether the values at the end show the cause; true of endings that nothing can show.
 bool has_its_cause(Texts& texts, const hybrid::Trajectory& trajectory, const Eigen::VectorXd& x) {
   const double t = trajectory.end;
   switch (trajectory.ending) {

@@ -11,6 +11,7 @@ namespace {
 using EventKind = model::Dynamics::EventKind;
 using V = model::Dynamics::VariableKind;
 
+/// Of one event, in order.
 std::vector<double> jump_times(const hybrid::Trajectory& trajectory, std::size_t event) {
   std::vector<double> times;
   for (const auto& part : trajectory.parts)
@@ -55,6 +56,8 @@ void EventCheck::forget_side(std::size_t event, const Eigen::VectorXd& x,
   remember_side(event, x, rounding);
 }
 
+/// A jump of another event keeps the side that e had. Its own jump, or one that leads e to 0,
+/// forgets it.
 void EventCheck::side_after(std::size_t event, const hybrid::JumpPoint& jump,
                             const Eigen::VectorXd& rounding) {
   EventMemory& memory = memory_[event];

@@ -34,6 +34,7 @@ class Faults {
   }
 
  private:
+  /// How many times too large it is; the size itself where nothing is allowed.
   static double excess(const Fault& fault) {
     return fault.allowed > 0 ? fault.size / fault.allowed : fault.size;
   }
@@ -42,6 +43,7 @@ class Faults {
 };
 
 /// Of sums of a few times.
+/// kTermRounding max(|a|, |b|).
 inline double time_rounding(double a, double b) {
   // Below the smallest normal number digits are lost.
   return hybrid::kTermRounding * std::max(std::abs(a), std::abs(b)) +

@@ -20,6 +20,7 @@ bool is_clock(V kind) { return kind == V::time || kind == V::since || kind == V:
 
 }  // namespace
 
+/// sum_k |c_k| by element, since |T_k| <= 1 on the step.
 Eigen::VectorXd step_sizes(const Texts& texts, const hybrid::DenseStep& step) {
   return texts.by_variable(step.coefficients.cwiseAbs().rowwise().sum());
 }
@@ -68,6 +69,7 @@ void FlowCheck::report(double t, const std::string& what, const Eigen::VectorXd&
       faults_.check(part_, t, what + ": " + slot.name, size(i), allowed(i));
 }
 
+/// Which variables flow, and the bits of what rests, are those at the start of the piece.
 void FlowCheck::operator()(std::size_t part, const hybrid::FlowPiece& piece) {
   part_ = part;
   flowing_ = texts_.flowing(piece.start);

@@ -1,4 +1,11 @@
 // Internal to the judge (judge.h): flows, integrated again.
+//
+// Each step is integrated again by Gauss steps of order 8 (step.h) and compared at its quarters:
+//
+//   |recorded - again| <= kFactor sqrt(n) (relative |x| + absolute),   n moving elements
+//
+// Errors of one sign add up to a drift. So the sum of the signed differences over a flow of N steps
+// is bounded too, by kFactor (1 + kCertain N) accuracies.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,6 +33,7 @@ Eigen::VectorXd time_rounding_at(Texts& texts, double t, const Eigen::VectorXd& 
 Eigen::VectorXd rounding_at(Texts& texts, double t, const Eigen::VectorXd& x,
                             const Eigen::VectorXd& sizes);
 
+/// Checks one piece after the other. Texts and faults must outlive it.
 class FlowCheck {
  public:
   FlowCheck(Texts& texts, Faults& faults);
@@ -34,8 +42,10 @@ class FlowCheck {
   void operator()(std::size_t part, const hybrid::FlowPiece& piece);
 
  private:
+  /// The end of a step, x, against the start of the next; noise and measured data may change there.
   void check_joint(const Eigen::VectorXd& x, double t, const Eigen::VectorXd& next,
                    const Eigen::VectorXd& sizes, bool inner, const Eigen::VectorXd& shift);
+  /// At 17 points of the step: what rests has its value, and clocks are lines of rate 1 or -1.
   void check_rest(const hybrid::DenseStep& step, const Eigen::VectorXd& x,
                   const Eigen::VectorXd& sizes);
   /// Adds to `sum` the difference at the end.

@@ -1,5 +1,10 @@
 // Internal to the judge (judge.h): what must not happen inside of flows. No condition of an event is
 // true there, no event function crosses zero, no clock runs down, and no flow set is left.
+//
+// A flow is sampled at 16 Chebyshev points a step, and at distances 4^-k, down to k = 24, of its
+// first and last step from its two ends. Between samples an extremum that may reach 0 is searched
+// by golden section, and the entry to a true condition by bisection. This finds what the simulator
+// missed, and is no proof that nothing is there.
 #pragma once
 
 #include <Eigen/Core>
@@ -44,6 +49,7 @@ class FlowInside {
   FlowInside(Texts& texts, std::vector<EventMemory>& memory, Faults& faults)
       : texts_(texts), memory_(memory), faults_(faults) {}
 
+  /// Checks one piece. Sides and marks of the events are those at its end afterwards.
   void operator()(std::size_t part, const hybrid::FlowPiece& piece);
 
  private:
@@ -54,15 +60,22 @@ class FlowInside {
     Eigen::VectorXd sizes;  ///< of its step
   };
 
+  /// Rising, each once.
   static std::vector<double> sample_times(const hybrid::FlowPiece& piece);
+  /// Points at sample_times, with the sizes of their steps.
   std::vector<Sample> samples(const hybrid::FlowPiece& piece) const;
+  /// The point at t: what rests has the bits that it has at the start of the piece.
   Sample sample(const hybrid::FlowPiece& piece, double t) const;
   /// What is true at a point up to so many times its rounding.
   Truth truth(Guard& guard, const Sample& at, double times = 1);
+  /// A fault where the condition is surely true inside. Without an event it is that of a flow set,
+  /// `left`.
   void watch_condition(const hybrid::FlowPiece& piece, const std::vector<Sample>& all, Guard& guard,
                        std::optional<std::size_t> event, const std::string& what);
+  /// A fault where e surely goes to the side on which the event fires.
   void watch_crossing(const hybrid::FlowPiece& piece, const std::vector<Sample>& all,
                       std::size_t event);
+  /// A fault where a clock runs down inside; an occurrence that `if` rejects is spent.
   void watch_clock(const hybrid::FlowPiece& piece, std::size_t event);
   /// Whether an occurrence at a point must jump: its `if` is true, for sure.
   bool must_jump(std::size_t event, const Sample& at);

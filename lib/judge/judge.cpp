@@ -40,6 +40,7 @@ bool is_well_formed(const hybrid::Trajectory& trajectory, const Texts& texts, Fa
   return faults.list().empty();
 }
 
+/// Goes over the parts in order with t, j and x where the last part ended.
 class Walk {
  public:
   Walk(const hybrid::Trajectory& trajectory, Texts& texts, Faults& faults)
@@ -62,6 +63,7 @@ class Walk {
   }
 
  private:
+  /// A text without a value is a fault, and the walk goes on.
   template <class Action>
   void guarded(Action action) {
     try {
@@ -79,6 +81,7 @@ class Walk {
     }
   }
 
+  /// Its start, whether its event is due, its map, and what follows from it.
   void over(const hybrid::JumpPoint& jump) {
     go_on(jump.t, jump.j, jump.before, jump.event);
     guarded([&] { watch_.instant(part_, t_, jump.before, jump.event); });
@@ -90,6 +93,7 @@ class Walk {
     ++j_;
   }
 
+  /// Its start, that nothing was due, its steps, and what happens inside.
   void over(const hybrid::FlowPiece& piece) {
     go_on(piece.from(), piece.j, piece.start, {});
     guarded([&] { watch_.instant(part_, t_, piece.start, {}); });
@@ -135,6 +139,7 @@ class Walk {
     return at && (event == at || texts_.dynamics.events[*at].only_if);
   }
 
+  /// States and modes at their starts, counts at 0, and the draws where a seed is known.
   void check_start() {
     for (std::size_t v = 0; v < texts_.dynamics.variables.size(); ++v) {
       if (texts_.is(v, V::passes))
@@ -149,6 +154,7 @@ class Walk {
       guarded([&] { check_draws(texts_, trajectory_, *texts_.question.drawn, faults_); });
   }
 
+  /// The range that the campaign gives, or else the value of the start.
   void check_start_of(std::size_t v) {
     const hybrid::Slot& slot = texts_.layout.slots[v];
     const auto here = texts_.part(x_, v);
@@ -166,6 +172,7 @@ class Walk {
                   kRounding * start->cwiseAbs().maxCoeff());
   }
 
+  /// Each noise is finite and in its range.
   void check_noise(const Eigen::VectorXd& x) {
     for (std::size_t v = 0; v < texts_.dynamics.variables.size(); ++v) {
       if (!texts_.is(v, V::noise)) continue;

@@ -18,6 +18,9 @@
 // Where the recorded values alone decide (which event is due at an instant) decisions are exact;
 // that an event was due, and what is true inside a flow, may hang on rounding and is a fault only
 // where no rounding explains it.
+//
+// The files: texts (programs and conditions with their rounding), flow and step (flows again),
+// jump, measured, events with inside and clocks (what is due), draws, end, faults.
 #pragma once
 
 #include <cstddef>
@@ -33,6 +36,7 @@
 
 namespace gainsmith::judge {
 
+/// One thing that is wrong. size <= allowed would have been right.
 struct Fault {
   std::size_t part = 0;  ///< of the trajectory; the number of its parts: of its end
   double t = 0;
@@ -54,6 +58,7 @@ struct DrawnFrom {
   const model::Design::Campaign* campaign = nullptr;  ///< must outlive the judging
 };
 
+/// What the judge is told of a run besides its dynamics.
 struct Question {
   double relative = 1e-10;  ///< the accuracy of the run
   double absolute = 1e-10;

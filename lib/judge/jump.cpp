@@ -66,6 +66,7 @@ void apply_reaction(Texts& texts, ReactionTexts& reaction, Eigen::VectorXd& x, J
   }
 }
 
+/// j, count, since, left and passes, which belong to the run.
 void count_jump(const Texts& texts, std::size_t event, JumpValues& result) {
   for (std::size_t v = 0; v < texts.dynamics.variables.size(); ++v) {
     const model::Dynamics::Variable& variable = texts.dynamics.variables[v];
@@ -79,6 +80,7 @@ void count_jump(const Texts& texts, std::size_t event, JumpValues& result) {
   }
 }
 
+/// What to say of a variable that has another value.
 std::string complaint(const Texts& texts, std::size_t variable, bool reacts,
                       const std::string& event) {
   const model::Dynamics::Variable& one = texts.dynamics.variables[variable];
@@ -97,6 +99,8 @@ std::string complaint(const Texts& texts, std::size_t variable, bool reacts,
 
 }  // namespace
 
+/// Every reaction starts from `before`, so that the order of components does not matter. A lost
+/// occurrence leaves out observers.
 JumpValues jump_values(Texts& texts, std::size_t event, bool lost, const Eigen::VectorXd& before) {
   JumpValues result{before, Eigen::VectorXd::Zero(before.size()), 0, false};
   for (ReactionTexts& reaction : texts.reactions) {

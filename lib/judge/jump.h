@@ -1,4 +1,9 @@
 // Internal to the judge (judge.h): jumps, computed again from the texts.
+//
+//   x+ = reactions of the event's components, each from x before the jump; what none sets is kept
+//
+// A value may differ by kRounding times the largest term of its text, and a symmetric state by the
+// asymmetry of its map besides.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,6 +27,8 @@ struct JumpValues {
 /// EvaluationError when a map has no value.
 JumpValues jump_values(Texts& texts, std::size_t event, bool lost, const Eigen::VectorXd& before);
 
+/// Faults of a recorded jump: other values, a mode that is no whole number, a state that is not
+/// symmetric.
 void check_jump(Texts& texts, std::size_t part, const hybrid::JumpPoint& jump, Faults& faults);
 
 }  // namespace gainsmith::judge

@@ -19,6 +19,7 @@ std::pair<std::size_t, std::size_t> rows_at(const Series& series, double t) {
   return {series.not_before(t, slack), series.after(t, slack)};
 }
 
+/// |here - expected| <= kRounding size + time_rounding |rate|.
 void compare_with_file(const Texts& texts, std::size_t part, double t, std::size_t v,
                        const numbers::Matrix& here, const Course& course, double sizes,
                        Faults& faults) {
@@ -33,6 +34,7 @@ void compare_with_file(const Texts& texts, std::size_t part, double t, std::size
 
 }  // namespace
 
+/// A row inside of the step is a fault. Values and rates are compared at its middle.
 void check_measured(const Texts& texts, std::size_t part, const hybrid::DenseStep& step,
                     Faults& faults) {
   for (std::size_t v = 0; v < texts.dynamics.variables.size(); ++v) {

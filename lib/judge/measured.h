@@ -1,4 +1,6 @@
 // Measured data in a run, read again from their rows.
+//
+// Between two rows the value is held or is on the line through them, as the text says.
 #pragma once
 
 #include "hybrid/trajectory.h"

@@ -44,6 +44,7 @@ std::optional<StepAgain::Quarters> StepAgain::operator()() {
   return finer ? finer : straight();
 }
 
+/// h |rate of the texts - rate of the programs| <= kCertain allowed, at both ends.
 bool StepAgain::is_compiled_right() {
   Eigen::VectorXd of_text, of_program;
   try {
@@ -116,6 +117,7 @@ std::optional<StepAgain::Quarters> StepAgain::settled(std::optional<Quarters> co
   return std::nullopt;
 }
 
+/// x + t x'(middle), when h |x'| is within kCertain of what is allowed at both ends.
 std::optional<StepAgain::Quarters> StepAgain::straight() {
   Eigen::VectorXd rate, middle;
   try {

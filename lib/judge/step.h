@@ -1,4 +1,8 @@
 // Internal to the judge (judge.h): one recorded step of a flow, integrated again.
+//
+// The method is the implicit one of Gauss with four stages, of order 8 (ode/gauss.h). Two half
+// steps are tried first. If they disagree with the record, the number of steps doubles, up to
+// kMostParts, until the result settles.
 #pragma once
 
 #include <Eigen/Core>
@@ -42,7 +46,9 @@ class StepAgain {
   /// Of a step so short that nothing moves by more than a tenth of what is allowed. Next to a
   /// switch of the flow no method converges on it.
   std::optional<Quarters> straight();
+  /// One Gauss step from (t, y) of length h. The recorded step is the first guess.
   std::optional<Eigen::VectorXd> gauss(double t, const Eigen::VectorXd& y, double h);
+  /// The rates of the active elements at (t, y), with clocks moved on.
   void rate(double t, const Eigen::VectorXd& y, Eigen::VectorXd& out);
   /// Whether compiled programs say what the texts say at both ends of the step.
   bool is_compiled_right();

@@ -35,6 +35,7 @@ hybrid::StateLayout used_part(const hybrid::StateLayout& layout, const expr::Pro
 Truth compare(Kind kind, const numbers::Matrix& difference, const numbers::Matrix& spread) {
   const auto d = difference.array();
   const auto s = spread.array();
+  // d == 0 is certain only where nothing is rounded.
   if (kind == Kind::zero) {
     if ((d.abs() > s).any()) return Truth::no;
     return (s == 0).all() ? Truth::yes : Truth::unknown;
@@ -57,6 +58,7 @@ Text::Text(const expr::Program& program, const Place& place, const hybrid::State
     for (Eigen::Index i = 0; i < slot.shape.size(); ++i) elements_.push_back(slot.offset + i);
 }
 
+/// 2 evaluations for each variable that the text uses and that rounding moves.
 numbers::Matrix Text::spread(const Eigen::VectorXd& x, const Eigen::VectorXd& rounding) {
   const numbers::Matrix here = value_.at(0, x);
   numbers::Matrix sum = numbers::Matrix::Zero(here.rows(), here.cols());
@@ -107,6 +109,7 @@ bool Guard::operator()(const Eigen::VectorXd& x) {
   return !parts_.front()(x);
 }
 
+/// Three values are ordered no < unknown < yes: `and` is the least, `or` the largest.
 Truth Guard::truth(const Eigen::VectorXd& x, const Eigen::VectorXd& rounding) {
   if (difference_) return compare(kind_, (*difference_)(x), difference_->spread(x, rounding));
   if (kind_ == Kind::none) return opposite(parts_.front().truth(x, rounding));
@@ -118,6 +121,7 @@ Truth Guard::truth(const Eigen::VectorXd& x, const Eigen::VectorXd& rounding) {
   return result;
 }
 
+/// min over `and`, max over `or`, -depth of `not`; of d == 0 it is -|d|, which is never above 0.
 double Guard::depth(const Eigen::VectorXd& x) {
   if (difference_) {
     const numbers::Matrix& difference = (*difference_)(x);
@@ -161,6 +165,7 @@ numbers::Matrix Texts::constant(const model::Formula& formula) const {
 
 double Texts::scalar(const model::Formula& formula) const { return constant(formula)(0, 0); }
 
+/// Without `first` the first occurrence has the range of the lengths.
 EventTexts Texts::event_texts(const Dynamics::Event& event) const {
   EventTexts texts;
   if (event.condition) texts.condition.emplace(*event.condition, layout, stated);
@@ -206,6 +211,8 @@ ReactionTexts Texts::reaction_texts(const Dynamics::Reaction& reaction) const {
   return texts;
 }
 
+/// The least and largest value of box, vertices or corners; 10 deviations around the center of
+/// normal noise.
 NoiseRange Texts::noise_range(const Dynamics::Noise& one) const {
   const auto fitted = [&](const model::Formula& formula) {
     const numbers::Matrix value = constant(formula);

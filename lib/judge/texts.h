@@ -1,5 +1,11 @@
 // Internal to the judge (judge.h): the texts of Dynamics with values, as functions of
 // the stacked variables, and conditions that know what rounding leaves open.
+//
+// Rounding enters to first order, one variable after the other:
+//
+//   spread(x) = sum_i max(|f(x + r_i e_i) - f(x)|, |f(x - r_i e_i) - f(x)|)
+//
+// A comparison d > 0 is surely true where d > spread, surely false where d <= -spread.
 #pragma once
 
 #include <Eigen/Core>
@@ -60,6 +66,7 @@ class Guard {
   std::vector<Guard> parts_;
 };
 
+/// One event: its condition or crossing or clock, and its `if`.
 struct EventTexts {
   std::optional<Guard> condition;
   std::optional<Text> crossing;
@@ -69,6 +76,7 @@ struct EventTexts {
   std::vector<double> times;             ///< of `at`, in order, each once
 };
 
+/// The new value of one variable in a jump.
 struct MapText {
   std::size_t variable;
   Text value;
@@ -76,6 +84,7 @@ struct MapText {
   std::optional<Text> terms;
 };
 
+/// One map of a reaction, or a loop of it.
 struct PassTexts {
   std::vector<MapText> map;  ///< variables with their new values
   bool repeats = false;
@@ -84,12 +93,14 @@ struct PassTexts {
   bool go_on = false;
 };
 
+/// What one component does at one event.
 struct ReactionTexts {
   std::size_t event = 0;
   std::size_t component = 0;
   std::vector<PassTexts> passes;
 };
 
+/// Where all values of a noise lie; infinite where it has no range.
 struct NoiseRange {
   numbers::Matrix low, high;    ///< of its shape
   std::optional<double> every;  ///< drawn anew after each such time
@@ -100,6 +111,7 @@ struct FlowSetText {
   std::string say;
 };
 
+/// All texts of the dynamics, and the sizes that count as right.
 class Texts {
  public:
   /// All must outlive it. InputError for a text that uses what has no value, and for constants

@@ -34,6 +34,8 @@ Program product(const Program& a, const Program& b) {
       compose.apply(Op::multiply, {first, second}, {a.shape().rows, b.shape().cols}));
 }
 
+/// In this order: differences take the place of states, flow and jump are rewritten, the flow is
+/// evaluated, images expm(..) x are added, and what nothing needs is dropped.
 class Builder {
  public:
   Builder(const SampledSystem& system, numbers::ValuesOf<Decimal100> constants,
@@ -69,6 +71,8 @@ class Builder {
     names_.insert(name);
   }
 
+  /// The states that no difference replaces, then the differences. A coordinate that a jump keeps
+  /// has no jump.
   void add_coordinates() {
     result_.layout.timer = system_.layout.timer;
     for (const hybrid::Slot& slot : system_.layout.slots)
@@ -110,6 +114,7 @@ class Builder {
     return in_errors_(difference(entry(pair->plus), entry(pair->minus)));
   }
 
+  /// The flow as linear x + constant, from its values at 0 and at the unit vectors.
   void find_flow() {
     const Index n = result_.layout.size;
     WideMap map{Wide::Zero(n, n), Wide::Zero(n, 1)};
@@ -139,6 +144,8 @@ class Builder {
     const auto moves = [&](const std::string& name) { return name == s.name; };
     const auto degrees = numbers::degrees(argument, moves);
     if (degrees[static_cast<std::size_t>(argument.result)] != 1) return false;
+    // The argument K(s) = s N is 0 at s = 0, and r N + M = 0. So (expm(K) x)' = expm(K) (r N + M) x
+    // = 0.
     Wide at = Wide::Zero(result_.layout.size, 1);
     WideFunction value(argument, result_.layout, result_.constants);
     Wide sum = -value(at);
@@ -171,6 +178,7 @@ class Builder {
     return program.code[static_cast<std::size_t>(program.result)].op == Op::matrix_exponential;
   }
 
+  /// The coordinate that a program is, when it is nothing else.
   const hybrid::Slot* slot_of(const Program& program) const {
     if (program.code.size() != 1 || program.code[0].op != Op::input) return nullptr;
     if (!names_.contains(program.inputs[0].name)) return nullptr;
@@ -196,6 +204,7 @@ class Builder {
     const Coordinate& from = result_.list[coordinate(slot.name)];
     const Coordinate& ticks = result_.list[coordinate(time.name)];
     Coordinate made;
+    // w = expm(K(s)) x at the start and, with s+ and x+, after a jump. It has no flow.
     made.start = product(replace_inputs(map, {{time.name, ticks.start}}), from.start);
     const auto after = [](const Coordinate& one, const hybrid::Slot& of) {
       return one.jump ? *one.jump : expr::input_program(of.name, of.shape);
@@ -225,6 +234,8 @@ class Builder {
     return changed;
   }
 
+  /// Rewrites the functions that contain an expm, and widens the flow by rows and columns of zeros.
+  /// A function with too many words stays as it is.
   void add_images() {
     for (Program& function : functions_) {
       if (std::none_of(function.code.begin(), function.code.end(),

@@ -11,6 +11,19 @@
 // (polynomial.h), so that equal terms cancel exactly. They are evaluated in 100 digits from the
 // decimals, and what is left below kCoefficientNoise is 0. Coordinates that no claim depends on are
 // dropped: a diverging plant has no part in the judgement of its observer.
+//
+// This room runs sampled linear dynamics many times faster than steps do. A run is a product of
+// polynomials of the lengths between jumps, with a bound of every error:
+//
+//   sampled_system    which dynamics are of this kind: one timer, an affine flow
+//   coordinates, differences, dependence    this change of coordinates
+//   polynomial        the exact algebra of texts that it needs
+//   quadratic_parts   claims as quadratic forms
+//   model, jump, flow   x' = A x, x+ = B D x, and their matrices in 100 digits
+//   proof             which forms decrease for all states
+//   length_table      functions of a length as polynomials
+//   system, graph, error_graph, block   the code over lanes and its error bounds
+//   wide_function     functions and affine maps in 100 digits
 #pragma once
 
 #include <Eigen/Core>
@@ -30,6 +43,8 @@ struct Coordinate {
   bool clock = false;                 ///< constant derivative, and jumps depend on clocks alone
 };
 
+/// The flow is affine with constant matrices, n x n and n x 1 with n = layout.size. `list` and
+/// layout.slots have the same order.
 struct Coordinates {
   hybrid::StateLayout layout;
   std::vector<Coordinate> list;

@@ -12,6 +12,8 @@ namespace gainsmith::linear {
 namespace {
 
 /// For each coordinate, whether a function depends on it.
+/// The set closed under "a jump of a needed coordinate reads it" and "its column in a needed row of
+/// the flow is not 0".
 std::vector<bool> find_needed(const Coordinates& all) {
   const std::vector<hybrid::Slot>& slots = all.layout.slots;
   std::vector<bool> needed(slots.size(), false);
@@ -62,6 +64,8 @@ void keep_needed(Coordinates& coordinates) {
   coordinates = std::move(kept);
 }
 
+/// The largest set of coordinates with rows of 0 in the flow whose jumps read that set alone: all
+/// with such rows, less those that break the rule, until none does.
 void mark_clocks(Coordinates& coordinates) {
   const std::vector<hybrid::Slot>& slots = coordinates.layout.slots;
   std::set<std::string> clocks;

@@ -25,6 +25,8 @@ const expr::Input* input_of(const expr::Program& program, int operand) {
 
 }  // namespace
 
+/// Greedy, in the order of the texts: a - b is taken when neither is replaced yet and b is not kept
+/// by another difference.
 std::vector<StateDifference> find_differences(const std::vector<expr::Program>& functions,
                                               const hybrid::StateLayout& layout) {
   std::vector<StateDifference> found;
@@ -69,6 +71,7 @@ expr::Program ErrorRewriting::simplified(const expr::Program& program) {
     expr::Program other = polynomials_.program(polynomials_.of(program));
     if (count_of(other, names_) < count_of(program, names_)) return other;
   } catch (const std::length_error&) {
+    // The polynomial has too many words: the text stays as it is.
   }
   return program;
 }

@@ -1,5 +1,15 @@
 // Operations over lanes on numbers whose errors are bounded: linear maps and quadratic forms with
 // polynomials of a length as coefficients (length_table.h).
+//
+// A number is known as value and radius, |true - value| <= radius. The graph computes both in
+// double. Rules of one operation, with u the unit roundoff:
+//
+//   M v      radius+ = |M| radius + (error of M + (n + 4) u |M|) size + kTiny
+//   v'F v    |error| <= A (part A + 2 R),   A = sum w_i size_i,   R = sum w_i radius_i,
+//            |F_ij| <= w_i w_j
+//
+// These are forward error bounds of inner products (Higham, Accuracy and Stability of Numerical
+// Algorithms, 2002, chapter 3). The bounds are rounded to nearest and widened by kBoundSlack.
 #pragma once
 
 #include <algorithm>
@@ -16,13 +26,14 @@ namespace gainsmith::linear {
 
 using Nodes = std::vector<int>;
 
-/// More than all that underflows in one result.
+/// More than all that underflows in one result; added to each bound.
 inline constexpr double kTiny = 1e-290;
 /// Numbers with bounds of their errors: |true - value| <= radius, size >= |value| + radius.
 struct Numbers {
   Nodes value, size, radius;
   std::size_t count() const { return value.size(); }
 };
+/// Nodes of a number and of a bound of its error.
 struct Known {
   int value = 0;
   int error = 0;
@@ -49,6 +60,8 @@ class Sizes {
     for (std::size_t i = 0; i < n; ++i) {
       const bool zero =
           std::all_of(size_[i].begin(), size_[i].end(), [](double x) { return x == 0; });
+      // An element off the diagonal may exceed the roots where F is indefinite. So w is widened
+      // below.
       w[i] = zero ? 0 : std::max(std::sqrt(size_[i][i]), 1e-8 * std::sqrt(largest));
     }
     double excess = 1;
@@ -110,6 +123,7 @@ class ErrorGraph {
     if (table.functions.empty() || !table.functions.front().powers.empty()) return;
     given_ = inputs(table.functions.size());
   }
+  /// Horner's scheme in sigma of function k; of a table in pieces the input that holds it.
   int polynomial(const LengthTable& table, std::size_t k, int sigma) {
     const std::vector<double>& powers = table.functions[k].powers;
     if (powers.empty()) return given_[k];
@@ -170,6 +184,8 @@ class ErrorGraph {
     const int error = form_error(table, same, v);
     return {form_value(table, next, sigma, v.value), error};
   }
+  /// sum_j v_j sum_(i <= j) f_ij v_i, f_ij with i < j doubled in the table. It takes n (n + 1)/2
+  /// functions from `next` on.
   int form_value(const LengthTable& table, std::size_t& next, int sigma, const Nodes& v) {
     int value = constant(0);
     for (std::size_t j = 0; j < v.size(); ++j) {
@@ -180,6 +196,7 @@ class ErrorGraph {
     }
     return value;
   }
+  /// The bound of the error of that value; takes the same functions.
   int form_error(const LengthTable& table, std::size_t& next, const Numbers& v) {
     Sizes sizes(v.count());
     for (std::size_t j = 0; j < v.count(); ++j)

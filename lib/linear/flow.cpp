@@ -60,6 +60,7 @@ std::vector<Wide> terms_from(Wide first, const Next& next) {
   }
 }
 
+/// sum_k terms_k share^k by Horner's scheme.
 Wide sum_of(const std::vector<Wide>& terms, const Decimal100& share) {
   Wide sum = terms.back();
   for (std::size_t k = terms.size() - 1; k-- > 0;) sum = Wide(sum * share + terms[k]);
@@ -85,6 +86,7 @@ double flow_norm(const Wide& A, double length) {
 
 WideFlow::WideFlow(const Wide& A, const std::vector<Wide>& forms, double longest)
     : units_(units_of(A)) {
+  // |A| unit <= 1/2 in balanced units: the series converges at once.
   for (double norm = flow_norm(A, longest); norm > 0.5; norm /= 2) ++doublings_;
   unit_ = longest > 0 ? std::ldexp(longest, -doublings_) : 1;
   const Wide step = balanced(A, units_) * Decimal100(unit_);
@@ -105,6 +107,7 @@ WideFlow::Values WideFlow::operator()(const Decimal100& s) const {
   Values values{sum_of(flow_, share), {}};
   for (const std::vector<Wide>& terms : integrals_)
     values.W.emplace_back(sum_of(terms, share) * share);
+  // E(2 s) = E(s)^2 needs the old E in W(2 s) = W(s) + E(s)' W(s) E(s): W goes first.
   for (int k = 0; k < doublings_; ++k) {
     for (Wide& W : values.W) W += moved(values.E, W);
     values.E = times<Decimal100>(values.E, values.E);
@@ -161,6 +164,8 @@ RankFactors rank_factors(const Wide& matrix) {
   return factors;
 }
 
+/// Cholesky with diagonal pivoting (Higham 2002, section 10.3). What is below kCoefficientNoise of
+/// the largest element counts as 0.
 bool is_semidefinite(Wide Q) {
   const Index n = Q.rows();
   const Decimal100 noise = Decimal100(largest(Q)) * Decimal100(kCoefficientNoise);

@@ -7,6 +7,12 @@
 //   E(2 s) = E(s)^2,   W(2 s) = W(s) + E(s)' W(s) E(s)
 //
 // in units in which A is small (numerics/balance.h).
+//
+// Series and doubling together are scaling and squaring. In 100 digits the rounding of the
+// squarings is far below double precision. Van Loan 1978 finds W from one exponential of twice the
+// size.
+//
+//   E = sum_k (s A)^k/k!,   W = sum_k X_k,   X_0 = s Q,   X_k = s (A' X_(k-1) + X_(k-1) A)/(k + 1)
 #pragma once
 
 #include <Eigen/Core>
@@ -20,6 +26,7 @@ namespace gainsmith::linear {
 
 using Wide = numbers::MatrixOf<Decimal100>;
 
+/// A n x n, each form Q n x n and symmetric. E, W n x n.
 class WideFlow {
  public:
   struct Values {
@@ -51,6 +58,8 @@ struct RankFactors {
   Wide B, D;
   std::vector<Eigen::Index> rows;  ///< which are D
 };
+/// Elimination with complete pivoting. A pivot below kCoefficientNoise of the largest element is 0,
+/// and ends it.
 RankFactors rank_factors(const Wide& matrix);
 
 /// Whether x'Q x >= 0 for every x; Q symmetric.

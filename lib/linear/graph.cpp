@@ -73,11 +73,13 @@ void compare(const Known& v, double tolerance, Nodes& claim, ErrorGraph& graph) 
   claim[3] = graph.maximum(claim[3], graph.subtract(graph.subtract(v.value, v.error), high));
 }
 
+/// The least v - error and the least v + error so far.
 void keep_least(const Known& v, Nodes& claim, ErrorGraph& graph) {
   claim[0] = graph.minimum(claim[0], graph.subtract(v.value, v.error));
   claim[1] = graph.minimum(claim[1], graph.add(v.value, v.error));
 }
 
+/// A cost is a sum, with the sum of its errors.
 void add_cost(const Known& cost, Nodes& claim, ErrorGraph& graph) {
   claim[0] = graph.add(cost.value, claim[0]);
   claim[1] = graph.add(cost.error, claim[1]);
@@ -140,6 +142,7 @@ void bound_claims(const LinearSystem& system, const LengthTable& table, std::siz
   }
 }
 
+/// From xi to z behind the first jump. z has the error b of this product alone, so G = 0.
 lanes::LaneCode first_code(const LinearSystem& system, const LengthTable& table) {
   ErrorGraph graph(system.model.constant);
   const int length = graph.input();
@@ -160,6 +163,8 @@ lanes::LaneCode first_code(const LinearSystem& system, const LengthTable& table)
   return graph.code({all_of(carried), values});
 }
 
+/// z+ = M z and G+ = M G, with M the r x r (or r x (r + 1)) polynomials of the length, and the
+/// claims over this flow.
 lanes::LaneCode step_code(const LinearSystem& system, const LengthTable& table) {
   ErrorGraph graph(system.model.constant);
   const std::size_t r = system.rank;
@@ -203,6 +208,8 @@ std::vector<Nodes> triangulated(const LinearSystem& system, const Carried& carri
     for (std::size_t k = 0; k < r; ++k)
       column.push_back(i == k ? graph.scaled(spread, carried.b[i]) : graph.constant(0));
   }
+  // Modified Gram and Schmidt. R' R = G G' + r diag(b)^2, so
+  // |row i of R'|^2 = |row i of G|^2 + r b_i^2.
   std::vector<Nodes> R(r, Nodes(r, graph.constant(0)));
   const auto dot = [&](const Nodes& a, const Nodes& b) {
     int sum = graph.constant(0);
@@ -254,7 +261,8 @@ Numbers over_block(const LinearSystem& system, const BlockBounds& bounds, int ro
   return z;
 }
 
-/// R' is the new G.
+/// Once a block: R' takes the place of G, all is scaled by a power of 2, claims by its square, and
+/// bounds for the next block are made.
 lanes::LaneCode gather_code(const LinearSystem& system, const LengthTable& table) {
   ErrorGraph graph(system.model.constant);
   const std::size_t r = system.rank;
@@ -295,6 +303,8 @@ Known end_value(const LinearSystem& system, std::size_t c, const LengthTable& fa
   return sum;
 }
 
+/// The rest of the last flow, without a jump: x = E(rest) B z with radii, then values and costs at
+/// the end.
 lanes::LaneCode last_code(const LinearSystem& system, const LinearTables& tables) {
   ErrorGraph graph(system.model.constant);
   const int rest = graph.input(), length = graph.input(), left = graph.input(),

@@ -15,6 +15,7 @@ using Eigen::Index;
 
 }  // namespace
 
+/// Values of the clocks at a jump: start + rate s at the first one, reset + rate s at the others.
 struct LinearJump::Clocks {
   const Coordinates* coordinates = nullptr;
   Wide start, reset, rate;  ///< of all coordinates; 0 of those that are no clocks
@@ -69,6 +70,7 @@ std::optional<LinearJump> LinearJump::make(const Coordinates& all, const Wide& s
     for (int e = 0; e < slot.shape.size(); ++e)
       (is_clock ? clock_elements : made.elements_).push_back(slot.offset + e);
   }
+  // A flow that reads a clock is none of x alone.
   if (!all.linear(made.elements_, clock_elements).isZero(0)) return std::nullopt;
   for (const Coordinate& one : all.list) {
     clocks.after.emplace_back();
@@ -83,6 +85,8 @@ std::optional<LinearJump> LinearJump::make(const Coordinates& all, const Wide& s
   return made;
 }
 
+/// [J, j] by values: j = g(0), column i of J = g(e_i) - g(0), clocks fixed at their values for this
+/// length.
 Wide LinearJump::operator()(const Decimal100& length, bool first) const {
   if (!clocks_) return constant_;
   const Coordinates& all = *clocks_->coordinates;

@@ -48,6 +48,8 @@ class Points {
 
 /// The coefficients of Chebyshev polynomials, by function: of the polynomial of this degree through
 /// the points.
+/// c_i = 2/(N p_i) sum_k f_k cos(pi i k/N)/p_k, p_0 = p_N = 2 and p_k = 1 elsewhere: a discrete
+/// cosine transform, N the degree.
 std::vector<Series> interpolated(const std::vector<Series>& values, int degree) {
   const Series cosine = cosines(degree);
   std::vector<Series> series(values.front().size(), Series(values.size()));
@@ -145,6 +147,7 @@ std::optional<WideTable> make_wide_table(double from, double to, const WideFunct
                      [&](const Series& one) { return has_faded(one) || follows(one); }))
       continue;
     for (const Series& one : all) {
+      // Below kLengthFaded of the largest: 0, with the sum of its coefficients as its error.
       if (has_faded(one)) {
         table.powers.push_back({Decimal100(0)});
         table.errors.push_back(2 * sum_of_sizes(one));
@@ -160,6 +163,7 @@ std::optional<WideTable> make_wide_table(double from, double to, const WideFunct
   return std::nullopt;
 }
 
+/// Powers in double. The error grows by (4 k + 3) u |c_k| a coefficient, u the unit roundoff.
 LengthTable rounded(const WideTable& wide) {
   LengthTable table{wide.middle, wide.scale, {}};
   for (std::size_t f = 0; f < wide.powers.size(); ++f) {
@@ -203,6 +207,7 @@ std::optional<PieceTable> make_piece_table(double from, double to, double shorte
     table.pieces.push_back(rounded(*wide));
     start = last;
   }
+  // Of several pieces the whole keeps the largest sizes and errors, which bound all of them.
   table.whole = table.pieces.front();
   for (std::size_t k = 1; k < table.pieces.size(); ++k)
     for (std::size_t f = 0; f < table.whole.functions.size(); ++f) {

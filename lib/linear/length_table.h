@@ -4,6 +4,11 @@
 //
 // They are interpolated at Chebyshev points in 100 digits, cut where what is left is negligible, and
 // rounded once. The error of both is known. The functions must be smooth: those of linear flows are entire.
+//
+// Interpolation at Chebyshev points of an entire function converges faster than geometrically. Its
+// error is at most twice the sum of the coefficients of higher degree (Trefethen, Approximation
+// Theory and Approximation Practice, 2013). That of a cut series is taken as twice the sum of what
+// was cut.
 #pragma once
 
 #include <functional>
@@ -39,6 +44,7 @@ struct WideTable {
 
 /// None where polynomials of degree kMostLengthDegree do not follow a function.
 std::optional<WideTable> make_wide_table(double from, double to, const WideFunctions& functions);
+/// The same in double, with a bound of what rounding adds.
 LengthTable rounded(const WideTable& table);
 
 /// Functions with other polynomials on each of some pieces of [from, to]: flows have fast modes that

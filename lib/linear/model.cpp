@@ -133,6 +133,8 @@ bool set_maps(LinearModel& linear) {
   const Wide inputs = coordinates.constant(x, Eigen::all);
   linear.constant = !inputs.isZero(0) || !constant.isZero(0) || !S.rightCols(1).isZero(0);
   linear.A = homogeneous(coordinates.linear(x, x), inputs, linear.constant, 0);
+  // [J(s_1), J(s_2), ...] = B [D(s_1), D(s_2), ...]: the columns of B span the range of these
+  // jumps.
   const RankFactors factors = rank_factors(maps);
   linear.jump_rows = factors.rows;
   linear.B = homogeneous(factors.B, constant, linear.constant, 1);
@@ -188,6 +190,7 @@ std::optional<Wide> cost_form(const Program& cost, const LinearModel& linear) {
   return Q;
 }
 
+/// The factor of `shrinks`, a constant > 0; false where it moves or is not positive.
 bool set_factor(const Program& factor, const LinearModel& linear, LinearClaim& made) {
   const StateLayout& layout = linear.coordinates->layout;
   for (const expr::Input& input : factor.inputs)
@@ -217,6 +220,7 @@ bool add_claim(const claims::Claim& claim, const Program* functions, LinearModel
       if (add_parts(value, linear, made.value)) return true;
       made.value.clear();
       const auto square = expr::square_of_norm(value);
+      // norm(e) is the root of e'e, which is a form.
       made.squared = square.has_value();
       return square && add_parts(*square, linear, made.value);
     }
@@ -225,6 +229,7 @@ bool add_claim(const claims::Claim& claim, const Program* functions, LinearModel
   }
 }
 
+/// Ranges of lengths. A first length that the campaign gives leaves no range.
 void set_lengths(LinearModel& linear) {
   const hybrid::System& system = *linear.sampled->dynamics;
   const hybrid::System::Clock& clock = *system.clocks.front();
@@ -244,6 +249,7 @@ std::optional<Wide> LinearModel::D(const Decimal100& length, bool first) const {
   const Index n = map.rows();
   const Wide J = map.leftCols(n);
   const Wide rows = J(jump_rows, Eigen::all);
+  // J - B D, which is to be 0 but for rounding.
   Wide rest = J - numbers::times<Decimal100>(Wide(B.topLeftCorner(n, r)), rows);
   remove_noise(rest, largest_of(J));
   if (!rest.isZero(0)) return std::nullopt;

@@ -34,11 +34,13 @@ struct DrawnElement {
   Eigen::Index element = 0;  ///< of the state, column by column
 };
 
+/// One term g(tau) x'Q x of a claim. Q is n x n, symmetric.
 struct LinearForm {
   std::optional<expr::Program> factor;  ///< of the timer; none: 1
   Wide Q;
 };
 
+/// A claim over quadratic forms; which members count depends on its kind.
 struct LinearClaim {
   model::ClaimKind kind = model::ClaimKind::nonincreasing;
   bool squared = false;  ///< the value is the root of the forms
@@ -54,6 +56,8 @@ inline bool is_compared(const LinearClaim& claim) {
   return claim.kind == model::ClaimKind::nonincreasing && !claim.falls;
 }
 
+/// n coordinates x with the constant, r numbers z with it; A n x n, B n x r, D r x n, S n x m.
+/// Pointers refer to what make_linear_model was given.
 struct LinearModel {
   const SampledSystem* sampled = nullptr;
   const hybrid::Scenario* scenario = nullptr;

@@ -17,6 +17,7 @@ using expr::Op;
 using expr::Program;
 using expr::Shape;
 
+/// A text that two programs share when they are instruction for instruction the same.
 void append_key(const Program& program, std::string& key) {
   for (const Instruction& instruction : program.code) {
     key += std::to_string(static_cast<int>(instruction.op)) + ':';
@@ -45,6 +46,7 @@ int add_program(expr::Assembly& assembly, const Program& program,
   return assembly.add_program(program, replace);
 }
 
+/// A coefficient that becomes 0 leaves the sum: this is where equal terms cancel.
 void add_term(Polynomial& sum, Word word, std::int64_t coefficient) {
   if (coefficient == 0) return;
   const auto [found, fresh] = sum.terms.emplace(std::move(word), coefficient);
@@ -131,6 +133,7 @@ void Polynomials::split(Word& word) const {
   std::sort(word.inner.begin(), word.inner.end());
 }
 
+/// The product of each pair of words: 1 x 1 factors are sorted, chains are joined.
 Polynomial Polynomials::multiply(const Polynomial& a, const Polynomial& b, Shape shape) const {
   Polynomial result{shape, {}};
   for (const auto& [x, cx] : a.terms)
@@ -151,6 +154,7 @@ Polynomial Polynomials::word_by_word(const Polynomial& value,
                                      const std::function<Program(const Program&)>& linear) {
   Polynomial result;
   for (const auto& [word, coefficient] : value.terms) {
+    // f(s C) = s f(C) for 1 x 1 factors s and the chain C.
     Polynomial chain{value.shape, {{Word{{}, {}, word.chain}, 1}}};
     Polynomial factor{{1, 1}, {{Word{word.scalars, word.inner, {}}, coefficient}}};
     if (value.shape.is_scalar()) {
@@ -186,6 +190,8 @@ Polynomial Polynomials::of_blocks(const Instruction& instruction,
   return result;
 }
 
+/// Sums, products, powers up to 4, transposes, parts and blocks are expanded. Anything else is an
+/// atom.
 Polynomial Polynomials::of_instruction(const Program& program, std::size_t at,
                                        const std::vector<Polynomial>& values) {
   const Instruction& instruction = program.code[at];

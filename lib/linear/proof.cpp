@@ -64,6 +64,7 @@ std::vector<Wide> without_zeros(const std::vector<Wide>& S) {
 
 /// The polynomial around `middle`, in t = (sigma - middle)/half, rounded once.
 std::vector<Matrix> around(std::vector<Wide> S, double middle, double half) {
+  // The shift of Horner: coefficients in sigma - middle; then powers of half scale to t.
   for (std::size_t first = 0; first + 1 < S.size(); ++first)
     for (std::size_t k = S.size() - 1; k-- > first;) S[k] += Decimal100(middle) * S[k + 1];
   std::vector<Matrix> result;
@@ -76,6 +77,8 @@ std::vector<Matrix> around(std::vector<Wide> S, double middle, double half) {
   return result;
 }
 
+/// S_0 + sum_k S_k t^k < 0 for |t| <= 1, by one Cholesky factor of -S_0 less kFlowMargin I in units
+/// with diagonal 1.
 bool is_negative(const std::vector<Matrix>& S) {
   const Matrix middle = -(S.front() + S.front().transpose()) / 2;
   // In units in which the diagonal is 1, so that rounding has one size.
@@ -97,6 +100,7 @@ bool is_negative(const std::vector<Matrix>& S) {
   return sum < 1 - kFlowMargin;
 }
 
+/// On |sigma - middle| <= half, or on both halves.
 bool is_negative_on(const std::vector<Wide>& S, double middle, double half, int halvings) {
   if (is_negative(around(S, middle, half))) return true;
   if (halvings == 0) return false;

@@ -7,6 +7,10 @@
 // S(tau) <= 0 on a range is shown on pieces: with S = S_0 + sum_k S_k t^k, |t| <= 1, on one of them
 // and -S_0 = L L', it is enough that sum_k |inv(L) S_k inv(L)'| < 1 in the norm of Frobenius. That
 // does not depend on the units of x.
+//
+// Proof of the test: -S = L (I - sum_k t^k X_k) L' with X_k = inv(L) S_k inv(L)'. The bracket is
+// positive definite where the norms of the X_k sum to less than 1. A piece that fails is halved,
+// eight times at most.
 #pragma once
 
 #include <vector>

@@ -64,7 +64,8 @@ Wide sampled_form(const expr::Program& program, const Coordinates& coordinates) 
   return Q;
 }
 
-/// Splits the function; empty and false when it is not of the form.
+/// Words with the same factors of clocks are one part. The rest of each word has degree 2 at most.
+/// False where the function is not of the form.
 bool split(const expr::Program& program, const Coordinates& coordinates,
            std::vector<QuadraticPart>& parts) {
   Polynomials polynomials;
@@ -90,6 +91,7 @@ bool split(const expr::Program& program, const Coordinates& coordinates,
       if (dependence_of(part, coordinates).clocks) return false;
       const auto degrees = numbers::degrees(part, moves);
       const int own = degrees[static_cast<std::size_t>(part.result)];
+      // An atom that is not affine in what moves cannot be a factor of a quadratic form.
       if (own == numbers::kNotAffine) return false;
       degree += own;
     }

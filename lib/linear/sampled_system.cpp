@@ -14,6 +14,7 @@ namespace {
 using model::Dynamics;
 using VariableKind = Dynamics::VariableKind;
 
+/// One event `every` that always happens.
 bool is_one_clock(const Dynamics& dynamics) {
   if (dynamics.events.size() != 1) return false;
   const Dynamics::Event& event = dynamics.events.front();
@@ -46,12 +47,14 @@ bool is_sampled(const hybrid::System& system) {
          all(dynamics.reactions);
 }
 
+/// Operations that have no evaluation in 100 digits.
 bool is_without_wide_value(expr::Op op) {
   using enum expr::Op;
   return is_without_bounds(op) ||
          is_one_of(op, {pseudo_inverse, range_basis, kernel_basis, determinant});
 }
 
+/// With constant matrices: rates that read the timer are refused.
 bool is_affine_flow(const std::vector<MapEntry>& map, const hybrid::StateLayout& layout) {
   const auto moves = [&](const std::string& name) { return layout.moves(name); };
   return std::none_of(map.begin(), map.end(), [&](const MapEntry& entry) {

@@ -118,11 +118,13 @@ class Functions {
   Index rows(const Wide& map) const { return map.rows() - (model_.constant ? 1 : 0); }
 
  private:
+  /// sum_k g_k Q_k of one claim, with g from number `first` on.
   Wide sum(const LinearClaim& claim, const std::vector<Decimal100>& g, std::size_t first) const {
     Wide Q = Wide::Zero(model_.A.rows(), model_.A.rows());
     for (std::size_t k = 0; k < claim.value.size(); ++k) Q += claim.value[k].Q * g[first + k];
     return Q;
   }
+  /// X'W X of the flow cost, and end'Q end of the jump cost, with end = E X just before the jump.
   Wide cost(std::size_t c, const Wide& X, const Wide& end, const WideFlow::Values& flow,
             bool jump) const {
     Wide C = Wide::Zero(X.cols(), X.cols());
@@ -152,6 +154,7 @@ bool all_fall(LinearModel& model, Functions& functions) {
     return make_wide_table(from, to,
                            [&](const Decimal100& tau) { return functions.factors()(tau); });
   };
+  // Along a flow the timer is in [0, longest]; just after a jump it is in [low, high].
   const auto along = factors(0, model.longest());
   const auto after = factors(model.low, model.high);
   if (!along || !after) return false;
@@ -171,6 +174,7 @@ bool all_fall(LinearModel& model, Functions& functions) {
 
 /// How much |M|, its largest elements, makes of an error in one flow: its Perron root.
 double growth_of(const LengthTable& step, std::size_t rank, std::size_t columns) {
+  // Power iteration on a nonnegative matrix, from ones.
   std::vector<double> error(rank, 1), next(rank);
   double growth = 0;
   constexpr int iterations = 60;
@@ -204,6 +208,7 @@ std::optional<PieceTable> pieces(double from, double to, double shortest,
   }
 }
 
+/// One piece over the range; none where the functions need more.
 std::optional<LengthTable> table(double from, double to, const WideFunctions& functions) {
   const auto one = pieces(from, to, to, functions);
   return one ? std::optional(one->whole) : std::nullopt;
@@ -227,6 +232,7 @@ std::unique_ptr<const LinearSystem> make_linear_system(LinearModel given) {
     system->carried += count;
   }
   const double norm = flow_norm(model.A, model.longest());
+  // |A| times the first piece is kLongestPiece at most.
   const double shortest = model.longest() * (norm > kLongestPiece ? kLongestPiece / norm : 1);
   auto first = pieces(model.first_low, model.first_high, shortest,
                       [&](const Decimal100& s) { return functions.of_flow(model.S, s, true); });

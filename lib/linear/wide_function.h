@@ -18,6 +18,7 @@ class WideFunction {
                const numbers::ValuesOf<Decimal100>& constants);
   WideFunction(WideFunction&&) = default;
   WideFunction& operator=(WideFunction&&) = default;
+  /// The value at x, layout.size x 1, and tau; valid until the next call.
   const numbers::MatrixOf<Decimal100>& operator()(const numbers::MatrixOf<Decimal100>& x,
                                                   const Decimal100& tau = Decimal100(0));
 
@@ -27,6 +28,7 @@ class WideFunction {
   expr::Evaluator<numbers::Real<Decimal100>> evaluator_;
 };
 
+/// max |a_ij|; 0 of an empty matrix.
 Decimal100 largest_of(const numbers::MatrixOf<Decimal100>& matrix);
 /// Sets what is below 1e-80 of `largest` to 0.
 void remove_noise(numbers::MatrixOf<Decimal100>& matrix, const Decimal100& largest);

@@ -105,6 +105,7 @@ AffineForm constant_form(const numbers::Matrix& matrix) {
 
 AffineForm unknown_form(const Unknown& unknown) {
   AffineForm result{unknown.shape, {}};
+  // I V I: the scalars of a large matrix are not written out.
   if (unknown.whole) {
     const auto [rows, columns] = std::pair(unknown.shape.rows, unknown.shape.cols);
     Sparse left(rows, rows);
@@ -132,6 +133,7 @@ AffineForm variable_form(forall::MonomialTable& monomials, int variable) {
     add_term(result, {tau, 0}, sparse(numbers::Matrix::Ones(1, 1)));
     return result;
   }
+  // sum_j alpha_j V_j with weights alpha_j that sum to 1: V_0 + sum_{j>0} alpha_j (V_j - V_0).
   add_term(result, {0, 0}, sparse(v.elements[0]));
   for (int j = 1; j < static_cast<int>(v.elements.size()); ++j)
     add_term(result, {monomials.index_of_weight(variable, j), 0},
@@ -189,6 +191,7 @@ void remove_noise(AffineForm& form, const forall::MonomialTable& monomials) {
                 [&](const Product& product) { return noise.contains(product.monomial); });
 }
 
+// Numbers for monomials: the terms of one unknown add up.
 AffineForm at_vertex(const AffineForm& form, const std::vector<double>& values) {
   AffineForm result{form.shape, {}};
   for (const auto& [key, matrix] : form.terms) {

@@ -19,6 +19,7 @@
 
 namespace gainsmith::lmi {
 
+/// M(x, tau), of `shape`. A scalar may be in terms and, with its matrix, in products.
 struct AffineForm {
   using Key = std::pair<int, int>;
 
@@ -52,10 +53,11 @@ void add_term(AffineForm& form, AffineForm::Key key, const Sparse& matrix, doubl
 void add_placed(AffineForm& form, const AffineForm& other, int row, int column, double factor = 1);
 AffineForm transposed(const AffineForm& form);
 
-/// The matrix of a constant form.
+/// The matrix of a constant form; of another one its part without unknowns and variables.
 numbers::Matrix dense_constant(const AffineForm& form);
 
-/// The affine form of a program, with the unknowns and the variables of the table.
+/// The affine form of a program, with the unknowns and the variables of the table. EvaluationError
+/// at the place of an operation that leaves affine forms.
 AffineForm evaluate_affine(const expr::Program& program, const Unknowns& unknowns,
                            forall::MonomialTable& monomials, const numbers::Values& values);
 
@@ -71,10 +73,10 @@ std::set<int> monomials_in(const AffineForm& form);
 /// largest one of the same unknown at its place.
 void remove_noise(AffineForm& form, const forall::MonomialTable& monomials);
 
-/// The form with numbers for its monomials.
+/// The form with numbers for its monomials: values[a] for phi_a, values[0] = 1.
 AffineForm at_vertex(const AffineForm& form, const std::vector<double>& values);
 
-/// The matrix of a form without monomials at x.
+/// The matrix of a form without monomials at x, x[i - 1] being scalar i.
 numbers::Matrix value_of(const AffineForm& form, const std::vector<double>& x);
 
 }  // namespace gainsmith::lmi

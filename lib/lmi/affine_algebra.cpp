@@ -27,6 +27,9 @@ class Rules {
   Rules(forall::MonomialTable& monomials, const Unknowns& unknowns)
       : monomials_(monomials), unknowns_(unknowns) {}
 
+  /// (sum phi_a x_i A_ai) (sum phi_b B_b): the unknowns are those of one factor. A product of two
+  /// monomials is a sum of monomials (forall/monomials.h). By operation: of matrices, of a scalar
+  /// and a matrix, or element by element.
   AffineForm product(const AffineForm& a, const AffineForm& b, expr::Shape shape,
                      expr::Op op) const {
     refuse_two_unknowns(a, b);
@@ -75,6 +78,7 @@ class Rules {
     return result;
   }
 
+  /// By a constant without zeros, a scalar or element by element.
   AffineForm quotient(const AffineForm& a, const AffineForm& b, expr::Op op) const {
     if (!b.is_constant()) refuse(op, b);
     const numbers::Matrix by = dense_constant(b);
@@ -120,6 +124,7 @@ class Rules {
 
   /// expm(M + F tau) = expm(M) expm(F tau) when M F = F M.
   AffineForm matrix_exponential(const AffineForm& form) const {
+    // ||M F - F M|| beside ||M|| ||F||, up to which M and F count as commuting.
     constexpr double kCommutes = 1e-13;
     const Linear argument = linear(expr::Op::matrix_exponential, form);
     const numbers::Matrix& M = argument.constant;
@@ -150,6 +155,8 @@ class Rules {
     return "";
   }
 
+  /// Throws EvaluationError: names an unknown in the operand, or says that it is no function of tau
+  /// that forms have.
   [[noreturn]] void refuse(expr::Op op, const AffineForm& form) const {
     int which = 0;
     if (form.has_unknown(&which))
@@ -164,9 +171,10 @@ class Rules {
   }
 
  private:
-  static constexpr int kLargestPower = 1'000'000;
-  static constexpr std::size_t kMostFunctions = 100;
+  static constexpr int kLargestPower = 1'000'000;     ///< of a variable of `forall`
+  static constexpr std::size_t kMostFunctions = 100;  ///< terms that an expanded power may have
 
+  /// The largest exponent of a variable in its monomials.
   int largest_power(const AffineForm& form) const {
     int largest = 0;
     for (const int monomial : monomials_in(form))
@@ -183,7 +191,7 @@ class Rules {
                   factor);
   }
 
-  /// constant + slope * (one interval variable).
+  /// constant + slope * tau, tau one variable over an interval. Refuses everything else.
   struct Linear {
     numbers::Matrix constant;
     numbers::Matrix slope;
@@ -210,6 +218,7 @@ class Rules {
     return result;
   }
 
+  /// EvaluationError with a remedy where both factors have unknowns.
   void refuse_two_unknowns(const AffineForm& a, const AffineForm& b) const {
     int first = 0;
     int second = 0;

@@ -34,6 +34,7 @@ AffineForm index(const expr::Instruction& instruction, const AffineForm& form) {
   for (const auto& [key, matrix] : form.terms)
     add_term(result, key, Sparse(matrix.block(row, column, rows, columns)));
   for (Product product : form.products) {
+    // Rows of E V F are those of E, columns those of F.
     product.left = Sparse(product.left.block(row, 0, rows, product.left.cols()));
     product.right = Sparse(product.right.block(0, column, product.right.rows(), columns));
     add_product(result.products, std::move(product));

@@ -31,13 +31,16 @@ Sparse moved(const Sparse& matrix, int rows, int cols, Move move) {
 /// a + factor b.
 AffineForm sum(const AffineForm& a, const AffineForm& b, double factor);
 
+/// [a, b; c, d]: operands row by row, as many in a row of blocks as the first attribute says.
 AffineForm blocks(const expr::Instruction& instruction,
                   std::span<const AffineForm* const> operands);
+/// A part of rows and columns, from the places that the attributes give.
 AffineForm index(const expr::Instruction& instruction, const AffineForm& form);
 
 // Of forms without products:
 /// The scalar times the identity.
 AffineForm identity(const AffineForm& form, expr::Shape shape);
+/// 1 x 1.
 AffineForm trace(const AffineForm& form);
 /// diagonal_of or diagonal_matrix.
 AffineForm diagonal(const expr::Instruction& instruction, const AffineForm& form);

@@ -12,6 +12,8 @@ namespace gainsmith::lmi {
 
 namespace {
 
+/// Sorts and adds up entries of one place. Those with a finer part stay as they are: the solver
+/// adds them in 100 digits.
 void merge(std::vector<sdp::Entry>& entries) {
   const auto key = [](const sdp::Entry& e) { return std::tuple(e.block, e.row, e.column); };
   std::stable_sort(entries.begin(), entries.end(),
@@ -83,6 +85,7 @@ int Assembler::add(const BalancedBlock& block, int constant, double diagonal) {
 
 void Assembler::add_entry(int i, int block, int row, int column, double value, double rest,
                           const Finer* finer) {
+  // F_0 is the constant part with the opposite sign.
   if (value == 0) return;
   const double sign = i == 0 ? -1 : 1;
   int place = 0;

@@ -1,4 +1,5 @@
-// Fills a semidefinite program X = sum x_i F_i - F_0 from blocks in balanced units.
+// Fills a semidefinite program X = sum x_i F_i - F_0 from blocks in balanced units. A block
+// B_0 + sum_i y_i B_i >= 0 gives F_i = B_i and F_0 = -B_0; this sign is set here alone.
 #pragma once
 
 #include <vector>
@@ -50,10 +51,12 @@ void for_each_balanced(const Block& block, const Balance& balance, std::size_t a
 /// S B(x) S at the variables y of the program, the constant part times `one`.
 numbers::Matrix value_of(const BalancedBlock& block, const std::vector<double>& y, double one);
 
+/// Collects one problem in the variables 1 ... `variables`, which have the cost 0 at first.
 class Assembler {
  public:
   explicit Assembler(int variables);
 
+  /// A block without entries; returns its index.
   int add_block(int size, bool diagonal = false);
 
   /// B(x) as a new block. Its constant part is multiplied by variable `constant` (0: by 1), its
@@ -64,15 +67,17 @@ class Assembler {
   void add_entry(int i, int block, int row, int column, double value, double rest = 0,
                  const Finer* finer = nullptr);
 
+  /// Of variable i, from 1.
   void set_cost(int i, double cost);
 
-  /// The problem with entries of one place merged.
+  /// The problem with entries of one place merged, in 31 digits, and without zeros. Only once.
   sdp::Problem take();
 
  private:
   sdp::Problem problem_;
 };
 
+/// 0, 1, ..., size - 1.
 std::vector<int> all_rows(const Block& block);
 
 }  // namespace gainsmith::lmi

@@ -64,6 +64,7 @@ class NormalEquations {
   /// are 0.
   Units solve() const {
     constexpr double kEnough = 1e-28;  // of the squares: 1e-14 of the residual
+    // 1 / N_rr, the preconditioner; 0 keeps free rows where they are.
     numbers::Vector scale =
         G_.diagonal() - W_.cwiseAbs2() * means(numbers::Vector::Ones(weights_.size()));
     scale = (fixed_.array() > 0).select(scale.cwiseInverse(), 0.0);
@@ -84,6 +85,7 @@ class NormalEquations {
       along = next + size_of_next / size * along;
       size = size_of_next;
     }
+    // Given the rows, log2 d_i is minus the mean of log2 |element| + log2 s_r + log2 s_c.
     const numbers::Vector unknowns = -means(logs_ + W_.transpose() * s);
     return {s, {unknowns.begin(), unknowns.end()}};
   }
@@ -102,6 +104,7 @@ class NormalEquations {
 /// Without the elements below `least` in these units; none when there are no such elements.
 std::optional<BalanceElements> without_small(const BalanceElements& elements, const Units& units,
                                              double least) {
+  // The largest element of each row and of each unknown stays.
   const double small = std::log2(least);
   const double none = -std::numeric_limits<double>::infinity();
   std::vector<double> of_row(static_cast<std::size_t>(units.rows.size()), none);
@@ -129,6 +132,7 @@ std::optional<BalanceElements> without_small(const BalanceElements& elements, co
   return kept;
 }
 
+/// The power of two of a unit. Exact halves stay clear of the border 0.4863 (balance.h).
 int rounded(double exponent) { return static_cast<int>(std::floor(exponent + 0.5137)); }
 
 }  // namespace
@@ -152,6 +156,7 @@ Balance balance(const std::vector<const Block*>& blocks, int unknowns,
                 const std::vector<double>& objective) {
   const BalanceElements elements(blocks, unknowns, objective);
   Units units = NormalEquations(elements).solve();
+  // What the second and the third pass leave out, see balance.h.
   constexpr double kNoise = 1e-8, kSmall = 1e-3;
   std::optional<BalanceElements> kept = without_small(elements, units, kNoise);
   if (kept) units = NormalEquations(*kept).solve();

@@ -26,6 +26,7 @@ BalanceElements::BalanceElements(const std::vector<const Block*>& blocks, int un
                                  const std::vector<double>& objective) {
   constexpr double kLeast = 1e-290;  // units for less than this would not be doubles
   std::map<std::pair<std::string, int>, std::pair<int, int>> shared;  // first row, blocks
+  // Blocks of one name and size have common rows; each of q such blocks counts as 1/q.
   for (const Block* block : blocks) {
     const auto [found, fresh] = shared.try_emplace({block->name, block->size}, rows_, 0);
     if (fresh) rows_ += block->size;

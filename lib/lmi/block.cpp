@@ -34,6 +34,7 @@ numbers::Matrix Block::value(const std::vector<double>& x, double one) const {
       add_multiple(result, i == 0 ? one : x[static_cast<std::size_t>(i) - 1], matrix);
   if (!products) return result;
   for (const HermitianProduct& product : *products) {
+    // He(E V F)
     const numbers::Matrix inner = product.left * matrix_at(product.unknown, x);
     const numbers::Matrix half = inner * product.right;
     result += half + half.transpose();
@@ -58,6 +59,7 @@ void check_finite(const Sparse& matrix, const Place& place, const std::string& n
                                     "finite: its data are too large for double");
 }
 
+/// Elements (r, c) and (c, r) that differ by less, beside the largest one, differ by rounding.
 constexpr double kSymmetric = 1e-12;
 
 /// Makes a coefficient exactly symmetric; InputError when it is not so up to rounding.
@@ -113,6 +115,7 @@ bool is_elsewhere(const AffineForm& form) {
 
 Block block_of(const AffineForm& form, std::string name, std::string point, bool strict,
                const Place& place) {
+  // A matrix that is in products and in terms is written out by its scalars.
   if (is_elsewhere(form)) {
     Block block = block_of(expanded(form), std::move(name), std::move(point), strict, place);
     block.products.reset();

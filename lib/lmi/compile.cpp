@@ -28,6 +28,8 @@ class Compiler {
   Compiler(const Inequalities& of, const Statement& statement, int slices)
       : of_(of), statement_(statement), domain_(statement.domain), slices_(slices) {}
 
+  /// The blocks of all comparisons. Writes the method that was chosen, its points and whether the
+  /// hull loses nothing to `imposed`.
   std::vector<Block> blocks(Imposed& imposed) const {
     if (imposed.way == model::Way::automatic) return choose(imposed);
     if (imposed.way == model::Way::exchange && !forall::intervals(domain_).empty()) {
@@ -136,6 +138,8 @@ class Compiler {
   int slices_;
 };
 
+/// c and c_0 from the affine form of the objective, 1 x 1. InputError at its place where a
+/// coefficient is not finite.
 void set_objective(const Inequalities& of, Lmi& lmi) {
   const auto& objective = of.design().objective;
   if (!objective) return;
@@ -179,6 +183,8 @@ int Lmi::rows() const {
 
 double Lmi::multiplications() const {
   const double m = unknowns;
+  // A factor of m rows; for each block of t terms and n rows 2 t products of n x n matrices and
+  // t^2/2 inner products.
   double sum = m * m * m / 6;
   for (const Block& block : blocks) {
     const auto terms = static_cast<double>(block.terms.size());

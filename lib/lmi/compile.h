@@ -1,7 +1,7 @@
 // From a method's inequalities to affine blocks  B(x) = B_0 + sum_i x_i B_i  that must be >= 0.
 //
-// "forall k in {..}" gives one block an element. Intervals and polytopes are imposed in one of two
-// ways, which the plan names (forall/plan.h):
+// "forall k in {..}" gives one block an element. Intervals and polytopes are imposed by one of two
+// methods, which the plan names (forall/plan.h):
 //   hull      one block a vertex of what contains the functions of the variables (forall/hull.h): B
 //             is affine in them, so it is >= 0 on the whole domain if it is so at the vertices
 //   exchange  one block a point of the plan, the variables over intervals being numbers there; the
@@ -36,10 +36,10 @@ struct Lmi {
   double objective_at(const std::vector<double>& x) const;
 };
 
-/// Where the plan leaves the way open it is the hull when nothing is lost by it, and otherwise an
-/// exchange with its first points; the plan is updated. InputError, with the place, for what is not
-/// affine in the unknowns, a difference that is not symmetric or has no rows, what the hull cannot
-/// take when it is asked for, or more than 2^12 vertices.
+/// Where the plan leaves the method open it is the hull when nothing is lost by it, and otherwise
+/// an exchange with its first points; the plan is updated. InputError, with the place, for what is
+/// not affine in the unknowns, a difference that is not symmetric or has no rows, what the hull
+/// cannot take when it is asked for, or more than 2^12 vertices.
 Lmi compile(const Inequalities& inequalities, forall::Plan& plan);
 /// With the first points of the problem's own plan.
 Lmi compile(const Inequalities& inequalities);

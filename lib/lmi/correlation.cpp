@@ -7,6 +7,7 @@
 namespace gainsmith::lmi {
 
 double correlation_margin(const numbers::Matrix& M) {
+  // The least M_ii / max_j |M_ij| of the rows whose diagonal element is not positive.
   double not_positive = 1;
   for (Eigen::Index i = 0; i < M.rows(); ++i) {
     if (!M.row(i).allFinite()) return -1;

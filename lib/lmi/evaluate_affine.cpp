@@ -46,7 +46,8 @@ class Register {
   bool has_form_ = false;
 };
 
-/// One evaluation.
+/// One evaluation, instruction by instruction. An instruction whose operands are all numbers is
+/// computed in doubles; the others are computed as forms.
 class Run {
  public:
   Run(const expr::Program& program, const AffineAlgebra& algebra, const numbers::Values& values,
@@ -92,6 +93,8 @@ class Run {
     out = Register::own(std::move(form));
   }
 
+  /// A variable that is symbolic, an unknown, a value of the point, or a datum: the first of these
+  /// that has the name. std::out_of_range for no such name.
   Register input(const std::string& name) const {
     if (const int variable = algebra_.monomials->find_variable(name); variable >= 0)
       return Register::own(variable_form(*algebra_.monomials, variable));

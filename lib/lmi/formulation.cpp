@@ -12,6 +12,7 @@ namespace gainsmith::lmi {
 
 namespace {
 
+/// The blocks of the Lmi and then those of the bounds; both must outlive the list.
 std::vector<const Block*> all_blocks(const Lmi& lmi, const GainBounds& bounds) {
   std::vector<const Block*> blocks;
   for (const auto* list : {&lmi.blocks, &bounds.blocks})
@@ -42,6 +43,7 @@ numbers::Matrix in_units(const numbers::Matrix& whole, const Balance& balance, s
   return value;
 }
 
+/// The number of rows that stay in each block.
 std::vector<int> sizes_of(const FreeVariables& free_variables, const GainBounds& bounds) {
   std::vector<int> sizes;
   for (const auto& kept : free_variables.kept) sizes.push_back(static_cast<int>(kept.size()));
@@ -106,6 +108,8 @@ Formulation pose_interior(const Lmi& lmi, const GainBounds& bounds) {
 
 namespace {
 
+/// In y_i = x_i / d_i:  minimise cost_unit sum_i c_i d_i y_i + weight sum_k tr(B_k)
+///   subject to  S_k B_k S_k >= shift I  (blocks of the Lmi),  >= 0  (bounds).
 void assemble_objective(const Lmi& lmi, const std::vector<const Block*>& blocks,
                         const std::vector<std::vector<int>>& rows, Formulation& result) {
   Assembler assembler(result.variables);
@@ -127,6 +131,7 @@ void assemble_objective(const Lmi& lmi, const std::vector<const Block*>& blocks,
   result.problem = assembler.take();
 }
 
+/// The program of Goal::interior. t multiplies the diagonals of the blocks by 1 - t.
 void assemble_interior(const std::vector<const Block*>& blocks,
                        const std::vector<std::vector<int>>& rows, const Round& round,
                        const Exactly& exactly, Formulation& result) {
@@ -201,6 +206,7 @@ Formulation formulate_violation(const Lmi& lmi) {
   return result;
 }
 
+// The last variable is s.
 double interior_margin(const sdp::Solution& solution) { return solution.x.back(); }
 
 std::vector<double> read_back(const Lmi& lmi, const Formulation& formulation,
@@ -217,6 +223,7 @@ std::vector<double> read_back(const Lmi& lmi, const Formulation& formulation,
   return x;
 }
 
+// t = min_k correlation_margin(B_k(x)), D_k = diag(B_k(x)) in balanced units, D_0 = x_0.
 std::optional<Round> next_round(const Lmi& lmi, const GainBounds& bounds,
                                 const Formulation& formulation, const std::vector<double>& x) {
   Round round;
@@ -250,6 +257,7 @@ Formulation in_units_of_solution(const Lmi& lmi, const GainBounds& bounds,
   result.blocks.clear();
   Balance& balance = result.balance;
   for (std::size_t k = 0; k < blocks.size(); ++k) {
+    // s_r^2 sum_i |x_i B_ki[r, r]| is brought to about 1.
     std::vector<double> sizes(rows[k].size(), 0.0);
     for_each_balanced(*blocks[k], formulation.balance, k, rows[k],
                       [&](int i, int row, int column, double value) {
@@ -283,6 +291,7 @@ bool is_narrow_bracket(double low, double high, const Formulation& formulation) 
 
 double objective_lower_bound(const Lmi& lmi, const GainBounds& bounds,
                              const Formulation& formulation, const sdp::Solution& solution) {
+  // How much larger than the solution an x may be for which the bound holds: |x_i|, and the trace.
   constexpr double kLike = 2, kLikeTrace = 30;
   constexpr double kRounding = 3e-16;  // of the coefficients, which represent decimals
   // c'x >= r_0 + r'x - w sum_k tr(B_k(x))  with the weight w, c_0 = 0 and
@@ -318,6 +327,7 @@ double objective_lower_bound(const Lmi& lmi, const GainBounds& bounds,
   return bound / formulation.cost_unit + lmi.objective_constant;
 }
 
+// <S B S, Y> = <B, S Y S>.
 numbers::Matrix in_data_units(const Lmi& lmi, const GainBounds& bounds,
                               const Formulation& formulation, std::size_t k,
                               const Eigen::Ref<const numbers::Matrix>& y) {

@@ -32,6 +32,7 @@
 
 namespace gainsmith::lmi {
 
+/// A minimum, or the largest margin, as above.
 enum class Goal { objective, interior };
 
 /// Where a round of `interior` begins.
@@ -88,7 +89,7 @@ Formulation formulate_interior(const Lmi& lmi, const GainBounds& bounds, const R
 /// the homogenised inequalities have no solution but 0.
 Formulation formulate_violation(const Lmi& lmi);
 
-/// s of an interior solution.
+/// s of an interior solution, in balanced units: > 0 where x / x_0 is strictly inside.
 double interior_margin(const sdp::Solution& solution);
 
 /// The scalars x of the Lmi from the solution (the program has more variables), free ones
@@ -107,8 +108,8 @@ std::optional<Round> next_round(const Lmi& lmi, const GainBounds& bounds,
 Formulation in_units_of_solution(const Lmi& lmi, const GainBounds& bounds,
                                  const Formulation& formulation, const std::vector<double>& x);
 
-/// Whether an optimum between these values of the objective is known to 1e-6 of its size, or to be 0
-/// within 1e-8 of the unit of the costs.
+/// Whether an optimum between these values of the objective is known to 1e-6 of its size, or to be
+/// 0 within 1e-8 of the unit of the costs.
 bool is_narrow_bracket(double low, double high, const Formulation& formulation);
 
 /// An estimate, which nothing shows (verdict/weak_duality.h), of a lower bound on the objective

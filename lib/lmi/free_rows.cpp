@@ -20,6 +20,7 @@ using Element = BalanceElements::Element;
 /// Rows and their factors, by row; none of these is 0.
 using Sum = std::vector<std::pair<int, long>>;
 
+/// sum += factor other, a merge of two sorted lists.
 void add(const Sum& other, long factor, Sum& sum) {
   Sum result;
   result.reserve(sum.size() + other.size());
@@ -106,7 +107,8 @@ void for_each_equation(const BalanceElements& elements, int from, Visit visit) {
   }
 }
 
-/// What is solved so far.
+/// What is solved so far: Gauss and Jordan's elimination over whole numbers, each solved row as a
+/// sum of free ones.
 class Solved {
  public:
   explicit Solved(int rows) : sums_(static_cast<std::size_t>(rows)), users_(sums_.size()) {
@@ -216,7 +218,8 @@ std::vector<RowKey> equations_from(const BalanceElements& elements, const Solved
   return keys;
 }
 
-/// None when an equation has no factor +-1.
+/// The free rows from few equations: those whose first row is in [0, 1), [1, 3), [3, 7), ... until
+/// all others follow. None when an equation has no factor +-1.
 std::optional<std::vector<int>> free_rows_early(const BalanceElements& elements) {
   Solved solved(elements.rows());
   int open = 0;  // the first unknown of which not every equation follows

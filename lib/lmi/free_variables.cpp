@@ -81,6 +81,7 @@ void add_rows(const Rows& more, Rows& rows) {
 /// Whether each block that holds scalar i has at least half of `wanted`.
 bool is_large_enough(const Lmi& lmi, int i, const Rows& rows, const std::vector<double>& wanted,
                      const std::vector<double>& x) {
+  // Of the margin that the rows have without those of scalar i.
   constexpr double kShare = 0.5;
   for (std::size_t k = 0; k < lmi.blocks.size(); ++k)
     if (coefficient(lmi.blocks[k], i) != nullptr &&
@@ -108,6 +109,7 @@ FreeVariables find_free_variables(const Lmi& lmi, const std::vector<Block>& othe
         objective && lmi.has_objective && lmi.objective[static_cast<std::size_t>(i) - 1] != 0;
     const double sign = release_sign(lmi, i);
     if (priced || elsewhere || sign == 0) continue;
+    // The rows that stay without those of scalar i, and the rows that it takes out.
     std::vector<std::vector<int>> rest;
     std::vector<std::vector<int>> removed;
     for (std::size_t k = 0; k < lmi.blocks.size(); ++k) {
@@ -126,6 +128,7 @@ FreeVariables find_free_variables(const Lmi& lmi, const std::vector<Block>& othe
 
 void restore(const Lmi& lmi, const FreeVariables& free_variables, const Balance& balance,
              std::vector<double>& x) {
+  // Powers of two of the unknown's unit: from 1e-12 to 1e24 of it.
   constexpr int kSmallest = -40;
   constexpr int kLargest = 80;
   Rows rows = free_variables.kept;

@@ -65,6 +65,7 @@ struct Choice {
   }
 };
 
+/// The unknown function that a text calls; nullptr where it calls none.
 const model::Function* function_called(const Inequalities& of, const std::string& text) {
   const auto found =
       std::find_if(of.functions.begin(), of.functions.end(),
@@ -72,6 +73,7 @@ const model::Function* function_called(const Inequalities& of, const std::string
   return found == of.functions.end() ? nullptr : &*found;
 }
 
+/// The calls of functions in a factor, as they are written.
 std::vector<std::string> calls_of(const Factor& factor) {
   std::vector<std::string> texts;
   for (const auto& [begin, length] : factor.calls)
@@ -105,6 +107,7 @@ std::vector<Choice> points_of(const Inequalities& of, const model::Design::Gain&
     for (const forall::Variable& variable : statement.domain) {
       if (variable.name != gain.variable || !variable.is_interval() || !points.empty()) continue;
       for (std::size_t k = 0; k <= most; ++k) {
+        // Extrema of the Chebyshev polynomial of degree `most` on [low, high]; the ends exactly.
         const double angle = std::numbers::pi * static_cast<double>(k) / static_cast<double>(most);
         const double middle = variable.low / 2 + variable.high / 2;
         const double half = variable.high / 2 - variable.low / 2;
@@ -306,6 +309,7 @@ class Collector {
     return found->second;
   }
 
+  /// Adds a bound and its block, unless one at least as tight on the same product is there.
   void add(BoundedProduct bound) {
     if (bound.e.shape.size() == 0) return;
     bound.share = share_;

@@ -6,12 +6,13 @@
 //   S >= s I,   [ S , E/beta ; * , s I ] >= 0    <=>    E' inv(S) E <= beta^2 s I,
 //   s <= lambda_min(S).
 // With G = inv(S) E that is G' S G <= beta^2 lambda_min(S), so the largest singular value of G is
-// at most beta. It does not change when the unknowns are scaled together. Of an S that is not
-// symmetric S S' >= s (S + S') - s^2 I, so that
+// at most beta. It does not change when the unknowns are scaled together. The condition is
+// sufficient: an ill-conditioned S may exclude gains below beta.
+//
+// Of an S that is not symmetric (S - s I)(S - s I)' >= 0 says S S' >= s (S + S') - s^2 I, so that
 //   [ S + S' - s I , E/beta ; * , s I ] >= 0   =>   E E' <= beta^2 S S'.
-// A gain that is affine in
-// the unknowns is bounded by its largest singular value: [ I , K/beta ; * , I ] >= 0, which has a
-// constant part.
+// A gain K that is affine in the unknowns is bounded by its largest singular value:
+// [ I , K/beta ; * , I ] >= 0, which has a constant part.
 //
 // A gain that is a function of a scalar is bounded coefficient by coefficient: inv(S)*Y_k for
 // inv(S)*Y(tau), and the matrix that each function theta(tau) in it multiplies. That bounds a gain
@@ -62,7 +63,8 @@ GainBounds gain_bounds(const Inequalities& inequalities, std::optional<double> b
 GainBounds gain_bounds(const Inequalities& inequalities, const Lmi& lmi);
 
 /// How far each bound is used at x: sqrt(lambda_max(E' inv(S) E) / lambda_min(S)), never less than
-/// the largest singular value of the gain, which it is where S is not symmetric; `active` here: above 99 % of the bound.
+/// the largest singular value of the gain, which it is where S is not symmetric. Infinite where S
+/// is not definite or not invertible. `active` here: above 99 % of the bound.
 std::vector<model::GainBound> reached_bounds(const GainBounds& bounds,
                                              const std::vector<double>& x);
 

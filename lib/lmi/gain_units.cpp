@@ -24,6 +24,7 @@ Eigen::MatrixXi exponents_of(const AffineForm& form, const std::vector<int>& uni
   return result;
 }
 
+/// The element (r, c) of a form times 2^(rows_r + columns_c).
 void scale(AffineForm& form, const Eigen::VectorXi& rows, const Eigen::VectorXi& columns) {
   for (auto& [key, matrix] : form.terms)
     for (int column = 0; column < matrix.outerSize(); ++column)
@@ -57,6 +58,7 @@ void bring_to_units(AffineForm& S, AffineForm& E, bool is_unknown, const std::ve
     T = -of_S.col(0);
     V = -of_S.diagonal() - T;
   }
+  // The largest element of each column of T E is brought to 1.
   Eigen::VectorXi U = Eigen::VectorXi::Zero(of_E.cols());
   for (Eigen::Index c = 0; c < U.size(); ++c) {
     int largest = kNone;

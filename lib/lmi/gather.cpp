@@ -50,6 +50,7 @@ Sparse Gatherer::take() {
   Sparse result(rows_, columns_);
   result.reserve(elements_);
   int begun = -1;
+  // Columns without elements have to be begun too.
   const auto begin = [&](int column) {
     while (begun < column) result.startVec(++begun);
   };

@@ -1,4 +1,6 @@
-// Internal to lmi: collects the elements of one sparse matrix after the other.
+// Internal to lmi: collects the elements of one sparse matrix after the other, in dense arrays of
+// rows x columns that serve all of them. An element costs O(1) to add, a matrix the sorting of its
+// rows to take.
 #pragma once
 
 #include <vector>
@@ -47,10 +49,10 @@ class Gatherer {
   int rows_;
   int columns_;
   int elements_ = 0;
-  std::vector<double> values_;
-  std::vector<char> filled_;
-  std::vector<int> touched_;  ///< the rows that were added to, in each column
-  std::vector<int> counts_;   ///< of these, for each column
+  std::vector<double> values_;  ///< rows x columns, column by column
+  std::vector<char> filled_;    ///< whether an element was added to
+  std::vector<int> touched_;    ///< the rows that were added to, in each column
+  std::vector<int> counts_;     ///< of these, for each column
 };
 
 }  // namespace gainsmith::lmi

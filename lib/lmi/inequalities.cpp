@@ -6,6 +6,7 @@ namespace gainsmith::lmi {
 
 Inequalities::Inequalities(const model::Instance& of)
     : instance(of), functions(model::polynomials(*of.design)) {
+  // A function is a sum over the vertices, with the weights of the box for its basis.
   if (design().synthesis.way == model::Way::vertex_gains) {
     box = vertex_box(instance);
     for (model::Function& function : functions)

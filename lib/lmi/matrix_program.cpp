@@ -25,7 +25,8 @@ sdp::DenseMatrix scaled(const Sparse& matrix, const std::vector<double>& units, 
   return result;
 }
 
-/// Makes one program.
+/// Makes one program. Its variables are those of the formulation, from 0. Matrices stay in data
+/// units: E and F get the units of a block's rows alone, and costs of their scalars no d_i.
 class Maker {
  public:
   Maker(const Lmi& lmi, const GainBounds& bounds, const Formulation& formulation,
@@ -43,6 +44,7 @@ class Maker {
     if (!has_structure()) return std::nullopt;
     const bool interior = formulation_.goal == Goal::interior;
     const bool homogenised = formulation_.homogenised;
+    // After the scalars of the Lmi and the bounds: x_0, then s.
     constant_ = homogenised ? own_ : -1;
     margin_ = interior ? own_ + (homogenised ? 1 : 0) : -1;
     program_.c.assign(static_cast<std::size_t>(interior ? margin_ + 1 : own_), 0.0);
@@ -61,6 +63,8 @@ class Maker {
   }
 
  private:
+  /// Whether t = 0, no scalar is free, no row is left out and every block has its products, some of
+  /// them not empty.
   bool has_structure() const {
     if (round_.margin != 0 || !formulation_.free_variables.list.empty()) return false;
     const auto& kept = formulation_.free_variables.kept;
@@ -167,6 +171,7 @@ class Maker {
     program_.rows.push_back(std::move(limit));
   }
 
+  /// c_i d_i of a scalar, c_i of a matrix's, in cost units.
   void set_costs() {
     for (int i = 1; i <= lmi_.unknowns; ++i) {
       const auto at = static_cast<std::size_t>(i) - 1;

@@ -21,7 +21,8 @@ std::optional<sdp::MatrixProgram> matrix_program(const Lmi& lmi, const GainBound
                                                  const Formulation& formulation,
                                                  const Round& round);
 
-/// The variables of the formulation from those of its matrix program.
+/// The variables of the formulation from those of its matrix program: scalars of matrices are
+/// divided by their units d_i.
 std::vector<double> balanced_variables(const Formulation& formulation,
                                        const sdp::MatrixProgram& program,
                                        const std::vector<double>& x);

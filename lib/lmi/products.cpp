@@ -143,6 +143,7 @@ void add_product(std::vector<Product>& sum, Product product, double factor) {
   if (factor != 1) product.right = factor * product.right;
   for (auto known = sum.begin(); known != sum.end(); ++known) {
     if (!known->has_same_unknown(product)) continue;
+    // E V F + c E V G = E V (F + c G), and likewise for equal right sides.
     if (const auto c = ratio(product.left, known->left))
       known->right = sum_of(known->right, product.right, *c);
     else if (const auto d = ratio(product.right, known->right))
@@ -155,11 +156,13 @@ void add_product(std::vector<Product>& sum, Product product, double factor) {
   sum.push_back(std::move(product));
 }
 
+// Of a symmetric V transposition leaves V as it is.
 Product transposed(const Product& product) {
   return {product.monomial, product.unknown, !product.unknown.symmetric && !product.transposed,
           turned(product.right), turned(product.left)};
 }
 
+// (S + S')/2 = sum He(E V F/2), terms with V' turned into terms with V.
 std::vector<HermitianProduct> symmetric_part(const std::vector<Product>& sum) {
   std::vector<HermitianProduct> result;
   for (Sides& term : with_mirrors(sum, 1))

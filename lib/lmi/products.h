@@ -1,5 +1,7 @@
 // Products with a matrix unknown between constant matrices: what a matrix inequality contains as
 // long as nobody needs the coefficients of the unknown's scalars, of which there are thousands.
+// The coefficient of V_ij in E V F is E(:, i) F(j, :); for a symmetric V and i != j the mirrored
+// outer product is added.
 #pragma once
 
 #include <utility>

@@ -46,6 +46,7 @@ std::optional<Scale> find_scale(const Lmi& lmi, const Unknowns& unknowns) {
   return best;
 }
 
+// Without the objective, and with scalars in place of products.
 Lmi scaled(const Lmi& lmi, const Scale& scale) {
   Lmi result;
   result.unknowns = lmi.unknowns - 1;

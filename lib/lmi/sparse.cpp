@@ -6,6 +6,7 @@
 
 namespace gainsmith::lmi {
 
+// No threshold: only exact zeros are left out.
 Sparse sparse(const Eigen::MatrixXd& matrix) { return matrix.sparseView(0.0, 0.0); }
 
 bool is_symmetric(const Sparse& matrix) {
@@ -24,6 +25,8 @@ double largest_element(const Sparse& matrix) {
   return result;
 }
 
+// Column j of A B is the sum of B_kj A(:, k), gathered in a dense column. What cancels stays as a
+// stored 0.
 Sparse multiplied(const Sparse& a, const Sparse& b) {
   Sparse result(a.rows(), b.cols());
   Eigen::Index most = 0;
@@ -75,6 +78,7 @@ void add_multiple(Eigen::MatrixXd& sum, double factor, const Sparse& matrix) {
     for (Sparse::InnerIterator it(matrix, j); it; ++it) sum(it.row(), j) += factor * it.value();
 }
 
+// Merges the columns, which are sorted by rows.
 Sparse sum_of(const Sparse& a, const Sparse& b, double factor) {
   Sparse result(a.rows(), a.cols());
   result.reserve(a.nonZeros() + b.nonZeros());

@@ -43,6 +43,7 @@ AffineForm with_symmetric(const AffineForm& form, const Unknowns& unknowns, cons
 
 constexpr double kAsymmetry = 1e-12;  // of the largest element
 
+/// The largest |element| of all coefficients.
 double size_of(const AffineForm& form) {
   double size = 0;
   for (const auto& [key, matrix] : form.terms) size = std::max(size, largest_element(matrix));
@@ -57,6 +58,7 @@ numbers::Vector element_of(const Terms& terms, Index index, int row, int column,
   return element;
 }
 
+/// Whether every coefficient is symmetric but for kAsymmetry of the largest element.
 bool is_symmetric(const AffineForm& form) {
   const double size = size_of(form);
   return std::all_of(form.terms.begin(), form.terms.end(), [&](const auto& term) {
@@ -86,6 +88,8 @@ std::optional<AffineForm> symmetric_where(const AffineForm& form,
   if (equations.empty() || !form.shape.is_square()) return std::nullopt;
   const AffineForm whole = expanded(form);
   const Eigen::Index m = equations.front().size() - 1;
+  // The skew part of each element, as (e_0, ..., e_m), has to be in the span of the equations: what
+  // its projection leaves is compared with rounding.
   numbers::Matrix E(m + 1, std::ssize(equations));
   for (Eigen::Index k = 0; k < E.cols(); ++k)
     E.col(k) = equations[static_cast<std::size_t>(k)].normalized();
@@ -114,6 +118,7 @@ const model::Design::Unknown* needs_symmetric(const AffineForm& form, const Ineq
     return is_symmetric(with_symmetric(whole, of.unknowns, some));
   };
   if (suffices({}) || !suffices(chosen)) return nullptr;
+  // One after the other is taken out; the first that is missed is needed.
   for (const model::Design::Unknown* unknown : Chosen(chosen)) {
     Chosen others = chosen;
     std::erase(others, unknown);

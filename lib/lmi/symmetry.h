@@ -10,8 +10,8 @@
 
 namespace gainsmith::lmi {
 
-/// Columns (e_0, e_1, ..., e_m) with e_0 + sum_i e_i x_i = 0 for every solution: the elements beside
-/// a diagonal element that is 0 for all unknowns, of blocks with >=.
+/// Columns (e_0, e_1, ..., e_m) with e_0 + sum_i e_i x_i = 0 for every solution: the elements
+/// beside a diagonal element that is 0 for all unknowns, of blocks with >=.
 std::vector<numbers::Vector> equations_in(const std::vector<Block>& blocks, int unknowns);
 
 /// The symmetric part of a form M without monomials whose M - M' is a combination of the equations,

@@ -12,6 +12,7 @@ std::vector<std::pair<int, int>> Unknown::places(int k) const {
     case model::Structure::diagonal:
       return {{k, k}};
     case model::Structure::symmetric: {
+      // Column c of the lower triangle has n - c scalars.
       int column = 0;
       while (k >= rows - column) {
         k -= rows - column;
@@ -42,11 +43,13 @@ Unknowns::Unknowns(const std::vector<model::UnknownMatrix>& matrices, int large)
     size_ += unknown.count;
     list_.push_back(std::move(unknown));
   }
+  // Matrices of so few scalars are not kept whole: their scalars cost less.
   constexpr int kFew = 3;
   const auto is_matrix = [](const Unknown& unknown) {
     return unknown.structure == model::Structure::symmetric ||
            unknown.structure == model::Structure::full;
   };
+  // One large matrix makes all matrices whole, but for those of few scalars.
   const bool some = std::any_of(list_.begin(), list_.end(), [&](const Unknown& unknown) {
     return is_matrix(unknown) && unknown.count >= large;
   });

@@ -29,7 +29,7 @@ struct Unknown {
 
 class Unknowns {
  public:
-  static constexpr int kLarge = 100;
+  static constexpr int kLarge = 100;  ///< scalars
 
   Unknowns() = default;
   /// With an unknown of at least `large` scalars the matrices occur as such in products; below
@@ -39,6 +39,7 @@ class Unknowns {
   /// The number m of scalars.
   int size() const { return size_; }
   const std::vector<Unknown>& list() const { return list_; }
+  /// nullptr for no such name.
   const Unknown* find(const std::string& name) const;
   /// "P1(2,1)" for scalar i = 1..m.
   std::string scalar_name(int i) const;

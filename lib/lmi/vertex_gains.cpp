@@ -115,6 +115,7 @@ std::vector<double> values_at(const MonomialTable& monomials, const Box& box, st
   return values;
 }
 
+/// (a + b)/2.
 AffineForm average(AffineForm a, const AffineForm& b) {
   for (auto& [key, matrix] : a.terms) matrix *= 0.5;
   for (const auto& [key, matrix] : b.terms) {
@@ -126,6 +127,7 @@ AffineForm average(AffineForm a, const AffineForm& b) {
   return a;
 }
 
+/// "k = 1, cos(2*tau) = 1 with cos(2*tau) = 0": the point and both vertices.
 std::string label_of(const std::string& point, const std::string& first,
                      const std::string& second) {
   std::string label = point;
@@ -191,6 +193,7 @@ std::vector<Block> vertex_blocks(const Inequalities& of, const Statement& statem
         forms.push_back(evaluate_at(program, of.unknowns, monomials, of.instance.values, point));
         remove_noise(forms.back(), monomials);
       }
+      // M_ij: the functions at coefficient i, theta at vertex j.
       const auto at = [&](std::size_t i, std::size_t j) {
         return at_vertex(forms[i], values_at(monomials, box, j));
       };

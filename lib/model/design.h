@@ -13,6 +13,14 @@
 //   what is expected, searched or asked for         those, and `objective`
 // Unknown functions and gains that are functions are called, and linked before evaluation
 // (function.h, stated.h).
+//
+//   problem, method, component, declaration, shape_text, range   what was read: syntax trees
+//   design, dynamics, formula, function, figure, system_figure    what was bound: programs
+//   instance, structure            values of data and parameters
+//   gains, stated, stated_file     results, and what they state
+//   run_texts, dynamics_programs, measured   what runs read
+//   campaign_record, figure_record   what runs found, as files keep it
+//   names, estimate_name, words    rules of names, words of texts and results
 #pragma once
 
 #include <cstdint>
@@ -70,7 +78,6 @@ struct Design {
     bool first = false;   ///< a parameter that is a number: it comes before the data
   };
 
-  /// A comparison of scalars that data and parameters must satisfy.
   /// A convex quadratic form e'*Q*e of unknowns.
   struct Square {
     expr::Program weight;  ///< Q, of data
@@ -78,6 +85,7 @@ struct Design {
     Place place;           ///< of Q
   };
 
+  /// A comparison of scalars that data and parameters must satisfy.
   struct Assumption {
     std::string name;
     std::vector<std::pair<expr::Program, bool>> differences;  ///< to be > 0 (true) or >= 0
@@ -214,7 +222,7 @@ struct Design {
     std::size_t state = 0;
     StartKind kind = StartKind::expression;
     /// One value; low and high, scalar or of the state's shape; the elements; of an ellipsoid
-    /// center, matrix and level; center and deviation or covariance.
+    /// center, matrix and level, or [low, high] of levels; center and deviation or covariance.
     std::vector<Formula> values;
     Place place;
     bool covariance = false;

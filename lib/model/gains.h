@@ -97,7 +97,8 @@ std::string to_string(const AlgebraicRecord& algebraic);
 /// "the decimals of the file", "the hull", "the vertex test", "sums of squares of these degrees".
 std::string subject_of(const CertificateRecord& certificate);
 
-/// What is added to "infeasible": "", " for the hull only", " for the vertex test only".
+/// What is added to "infeasible": "", " for the hull only", " for the vertex test only", " as sums
+/// of squares of these degrees".
 std::string limits_of(const CertificateRecord& certificate);
 
 /// An inequality as a sum of squares (sos/program.h), in fractions: with z the basis and Q the Gram

@@ -26,7 +26,7 @@ struct Series {
   numbers::Matrix values;      ///< a row for each time, a column for each element of the quantity
   std::vector<double> silent;  ///< the times of rows that have no value of it, never falling
 
-  /// The first row after t, and the first one not before t; `slack` is added to t first.
+  /// The first row after t + slack, and the first one not before t - slack; times.size(): none.
   std::size_t after(double t, double slack = 0) const;
   std::size_t not_before(double t, double slack = 0) const;
 };

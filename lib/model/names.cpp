@@ -27,6 +27,7 @@ std::string with_article(const std::string& noun) {
   return (vowel ? "an " : "a ") + noun;
 }
 
+/// Names with what they are. InputError at the second place of a name that is taken or reserved.
 class NameCheck {
  public:
   /// A dimension may occur in several shapes.
@@ -138,6 +139,7 @@ void check_families(const Method& method, const NameCheck& names) {
     for (const Requirement& requirement : *list) names.check_indices(requirement.indices);
 }
 
+/// Each entry names a state of the component.
 void check_maps(const Component& component, const std::vector<Named>& map,
                 const std::string& what) {
   std::vector<std::string> states;

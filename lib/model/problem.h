@@ -67,7 +67,7 @@ struct Campaign {
   std::uint64_t seed = 1;
   std::optional<expr::Expression> horizon;  ///< continuous time
   std::optional<RunAccuracy> accuracy;
-  std::vector<SamplingLaw> sampling;  ///< empty: uniform, extremes, sinusoid, both ends constant
+  std::vector<SamplingLaw> sampling;  ///< empty: those of hybrid/law.h
   std::optional<expr::Expression> first;  ///< first value of the timer; none: uniform in its range
   std::vector<InitialValue>
       initial;  ///< a state that is not listed starts where the method says, or in the box [-1, 1]

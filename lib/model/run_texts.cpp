@@ -53,6 +53,7 @@ void link_claim(const Linking& link, Design::Claim& claim) {
     link(*one);
 }
 
+/// The integral of a flow cost: 1 x 1, 0 at the start.
 void add_cost(const Design::Claim& claim, Dynamics& dynamics) {
   expr::Composer compose(claim.place);
   Dynamics::Variable variable;

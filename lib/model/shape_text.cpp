@@ -70,6 +70,7 @@ std::optional<int> size_of(const expr::Expression& expression, const Dimensions&
   return static_cast<int>(value);
 }
 
+/// A name that is not known gets the size; anything else must have it where its value is known.
 bool learn_size(const expr::Expression& expression, int actual, Dimensions& dimensions) {
   if (expression.root->kind == expr::NodeKind::name)
     return dimensions.emplace(expression.root->text, actual).first->second == actual;

@@ -18,6 +18,7 @@ using expr::Op;
 using expr::Program;
 using expr::Shape;
 
+/// The name of the state among the inputs of a rate.
 constexpr const char* kState = "the variable";
 
 bool is_affine(const Program& rate) {
@@ -25,7 +26,8 @@ bool is_affine(const Program& rate) {
   return degree[static_cast<std::size_t>(rate.result)] < kNotAffine;
 }
 
-/// Puts the program together.
+/// Puts the program together. A is the jacobian of the rate at 0 and b its value there, which are
+/// all of an affine rate.
 class Exponential {
  public:
   explicit Exponential(const Instruction& of) : of_(of), rate_(*of.body), n_(of.shape.rows) {}
@@ -60,7 +62,7 @@ class Exponential {
   int input(std::size_t operand, Shape shape) {
     return assembly_.add_input(std::to_string(operand), shape, of_);
   }
-  /// With `state` for the state.
+  /// Instructions of the inputs of the rate, in their order, with `state` for the state.
   std::vector<int> inputs_of_rate(int state) {
     std::vector<int> inputs;
     for (const expr::Input& one : rate_.inputs) {
@@ -69,6 +71,7 @@ class Exponential {
     }
     return inputs;
   }
+  /// The rate with these instructions for its inputs.
   int rate_at(const std::vector<int>& inputs) {
     return assembly_.add_program(rate_, [&](const Instruction& one, const Instruction&) {
       return one.op == Op::input

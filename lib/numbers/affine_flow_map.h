@@ -2,7 +2,8 @@
 //
 //   e(z) = A z + b:   z(d) = E x + V b,   [E V; 0 I] = exp(d [A I; 0 0])
 //
-// as a program of its operands with an exponential in place of an integration.
+// as a program of its operands with an exponential in place of an integration. x, b n x 1, A, E, V
+// n x n; V = int_0^d exp(A s) ds (Van Loan, IEEE Trans. Automatic Control 23, 1978).
 #pragma once
 
 #include <optional>

@@ -1,6 +1,13 @@
 // A number with a bound of its error: |true - mid| <= rad. Radii are doubles, rounded upward; an
 // infinite one says that nothing is known. The errors of the operations are bounded as they are
 // made (running error analysis: Higham, Accuracy and Stability of Numerical Algorithms, ch. 3).
+//
+// Of balls (m, r) and (n, s), with u the unit roundoff of the scalar:
+//   sum        (m + n,  r + s + u |m + n|)
+//   product    (m n,    |m| s + r |n| + r s + u |m n|)
+//   quotient   (q,      (r + |q| s)/(|n| - s) + u |q|),  q = m/n, where |n| > s
+// plus a few times the least double, where something may have underflowed. Sums and products of
+// exact doubles that do not round keep radius 0, as those of whole numbers below 2^53 do.
 #pragma once
 
 #include <algorithm>
@@ -14,6 +21,7 @@
 
 namespace gainsmith::numbers {
 
+/// The radius of a ball of which nothing is known.
 constexpr double kNothingKnown = std::numeric_limits<double>::infinity();
 
 /// |computed - exact| <= unit_roundoff * |computed| for each operation, root and function of
@@ -24,7 +32,8 @@ constexpr double unit_roundoff() {
   return std::is_same_v<S, DoubleDouble> ? 0x1p-100 : 1e-148;
 }
 
-/// Functions of libm are within 2 units of the last place.
+/// The relative error of functions: of double 5 u, as functions of libm are within 2 units of the
+/// last place; those of MPFR and of 31 digits are within unit_roundoff().
 template <class S>
 constexpr double function_roundoff() {
   return std::is_same_v<S, double> ? 5 * 0x1p-53 : unit_roundoff<S>();
@@ -35,7 +44,8 @@ constexpr double function_roundoff() {
 constexpr double kLeastNormal = 1e-290;
 constexpr double kTiny = 16 * std::numeric_limits<double>::denorm_min();
 
-/// Not below the exact value of `radius`, a sum or product of at most `operations` roundings.
+/// Not below the exact value of `radius`, a sum or product of numbers >= 0 with at most
+/// `operations` roundings: each is off by 2^-53 of it.
 inline double up(double radius, double operations = 6) {
   return radius * (1 + (operations + 2) * 0x1p-52);
 }
@@ -76,6 +86,7 @@ inline Decimal100 times_power_of_two(const Decimal100& x, int exponent) {
   return ldexp(x, exponent);
 }
 
+/// All numbers within rad of mid. rad >= 0 and is no NaN; mid is of use where rad is finite.
 template <class S>
 struct Ball {
   S mid{0};
@@ -102,7 +113,7 @@ double high_end(const Ball<S>& x) {
   return -low_end(Ball<S>{-x.mid, x.rad});
 }
 
-/// The ball from low to high, which are doubles.
+/// A ball that holds [low, high]; nothing is known where an end is not finite.
 template <class S>
 Ball<S> hull(double low, double high) {
   if (!(std::isfinite(low) && std::isfinite(high))) return {S(0), kNothingKnown};
@@ -112,7 +123,7 @@ Ball<S> hull(double low, double high) {
   return {S(mid), low == 0 && mid * 2 == high ? mid : up(rad) + kTiny};
 }
 
-/// Certainly x >= y (x > y).
+/// Certainly x >= y, x > 0, x >= 0; false where that is not certain.
 template <class S>
 bool is_at_least(const Ball<S>& x, const Ball<S>& y) {
   if (x.is_exact() && y.is_exact()) return x.mid >= y.mid;
@@ -132,7 +143,8 @@ Ball<S> operator-(const Ball<S>& x) {
   return {-x.mid, x.rad};
 }
 
-/// The error of a sum or product in double.
+/// The size of the error of a sum or product in double, exact unless something underflows or
+/// overflows: TwoSum (Knuth, The Art of Computer Programming 2, 4.2.2), and a fused multiply-add.
 inline double error_of_sum(double x, double y, double sum) {
   const double part = sum - x;
   return std::abs((x - (sum - part)) + (y - part));
@@ -185,7 +197,8 @@ Ball<S> wide_product(const Ball<S>& x, const Ball<S>& y) {
   return hull<S>(same ? std::max(0.0, below_low) : below_low, above_high);
 }
 
-/// Relative radius from which a product is taken from the ends.
+/// Relative radius of both factors from which a product is taken from the ends: the formula above
+/// would lose what is known of its sign.
 constexpr double kWide = 0.01;
 
 template <class S>

@@ -1,4 +1,10 @@
 // Functions of a ball (ball.h): the value at its middle, and how far the function moves over it.
+//
+//   exp            e^m (e^r - 1)                      log    -log(1 - r/m)
+//   sin cos tanh   min(r, 2), as |f'| <= 1            sqrt   r / (sqrt(m) + sqrt(m - r))
+//   x^y            e^d - 1 times the value, d = s |log m| - (|n| + s) log(1 - r/m)
+//
+// for the ball (m, r), and (n, s) of y. Wide balls are taken from their ends where f is monotone.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +25,7 @@ Ball<S> moved_by(const S& value, double moved) {
           bound_or_nothing(up(moved + function_roundoff<S>() * magnitude(value), 16) + kTiny)};
 }
 
-/// Above this radius of a logarithm a ball is taken from its ends.
+/// Above this radius of the exponent exp and powers are taken from the ends.
 constexpr double kWideLogarithm = 0.1;
 
 template <class S>
@@ -90,6 +96,7 @@ Ball<S> sign(const Ball<S>& x) {
   return {S(0), x.is_zero() ? 0.0 : 1.0};
 }
 
+/// Where the order is not certain: |max(x, y) - max(m, n)| <= max(r, s).
 template <class S>
 Ball<S> maximum(const Ball<S>& x, const Ball<S>& y) {
   if (is_at_least(x, y)) return x;
@@ -147,7 +154,7 @@ Ball<S> atan2(const Ball<S>& y, const Ball<S>& x) {
   return right ? hull<S>(-kPi / 2, kPi / 2) : hull<S>(-kPi, kPi);
 }
 
-/// Holds x and y.
+/// A ball that holds both balls: the mean of m and n, radius at least |m - n|/2 + max(r, s).
 template <class S>
 Ball<S> either(const Ball<S>& x, const Ball<S>& y) {
   const Ball<S> sum = x + y;
@@ -182,6 +189,7 @@ Ball<S> whole_power(Ball<S> x, int n) {
 template <class S>
 std::optional<Ball<S>> power(const Ball<S>& x, const Ball<S>& y) {
   using std::pow;
+  // Whole exponents up to this size are products.
   constexpr double kMostProducts = 64;
   const auto exponent = static_cast<double>(y.mid);
   const bool whole = y.is_exact() && exponent == std::floor(exponent) && y.mid == S(exponent);

@@ -23,6 +23,7 @@
 
 namespace gainsmith::numbers::canonical {
 
+/// The factor e by which a later diagonal element must exceed an earlier one to be the pivot.
 constexpr double kLead = 2.718281828459045;
 
 /// Whether x >= y; none when nobody knows.
@@ -36,6 +37,7 @@ std::optional<bool> at_least(const Ball<S>& x, const Ball<S>& y) {
   return is_positive(y - x) ? std::optional(false) : std::nullopt;
 }
 
+/// sqrt(x); none where x is not certainly > 0.
 template <class S>
 std::optional<S> root(const S& x) {
   using std::sqrt;
@@ -46,7 +48,8 @@ std::optional<Ball<S>> root(const Ball<S>& x) {
   return is_positive(x) ? ball::sqrt(x) : std::nullopt;
 }
 
-/// The diagonal of W decides on row p.
+/// The row p of the header, from the diagonal of W: the first with lead W_pp >= W_ii for all i.
+/// None where that is not certain.
 template <class Number>
 std::optional<std::size_t> pivot(const Columns<Number>& W, const Number& lead) {
   for (std::size_t p = 0; p < W.size(); ++p) {

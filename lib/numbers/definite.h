@@ -1,4 +1,8 @@
 // Whether a symmetric matrix that is known within bounds is positive definite, in any units.
+//
+// The proof of M > 0 is a floating-point Cholesky factorisation of a slightly smaller matrix, whose
+// rounding is bounded beforehand. The proof of the opposite is one vector v, with v'Mv <= 0 in ball
+// arithmetic. Both are theorems on every matrix within the bounds.
 #pragma once
 
 #include "numbers/enclosed.h"

@@ -42,6 +42,8 @@ bool passes(const Enclosed<S>& M, const Matrix& more) {
       if (more.size() != 0) radius += (more(i, j) + more(j, i)) / 2;
       sums(i) += times_power_of_two(radius, unit) + kTiny;
     }
+  // Of the radii the largest row sum bounds the spectral norm; the rest is the error of Cholesky of
+  // a matrix with a diagonal below 2.
   const auto m = static_cast<double>(n) + 2;
   const double shift = up(sums.maxCoeff(), 2 * m + 8) + 2 * m * m * unit_roundoff<S>() * (1 + 1e-9);
   if (!(shift < 2)) return false;
@@ -49,7 +51,7 @@ bool passes(const Enclosed<S>& M, const Matrix& more) {
   return factor_in_place<S>(A);
 }
 
-/// v'Mv.
+/// v'Mv in balls, for v of double.
 template <class S>
 Ball<S> form(const Enclosed<S>& M, const Vector& v) {
   const Enclosed<S> column = exactly<S>(MatrixOf<S>(v.template cast<S>()));

@@ -17,7 +17,11 @@ Degree largest(expr::Operands<Degree> operands) {
   return result;
 }
 
-/// At least one operand moves.
+/// The degree of an operation of which at least one operand moves: degrees 0, 1 and kNotAffine.
+///   linear in all operands   the largest degree        a product   the sum of degrees
+///   a/b                      that of a for constant b  a^1         that of a
+///   where(d, a, b)           the largest degree, for constant d
+/// All others, a jacobian apart, are not affine.
 struct DegreeRules {
   template <Op op>
   requires expr::OneOf<op, Op::fill, Op::identity, Op::add, Op::subtract, Op::negate, Op::transpose,

@@ -71,6 +71,7 @@ Inverse inverse_by_lu(const Matrix& M) {
 
 }  // namespace
 
+/// M^-1 = D (D M D)^-1 D with D of powers of two (symmetric_units).
 Inverse inverse(const Matrix& M) {
   const auto d = symmetric_units<Vector>(M);
   Inverse plain = inverse_by_lu(d.asDiagonal() * M * d.asDiagonal());

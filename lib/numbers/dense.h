@@ -1,5 +1,5 @@
-// Decompositions of matrices of doubles, compiled once: Eigen's headers for them stay out of the
-// rooms that use them. Symmetric matrices are read in their lower triangle.
+// Decompositions of matrices of doubles by Eigen, compiled once: its headers for them stay out of
+// the folders that use them. Symmetric matrices are read in their lower triangle.
 #pragma once
 
 #include <cmath>
@@ -15,10 +15,10 @@ namespace gainsmith::numbers {
 using ComplexMatrix = MatrixOf<std::complex<double>>;
 using ComplexVector = Eigen::VectorXcd;
 
-/// lambda_min((M + M') / 2).
+/// lambda_min((M + M') / 2), M n x n, n > 0.
 double smallest_eigenvalue(const Matrix& M);
 
-/// In rising order.
+/// All n eigenvalues of a symmetric M, in rising order.
 Vector symmetric_eigenvalues(const Matrix& M);
 
 /// M = V diag(lambda) V' with orthonormal V, eigenvalues in rising order. The memory is kept, for
@@ -31,6 +31,7 @@ class SymmetricEigen {
   SymmetricEigen& operator=(SymmetricEigen&&) noexcept;
   ~SymmetricEigen();
 
+  /// Eigenvalues and vectors, or eigenvalues alone, of another M.
   void compute(const Matrix& M);
   void compute_values(const Matrix& M);
 
@@ -43,7 +44,7 @@ class SymmetricEigen {
   std::unique_ptr<Solver> solver_;
 };
 
-/// M = L L' with L lower triangular.
+/// M = L L' with L lower triangular, M n x n, of which the lower triangle is read.
 class Cholesky {
  public:
   explicit Cholesky(const Matrix& M);
@@ -61,11 +62,12 @@ class Cholesky {
   bool definite_ = false;
 };
 
-/// e^M, in balanced units (numerics/balance.h): in units that are powers of two apart it has the
-/// same digits.
+/// e^M, M n x n, in balanced units (numerics/balance.h): in units that are powers of two apart it
+/// has the same digits. By scaling and squaring with Pade approximants (Higham, SIAM J. Matrix
+/// Anal. Appl. 26, 2005).
 Matrix exponential(const Matrix& M);
 
-/// Of any matrix, largest first.
+/// The min(rows, cols) singular values of any matrix, largest first; by Jacobi rotations.
 Vector singular_values(const Matrix& M);
 
 /// M = U diag(s) V' with square orthogonal U, V and s largest first. M must not be empty.
@@ -102,9 +104,10 @@ Found in_better_units(Found plain, const MatrixOf<S>& M, const Invert& invert, c
   return found.condition > plain.condition ? found : plain;
 }
 
-/// Of a square matrix, in no order.
+/// Of a square matrix, in no order, by the real Schur form.
 ComplexVector eigenvalues(const Matrix& M);
 
+/// By LU with pivots. Not finite where M is singular.
 ComplexMatrix complex_inverse(const ComplexMatrix& M);
 
 }  // namespace gainsmith::numbers

@@ -19,8 +19,9 @@ Columns<Number> columns_of(Eigen::Index rows, Eigen::Index cols, const Element& 
   return columns;
 }
 
-/// The product of the pivots of Gauss' elimination, each the largest of what is left. `size` of a
-/// number is what is compared, 0 of what counts as 0: with two rows left and nothing in them the
+/// The product of the pivots of Gauss' elimination, each the largest of what is left (complete
+/// pivoting), times -1 for each exchange; 1 of an empty matrix. M is square, by columns. `size` of
+/// a number is what is compared, 0 of what counts as 0: with two rows left and nothing in them the
 /// determinant is 0, and so is its slope.
 template <class Number, class Size>
 Number determinant(Columns<Number> M, const Number& one, const Size& size) {

@@ -1,4 +1,7 @@
 // Matrices with a bound of the error of each element, and their arithmetic.
+//
+// The middle is of the scalar S, the radii are doubles rounded upward, both of the same shape. An
+// infinite radius says that nothing is known of an element.
 #pragma once
 
 #include <Eigen/Core>
@@ -36,6 +39,7 @@ struct Enclosed {
   bool is_known() const { return is_finite(rad); }
 };
 
+/// Radius 0.
 template <class S>
 Enclosed<S> exactly(const MatrixOf<S>& matrix) {
   return {matrix, Matrix::Zero(matrix.rows(), matrix.cols())};
@@ -66,7 +70,8 @@ Matrix magnitudes(const Enclosed<S>& x) {
   return (magnitudes<S>(x.mid) + x.rad) * up(1);
 }
 
-/// A product of matrices with elements >= 0, rounded upward.
+/// A product of matrices with elements >= 0, n x k and k x m, rounded upward: by (k + 6) 2^-52 of
+/// it, and by k times the least double where something may underflow.
 inline Matrix product_upward(const Matrix& a, const Matrix& b) {
   const auto k = static_cast<double>(a.cols());
   Matrix product = a.lazyProduct(b);
@@ -76,7 +81,7 @@ inline Matrix product_upward(const Matrix& a, const Matrix& b) {
   return product;
 }
 
-/// f(ball) for each element.
+/// f(ball), or f(ball of x, ball of y), for each element. `out` may be an operand.
 template <class S, class Function>
 void map_balls(const Function& function, const Enclosed<S>& x, Enclosed<S>& out) {
   out.resize(x.rows(), x.cols());
@@ -179,8 +184,10 @@ class ProductRoom {
 
 }  // namespace enclosed
 
-/// out = x y, where |fl(X Y) - X Y| <= gamma_k |X| |Y| and k counts the products that are not 0 by
-/// themselves. `out` is neither factor.
+/// out = x y, x n x l, y l x m, with the radius
+///   |X| rad_y + rad_x (|Y| + rad_y) + gamma_k |X| |Y|,   gamma_k = (k + 2) u,
+/// where |fl(X Y) - X Y| <= gamma_k |X| |Y| and k counts the products that are not 0 by themselves
+/// (Higham, Accuracy and Stability of Numerical Algorithms, 3.5). `out` is neither factor.
 template <class S>
 void multiply(const Enclosed<S>& x, const Enclosed<S>& y, Enclosed<S>& out) {
   const Eigen::Index rows = x.rows(), inner = x.cols(), cols = y.cols();
@@ -217,6 +224,7 @@ void multiply(const Enclosed<S>& x, const Enclosed<S>& y, Enclosed<S>& out) {
     return std::min(enclosed::least_of(sizes, radii.size()),
                     enclosed::least_of(radii.data(), radii.size()));
   };
+  // The product of the least elements, or radii, that are not 0 decides.
   const bool may_underflow =
       least(room.left, x.rad) * least(room.right, y.rad) < kLeastNormal / unit_roundoff<S>();
   // What has only products that are 0 by themselves stays so.
@@ -241,7 +249,7 @@ Enclosed<S> product(const Enclosed<S>& x, const Enclosed<S>& y) {
   return out;
 }
 
-/// Also of the error of a symmetric mean: (X + X') / 2.
+/// (X + X') / 2; an element that equals its mirror image keeps its ball.
 template <class S>
 Enclosed<S> symmetric_part(const Enclosed<S>& x) {
   Enclosed<S> out = x;
@@ -256,7 +264,7 @@ Enclosed<S> symmetric_part(const Enclosed<S>& x) {
   return out;
 }
 
-/// A matrix of another scalar that holds it.
+/// The same in another scalar, with the rounding of the middle in the radius.
 template <class To, class From>
 Enclosed<To> converted(const Enclosed<From>& x) {
   if constexpr (std::is_same_v<To, From>) {

@@ -1,5 +1,7 @@
-// Matrix functions with bounds of their errors, instantiated by one source a
-// scalar.
+// Matrix functions with bounds of their errors, instantiated by one source a scalar: inverse,
+// singular values and vectors, bases of subspaces, exponential. The first start from an
+// approximation without bounds, and bound its error by a residual in balls. The exponential is a
+// series in balls.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +15,7 @@
 
 namespace gainsmith::numbers::enclosed {
 
-/// |x|^2 summed, rooted, rounded upward.
+/// The Frobenius norm of sizes >= 0, rounded upward.
 inline double norm_upward(const Matrix& sizes) {
   const double largest = sizes.size() == 0 ? 0 : sizes.maxCoeff();
   if (!(largest > 0)) return bound_or_nothing(largest);
@@ -28,10 +30,11 @@ Enclosed<S> defect(const Enclosed<S>& x) {
   return difference(exact_identity<S>(x.rows()), x);
 }
 
-/// |A^-1 - R| <= (I - G)^-1 G |R| for G >= |I - R A| with spectral radius below 1. With v > 0 and
-/// G v <= q v, q < 1, and T = G |R|, T_ij <= c_j v_i, the bound is at most
+/// A^-1 = (I - (I - R A))^-1 R, so that |A^-1 - R| <= (I - G)^-1 G |R| for G >= |I - R A| with
+/// spectral radius below 1; R, A, G n x n. With v > 0 and G v <= q v, q < 1, and T = G |R|,
+/// T_ij <= c_j v_i, the bound is at most
 ///   T + G T + v c' q^2 / (1 - q).
-/// Nothing is known when there is no such q.
+/// Nothing is known when v = |R| max_j |A_ij| gives no q < 1/2.
 template <class S>
 Enclosed<S> inverse_around(const MatrixOf<S>& R, const Enclosed<S>& A) {
   const Eigen::Index n = A.rows();
@@ -88,6 +91,8 @@ Decomposition<S> decomposed(const Enclosed<S>& A) {
   return result;
 }
 
+/// The min(rows, cols) singular values, largest first, as a column. The i-th largest of A and of
+/// U diag(s) V' differ by at most the norm of the residual (Weyl).
 template <class S>
 Enclosed<S> singular_values(const Enclosed<S>& A) {
   if (A.mid.size() == 0) return exactly<S>(MatrixOf<S>::Zero(0, 1));
@@ -235,9 +240,9 @@ std::vector<int> balance(const Enclosed<S>& A) {
   return norm(certain) <= 2 * norm(all) ? certain : all;
 }
 
-/// e^A in balanced units by scaling and squaring; the errors of the squarings
-/// are carried along by the products. Nothing is known when A is so large that it has no value in
-/// double.
+/// e^A = D (e^X)^(2^k) D^-1 with X = D^-1 A D / 2^k, |X| <= 1/2 in the largest row sum, D balanced
+/// units. The errors of the squarings are carried along by the products. Nothing is known when A is
+/// so large that it has no value in double: k would be above 80.
 template <class S>
 Enclosed<S> exponential(const Enclosed<S>& A) {
   constexpr int kMostSquarings = 80;

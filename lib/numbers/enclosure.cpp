@@ -9,6 +9,8 @@
 
 namespace gainsmith::numbers {
 
+/// The decimal is n 10^e with whole n. For e >= 0 n 10^e must be below 2^53. For e < 0 5^-e must
+/// divide n: what is left is divided by a power of two.
 bool is_exact_decimal(const std::string& decimal) {
   constexpr std::uint64_t kMost = std::uint64_t{1} << 53;
   std::uint64_t digits = 0;

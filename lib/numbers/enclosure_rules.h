@@ -37,6 +37,7 @@ struct EnclosureRules {
   template <Op op>
   using Is = expr::Is<op>;
 
+  /// Radius 0 for decimals that every scalar holds; two roundings of the scalar for others and pi.
   void operator()(Is<Op::constant>, const At& at, Value& out) const {
     const std::string& text = at.instruction.text;
     const auto value = text == "pi" ? Foundation<S>::pi() : Foundation<S>::parse(text);
@@ -74,11 +75,13 @@ struct EnclosureRules {
     const Ball<S> factor = at[0].ball(0);
     map_balls([&](const Ball<S>& a) { return factor * a; }, at[1], out);
   }
+  /// By a ball that holds 0 without being 0 nothing is known, and nothing is thrown.
   void operator()(Is<Op::divide>, const At& at, Value& out) const {
     const Ball<S> by = at[1].ball(0);
     if (by.is_zero()) expr::fault::division_by_zero();
     map_balls([&](const Ball<S>& a) { return a / by; }, at[0], out);
   }
+  /// By squaring. Radii grow with the products, of which a power has some 2 log2 k at most.
   void operator()(Is<Op::power>, const At& at, Value& out) const {
     if (at.shape().is_scalar()) {
       out.resize(1, 1);
@@ -102,6 +105,7 @@ struct EnclosureRules {
     const int exponent = at.attribute(0);
     map_balls([&](const Ball<S>& x) { return ball::whole_power(x, exponent); }, at[0], out);
   }
+  /// `not_finite` where it is certain that there is no real value.
   void operator()(Is<Op::real_power>, const At& at, Value& out) const {
     const auto power_of = [](const Ball<S>& x, const Ball<S>& y) {
       const auto power = ball::power(x, y);
@@ -150,6 +154,7 @@ struct EnclosureRules {
   void operator()(Is<Op::maximum>, const At& at, Value& out) const {
     each<ball::maximum<S>>(at, out);
   }
+  /// A ball that holds both branches where the sign of the condition is not certain.
   void operator()(Is<Op::where>, const At& at, Value& out) const {
     out.resize(at.shape().rows, at.shape().cols);
     for (Eigen::Index i = 0; i < out.mid.size(); ++i) {
@@ -163,6 +168,7 @@ struct EnclosureRules {
     out.resize(1, 1);
     out.set(0, sum);
   }
+  /// The length of a row or column, the largest singular value of other matrices.
   void operator()(Is<Op::norm>, const At& at, Value& out) const {
     const Value& a = at[0];
     out.resize(1, 1);
@@ -171,6 +177,7 @@ struct EnclosureRules {
     if (a.rows() != 1 && a.cols() != 1) return out.set(0, enclosed::singular_values(a).ball(0));
     out.set(0, length(a));
   }
+  /// `singular` is thrown of an exact matrix alone; of others nothing is known then.
   void operator()(Is<Op::inverse>, const At& at, Value& out) const {
     out = at[0];
     if (out.mid.size() == 0) return;
@@ -178,6 +185,7 @@ struct EnclosureRules {
     if (at[0].is_exact() && !(found.condition > S(0))) expr::fault::singular(at.instruction);
     out = enclosed::inverse_around<S>(found.matrix, at[0]);
   }
+  /// Of full rank: A+ = (A'A)^-1 A' for rows >= cols, A' (A A')^-1 otherwise. 0 of an A that is 0.
   void operator()(Is<Op::pseudo_inverse>, const At& at, Value& out) const {
     const Value& a = at[0];
     out = exactly<S>(MatrixOf<S>::Zero(a.cols(), a.rows()));
@@ -200,6 +208,7 @@ struct EnclosureRules {
     out.mid = at[0].mid.diagonal();
     out.rad = at[0].rad.diagonal();
   }
+  /// By elimination over balls: nothing is known where a pivot may be 0. An exact 0 is never one.
   void operator()(Is<Op::determinant>, const At& at, Value& out) const {
     const auto size = [](const Ball<S>& x) { return x.is_zero() ? -1 : magnitude(x.mid); };
     out.resize(1, 1);
@@ -208,6 +217,8 @@ struct EnclosureRules {
   void operator()(Is<Op::singular_values>, const At& at, Value& out) const {
     out = enclosed::singular_values(at[0]);
   }
+  /// The identity for a subspace that is the whole space, no columns for {0}; else canonical.h. The
+  /// dimension is that of the instruction.
   void operator()(Is<Op::range_basis>, const At& at, Value& out) const {
     const int count = at.shape().cols;
     out = exactly<S>(MatrixOf<S>::Identity(at[0].rows(), count));
@@ -222,6 +233,7 @@ struct EnclosureRules {
   requires(expr::is_without_bounds(op)) void operator()(Is<op>, const At&, Value&) const {
     expr::fault::no_error_bound(op);
   }
+  /// Householder over balls; nothing is known where the sign of a reflection is not certain.
   void operator()(Is<Op::complement_basis>, const At& at, Value& out) const {
     const Value& a = at[0];
     const auto basis =
@@ -261,6 +273,7 @@ struct EnclosureRules {
       if (divisor.ball(i).is_zero()) expr::fault::division_by_zero();
   }
 
+  /// f of each element; outside_domain where all of its ball lies outside.
   template <class Function>
   static void partly(Op op, const Function& function, const Value& x, Value& out) {
     out.resize(x.rows(), x.cols());
@@ -271,7 +284,8 @@ struct EnclosureRules {
     }
   }
 
-  /// Of a vector, in units that leave its squares in range.
+  /// The length of a vector, in a unit 2^k that leaves its squares in range. Radii add their own
+  /// length: ||x| - |y|| <= |x - y|.
   static Ball<S> length(const Value& a) {
     const double largest = magnitudes<S>(a.mid).maxCoeff();
     const double moved = enclosed::norm_upward(a.rad);

@@ -21,7 +21,8 @@ using Wide = MatrixOf<DoubleDouble>;
 
 /// The largest A: n^3 products, beside which e^(A s) itself takes as long.
 constexpr Index kLargest = 10;
-/// Eigenvalues of A, |A| = 1, that are nearer count as equal: their mean is as good to the square of it.
+/// Eigenvalues of A, |A| = 1, that are nearer count as equal: their mean is as good to the square
+/// of it.
 constexpr double kSameEigenvalue = 1e-9;
 /// The largest element of |C_1| + |C_2| + ..., |A| = 1, where e^(A s) is the unit matrix at s = 0.
 constexpr double kLargestSum = 1000;
@@ -41,7 +42,8 @@ struct Mode {
   }
 };
 
-/// Of eigenvalues in the order of real_eigenvalues, those with b >= 0.
+/// The modes of eigenvalues in the order of real_eigenvalues, of pairs those with b >= 0: for an
+/// eigenvalue of multiplicity k the powers s^0 to s^(k-1), for b > 0 with cosine and sine.
 std::vector<Mode> modes_of(const Matrix& eigenvalues) {
   std::vector<std::vector<Index>> groups;
   for (Index k = 0; k < eigenvalues.rows(); ++k) {
@@ -94,7 +96,10 @@ struct Formula {
   std::vector<Matrix> coefficients;
 };
 
-/// Of A, |A| near 1.
+/// Of A, n x n, |A| near 1. With F_ki the k-th derivative of f_i at 0 the conditions are
+///   sum_i F_ki C_i = A^k, k = 0 .. n-1:   C_i = sum_k (F^-1)_ik A^k,
+/// by Cayley and Hamilton then for all k. F and the sums are in 31 digits. None where F is singular
+/// or the C_i are large.
 std::optional<Formula> formula_of(const Matrix& A) {
   const Index n = A.rows();
   Formula formula{modes_of(real_eigenvalues<double>(A)), {}};
@@ -124,6 +129,7 @@ std::optional<Formula> formula_of(const Matrix& A) {
   return formula;
 }
 
+/// Whether the formula agrees with the exponential of A s at four times s.
 bool is_right(const Formula& formula, const Matrix& A) {
   constexpr std::array<double, 4> kPoints = {-1, 0.125, 1, 8};
   return std::all_of(kPoints.begin(), kPoints.end(), [&](double s) {
@@ -157,7 +163,8 @@ class ModeNodes {
   ScalarGraph& graph_;
 };
 
-/// A node as a constant times a node that is neither negated nor a multiple; of constants the node 1.
+/// A node as a constant times a node that is neither negated nor a multiple; of constants the node
+/// 1.
 std::pair<double, int> as_product(int number, ScalarGraph& graph) {
   double factor = 1;
   while (true) {
@@ -192,6 +199,8 @@ std::optional<Multiple> as_multiple(const std::vector<int>& nodes, int rows, Sca
   return result;
 }
 
+/// A = rate D U D^-1 with |U| near 1, D balanced units and rate a power of two, both exact: the
+/// formula of U in rate s, with D C_i D^-1 for its C_i.
 std::optional<std::vector<int>> exponential_nodes(const Multiple& argument, ScalarGraph& graph) {
   const Matrix& A = argument.factor;
   const Index n = A.rows();

@@ -14,13 +14,14 @@
 
 namespace gainsmith::numbers {
 
-/// Elements that are all multiples of one number.
+/// A square matrix whose elements are all multiples of one number.
 struct Multiple {
   Matrix factor;
   int number = -1;  ///< the node s; of constants the node 1
 };
 
-/// Nodes column by column as factor * s, with no other factors than constants.
+/// rows^2 nodes, column by column, as factor * s, with no other factors than constants; none where
+/// they are multiples of different nodes.
 std::optional<Multiple> as_multiple(const std::vector<int>& nodes, int rows, ScalarGraph& graph);
 
 /// The nodes of e^(A s), column by column. None where the sum would lose more than three digits

@@ -10,6 +10,8 @@
 
 namespace gainsmith::numbers {
 
+/// The body is a tape over the stacked names. Where that has no value, `plain` gives it or the
+/// fault.
 Vector extreme_point(const expr::Instruction& instruction, expr::Operands<Matrix> operands,
                      OverBox<double>& plain) {
   const auto variables = static_cast<std::size_t>(instruction.attributes[1]);

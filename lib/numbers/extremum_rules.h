@@ -13,7 +13,9 @@
 
 namespace gainsmith::numbers {
 
-/// The body of an extremum with what its inputs are, all but the names of the box.
+/// The body of an extremum with what its inputs are, all but the names of the box. Operands: for
+/// each name its low and high end, then the others; attributes[1] names. low and high hold the ends
+/// of all names, stacked column by column. EvaluationError where low > high.
 template <class Scalar>
 class OverBox {
  public:
@@ -92,6 +94,8 @@ class OverBox {
 Vector extreme_point(const expr::Instruction& instruction, expr::Operands<Matrix> operands,
                      OverBox<double>& plain);
 
+/// 1 x 1. Double searches; in more digits f is evaluated at the point that was found, with exact
+/// ends of the box for rounded ones.
 template <class Scalar>
 MatrixOf<Scalar> extremum(const expr::Instruction& instruction,
                           expr::Operands<MatrixOf<Scalar>> operands) {

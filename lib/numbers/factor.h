@@ -8,8 +8,9 @@
 
 namespace gainsmith::numbers {
 
-/// L with A = L L' over the lower triangle of A, of which alone it reads; what is above stays.
-/// False as soon as a pivot is not > 0.
+/// L with A = L L', n x n, over the lower triangle of A, of which alone it reads; what is above
+/// stays. False as soon as a pivot is not > 0.
+///   L_jj = sqrt(A_jj - sum_{k<j} L_jk^2),   L_ij = (A_ij - sum_{k<j} L_ik L_jk) / L_jj
 template <class S>
 bool factor_in_place(MatrixOf<S>& A) {
   using std::sqrt;

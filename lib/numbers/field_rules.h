@@ -10,6 +10,7 @@
 
 namespace gainsmith::numbers {
 
+/// Rules by +, - and * alone: of polynomials too.
 template <class Scalar>
 struct RingRules {
   using Value = MatrixOf<Scalar>;
@@ -62,6 +63,7 @@ struct RingRules {
   }
 };
 
+/// Division, comparisons and the determinant of an ordered field: reals and fractions.
 template <class Scalar>
 struct FieldRules : RingRules<Scalar> {
   using RingRules<Scalar>::operator();
@@ -79,6 +81,8 @@ struct FieldRules : RingRules<Scalar> {
   void operator()(Is<Op::abs>, const At& at, Value& out) const { out = at[0].cwiseAbs(); }
   void operator()(Is<Op::minimum>, const At& at, Value& out) const { out = at[0].cwiseMin(at[1]); }
   void operator()(Is<Op::maximum>, const At& at, Value& out) const { out = at[0].cwiseMax(at[1]); }
+  /// Element by element operand 1 where operand 0 is > 0, or >= 0 without attribute 0; else
+  /// operand 2.
   void operator()(Is<Op::where>, const At& at, Value& out) const {
     out.resize(at.shape().rows, at.shape().cols);
     const bool strict = at.attribute(0) != 0;

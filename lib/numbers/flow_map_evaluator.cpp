@@ -16,6 +16,7 @@ using Extrapolation = numerics::Extrapolation<double>;
 
 namespace {
 
+/// The programs whose signs decide on branches.
 std::vector<const expr::Program*> differences_of(const std::vector<expr::Branch>& branches) {
   std::vector<const expr::Program*> programs;
   for (const expr::Branch& one : branches) programs.push_back(&one.difference);
@@ -42,6 +43,7 @@ struct FlowMapEvaluator::Kept {
       places_of_operands.push_back(place("operand " + std::to_string(k)));
   }
 
+  /// The integration of [z, z'], r c x (1 + directions): the first column is the value.
   Matrix run(expr::Operands<Matrix> operands) {
     const Index directions = take_slopes(operands);
     length = (*operands[1])(0);
@@ -79,6 +81,7 @@ struct FlowMapEvaluator::Kept {
     return used;
   }
 
+  /// Where an input begins in the point; none where no program reads it.
   std::optional<Index> place(const std::string& name) const {
     const auto found = places.find(name);
     return found == places.end() ? std::nullopt : std::optional(found->second);
@@ -87,6 +90,8 @@ struct FlowMapEvaluator::Kept {
     return [this](const std::string& name) { return place(name); };
   }
 
+  /// A program with its slope: by the state always, by the time where it or the length moves, by
+  /// other operands where they move. Without `moves` by nothing.
   MovingFunction moving(const expr::Program& program) const {
     const auto is_input_moving = [this](const std::string& name) {
       if (moves.empty()) return false;
@@ -124,6 +129,7 @@ struct FlowMapEvaluator::Kept {
     if (at_t) slopes.row(*at_t) = time_slope + q * length_slope;
   }
 
+  /// d e, and d (de/dp p') + d' e beside it (flow_map.h).
   void rate_at(double q, const Matrix& y, Matrix& out) {
     go_to(q, y);
     rate.go_to(point);
@@ -136,6 +142,7 @@ struct FlowMapEvaluator::Kept {
     rate.add_slope(length, slopes, slope);
   }
 
+  /// As watch_of (flow_map_rules.h), over tapes.
   Extrapolation::Watch watch() {
     Extrapolation::Watch result;
     result.jumps = jumps_of(branches);
@@ -146,6 +153,7 @@ struct FlowMapEvaluator::Kept {
     return result;
   }
 
+  /// All differences, stacked, elements x 1; one by one over Real where the tape has no value.
   void differences_at(double q, const Matrix& y, Matrix& out) {
     go_to(q, y);
     const bool known = differences.run(point);
@@ -175,13 +183,16 @@ struct FlowMapEvaluator::Kept {
   }
 
   const expr::Instruction& instruction;
+  /// By operand; empty where no slope is asked for.
   std::vector<bool> moves;
   std::vector<expr::Branch> branches;
+  /// By the name of an input: where it begins in the point.
   std::map<std::string, Index> places;
   Index elements = 0;  ///< of what the rate branches on
   Index size;          ///< of the point
   std::optional<Index> at_x, at_t;
   Values none;
+  /// e, and what it branches on.
   MovingFunction rate;
   StackedFunctions differences;
   std::vector<std::optional<Index>> places_of_operands;

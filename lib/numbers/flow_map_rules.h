@@ -66,7 +66,8 @@ inline std::vector<bool> jumps_of(const std::vector<expr::Branch>& branches) {
   return jumps;
 }
 
-/// The place stays that of the call.
+/// integration(start), with its failure as the EvaluationError of a flow map that moves for the
+/// time `length`. The place stays that of the call.
 template <class Scalar>
 MatrixOf<Scalar> moved(numerics::Extrapolation<Scalar>& integration, const MatrixOf<Scalar>& start,
                        double length) {
@@ -103,6 +104,7 @@ typename numerics::Extrapolation<Scalar>::Watch watch_of(const std::vector<expr:
   return watch;
 }
 
+/// dy/dq = d e(y, t + q d), y(0) = x, over q in [0, 1], with y = z column by column; x for d = 0.
 template <class Scalar>
 MatrixOf<Scalar> flow_map(const expr::Instruction& instruction,
                           expr::Operands<MatrixOf<Scalar>> operands) {
@@ -128,10 +130,14 @@ MatrixOf<Scalar> flow_map(const expr::Instruction& instruction,
   return end;
 }
 
+/// The state is y = [z, z'], elements x (1 + directions), with the rate [d e, d e' + e d'] and e'
+/// from dual numbers. Where a step crosses a jump of e at a place that moves, or e has no
+/// derivative, the slope is not a number and out.without the operation.
 template <class Scalar>
 void flow_map_slope(const expr::Instruction& instruction, expr::Operands<Dual<Scalar>> operands,
                     Dual<Scalar>& out) {
   using M = MatrixOf<Scalar>;
+  // Thrown out of the integration, and caught below.
   struct NoSlope {};
   const Eigen::Index directions = out.slope.cols();
   const auto slope_of = [&](const Dual<Scalar>& dual) {

@@ -10,10 +10,11 @@
 
 namespace gainsmith::numbers {
 
+/// A matrix by its columns.
 template <class Number>
 using Columns = std::vector<std::vector<Number>>;
 
-/// y - v (v'y) / half from row `first` on, where v begins.
+/// y <- H y = y - v (v'y) / half on the last rows of y, as many as v has.
 template <class Number>
 void reflect(const std::vector<Number>& v, const Number& half, std::vector<Number>& y) {
   const std::size_t first = y.size() - v.size();

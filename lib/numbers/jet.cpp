@@ -23,6 +23,7 @@ Enclosed<double> Jet::derivative(int k) const {
 
 Jet constant_jet(const Enclosed<double>& value) { return {0, {value, {}, {}}, nullptr}; }
 
+/// Another variable does not move with t: it is the ball of its interval.
 Jet other_variable_jet(double low, double high) {
   if (low == high) return constant_jet(exact_number<double>(low));
   Enclosed<double> value;
@@ -40,6 +41,7 @@ Jet variable_jet(double low, double high) {
 
 namespace jets {
 
+/// Leibniz: (x y)' = x' y + x y', (x y)'' = x'' y + 2 x' y' + x y'', for any bilinear product.
 void multiply(const Jet& x, const Jet& y, const Product& product, Jet& out) {
   static thread_local Enclosed<double> term;
   out.order = std::min(2, x.order + y.order);
@@ -75,6 +77,7 @@ Jet matrix_product(const Jet& x, const Jet& y) {
   return out;
 }
 
+/// A jet of 1 x 1 times one of any shape.
 void scale(const Jet& factor, const Jet& x, Jet& out) {
   const auto product = [](const auto& s, const auto& a, auto& to) {
     map_balls([by = s.ball(0)](const Ball<double>& b) { return by * b; }, a, to);
@@ -90,7 +93,7 @@ Jet transposed_jet(const Jet& x) {
   return out;
 }
 
-/// R' = -R X' R,  R'' = -2 R' X' R - R X'' R.
+/// R = X^-1, whose value is given:  R' = -R X' R,  R'' = -2 R' X' R - R X'' R.
 Jet inverse(const Jet& x, Enclosed<double> value) {
   Jet out;
   out.order = x.order == 0 ? 0 : 2;
@@ -133,7 +136,8 @@ std::optional<Matrix> growth(const Enclosed<double>& A) {
   return numerics::in_units(H, units, scale);
 }
 
-/// e^(f M) = e^(m M) e^((f - m) M), where the second factor is within e^(r |M|) - I of I.
+/// e^(f M) = e^(m M) e^((f - m) M), where the second factor is within e^(r |M|) - I of I, for the
+/// ball (m, r) of f. With E = e^(f M):  E' = f' M E,  E'' = (f'^2 M^2 + f'' M) E.
 Jet exponential_of(const Jet::Ray& ray) {
   const Ball<double> middle{ray.factor[0].mid, 0};
   const double radius = ray.factor[0].rad;
@@ -263,6 +267,7 @@ Enclosed<double> slope_of_jacobian(const expr::Instruction& instruction,
 
 }  // namespace jets
 
+/// Column j is the derivative of the body along e_j, a jet of order 1 in the variable.
 Enclosed<double> enclosed_jacobian(const expr::Instruction& instruction,
                                    const std::vector<Enclosed<double>>& operands) {
   const Enclosed<double>& variable = operands.front();
@@ -285,6 +290,7 @@ Enclosed<double> enclosed_jacobian(const expr::Instruction& instruction,
   return result;
 }
 
+/// A value that is not finite is a fault; of a derivative that is not finite nothing is known.
 void JetAlgebra::apply(const expr::Instruction& instruction, expr::Operands<Jet> operands,
                        Jet& out) const {
   check_stop();

@@ -1,5 +1,7 @@
 // The number type "jet": a matrix function of one variable over a piece of its range, with its
-// first two derivatives.
+// first two derivatives. Sums, products (Leibniz) and compositions
+//   (f o x)' = f'(x) x',   (f o x)'' = f''(x) x'^2 + f'(x) x''
+// of balls hold the derivatives of all points of the piece (Moore, Interval Analysis, 1966).
 #pragma once
 
 #include <array>

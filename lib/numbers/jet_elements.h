@@ -10,7 +10,8 @@ namespace gainsmith::numbers::jets {
 
 using Number = Ball<double>;
 
-/// Value and derivatives of a function of one number over a ball.
+/// Value, first and second derivative of a function of one number over a ball. They are
+/// derivatives, not the coefficients of a Taylor series.
 struct Taylor {
   Number value, first, second;
 };
@@ -42,6 +43,7 @@ inline Taylor exp_of(const Number& x) {
   const Number value = ball::exp(x);
   return {value, value, value};
 }
+/// log x, 1/x, -1/x^2. None where all of x lies outside.
 inline std::optional<Taylor> log_of(const Number& x) {
   const auto value = ball::log(x);
   if (!value) return std::nullopt;
@@ -76,6 +78,7 @@ inline Taylor real_power(const Taylor& a, const Taylor& b, bool exponent_moves) 
   return composed({*known, y * or_unknown(y - one), y * (y - one) * or_unknown(y - two)}, a);
 }
 
+/// Level between whole numbers; nothing is known of the derivatives where x may meet one.
 inline Taylor floor_of(const Number& x) {
   const Number value = ball::floor(x);
   if (value.is_exact()) return {value, {}, {}};

@@ -10,7 +10,7 @@ namespace gainsmith::numbers {
 
 namespace {
 
-/// The derivative of a program by one of its inputs.
+/// The derivative of a program by its input number `by`, elements x elements of that input.
 expr::Program derivative(const expr::Program& of, std::size_t by) {
   const expr::Instruction& like = of.code[static_cast<std::size_t>(of.result)];
   const expr::Shape shape{of.shape().size(), of.inputs[by].shape.size()};

@@ -1,4 +1,8 @@
-// A program over a point in which its inputs are stacked, and its slope as the point moves.
+// A program over a point in which its inputs are stacked, and its slope as the point moves:
+//
+//   f(p),   df = sum_k df/dp_k dp_k   over the inputs p_k that move,
+//
+// where each df/dp_k is an Op::jacobian, and all are one tape (stacked_functions.h).
 #pragma once
 
 #include <deque>

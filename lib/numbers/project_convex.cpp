@@ -14,7 +14,8 @@ namespace gainsmith::numbers {
 
 namespace {
 
-/// The body as functions of z. What else it depends on moves in q directions.
+/// The body as functions of z, n x 1, with derivatives by the n elements of z and by q directions
+/// in which what else it depends on moves: slopes are m x (n + q).
 template <class W>
 class ConvexBody {
  public:
@@ -39,6 +40,7 @@ class ConvexBody {
   ConvexBody(const ConvexBody&) = delete;
   ConvexBody& operator=(const ConvexBody&) = delete;
 
+  /// NoProjection where c has no value at z, or no derivative in an element that is not below 0.
   numerics::Tangents<W> operator()(const M& z) {
     z_.value = z;
     const Dual<W>& c = value();
@@ -57,6 +59,7 @@ class ConvexBody {
   }
 
  private:
+  /// A fault of the evaluation as NoProjection, with the point.
   const Dual<W>& value() {
     try {
       return evaluator_.run();
@@ -81,6 +84,7 @@ class ConvexBody {
 
 }  // namespace
 
+/// Operands: x, n x 1, P, n x n, then what else c depends on.
 template <class Scalar>
 MatrixOf<Scalar> project_convex(const expr::Instruction& instruction,
                                 expr::Operands<MatrixOf<Scalar>> operands) {
@@ -92,6 +96,8 @@ MatrixOf<Scalar> project_convex(const expr::Instruction& instruction,
   return numerics::project_convex<Scalar>(*operands[0], *operands[1], std::ref(body)).point;
 }
 
+/// By the optimality conditions at the point (slope_of_projection of numerics). An operand whose
+/// slope is not a number passes that on.
 template <class Scalar>
 void project_convex_slope(const expr::Instruction& instruction,
                           expr::Operands<Dual<Scalar>> operands, Dual<Scalar>& out) {

@@ -23,6 +23,7 @@ bool is_whole(const Range& a) {
 
 bool is_zero(const Range& a) { return a.low == 0 && a.high == 0; }
 
+/// The hull of the four products of ends; a square is not below 0.
 Range product(const Range& a, const Range& b, bool square) {
   if (is_zero(a) || is_zero(b)) return {0, 0};
   if (is_whole(a) && is_whole(b) && is_whole({a.low * b.low, a.low * b.low}))
@@ -36,7 +37,7 @@ Range product(const Range& a, const Range& b, bool square) {
                  std::max(std::max(p, q), std::max(r, s)));
 }
 
-/// Sums that are too small for a full precision are exact.
+/// Without the least double of widened(): sums that are too small for a full precision are exact.
 Range difference(const Range& a, const Range& b) {
   constexpr double part = std::numeric_limits<double>::epsilon();
   const double low = a.low - b.high, high = a.high - b.low;
@@ -46,6 +47,7 @@ Range difference(const Range& a, const Range& b) {
 
 Range sum(const Range& a, const Range& b) { return difference(a, {-b.high, -b.low}); }
 
+/// The least interval that holds both.
 Range hull(const Range& a, const Range& b) {
   return {std::min(a.low, b.low), std::max(a.high, b.high)};
 }
@@ -58,7 +60,7 @@ Range rising(const Range& a, const Function& function) {
   return widened(function(a.low), function(a.high), kFunctionUlps);
 }
 
-/// sin(x + phase).
+/// sin(x + phase), phase 0 or pi/2: from the ends, and 1 or -1 where a top or bottom lies inside.
 Range sine(const Range& a, double phase) {
   constexpr double turn = 2 * std::numbers::pi;
   constexpr double far = 1e6;  // beyond, where its extrema are is rounded too much
@@ -77,6 +79,8 @@ Range sine(const Range& a, double phase) {
   return made;
 }
 
+/// a^b of one exponent b, where a > 0, or b is whole and >= 0; even powers by the size of a. False
+/// otherwise.
 bool power(const Range& a, const Range& b, Range& out) {
   if (b.low != b.high) return false;
   const double exponent = b.low;
@@ -107,6 +111,7 @@ bool enclose(ScalarOp op, const Range& a, const Range& b, const Range& c, bool s
       break;
     case ScalarOp::divide:
       if (!(b.least() > 0)) return false;
+      // 1/b falls on each side of 0.
       out = product(a, widened(1 / b.high, 1 / b.low), false);
       break;
     case ScalarOp::negate:
@@ -119,6 +124,7 @@ bool enclose(ScalarOp op, const Range& a, const Range& b, const Range& c, bool s
       out = {std::max(a.low, b.low), std::max(a.high, b.high)};
       break;
     case ScalarOp::where_positive:
+      // Both branches where the sign of the condition is not known.
       out = a.low > 0 ? b : a.high <= 0 ? c : hull(b, c);
       break;
     case ScalarOp::where_nonnegative:
@@ -166,6 +172,7 @@ bool enclose(ScalarOp op, const Range& a, const Range& b, const Range& c, bool s
     default:
       return false;
   }
+  // Ends that are infinite or NaN are no bounds.
   return out.low - out.low == 0 && out.high - out.high == 0;
 }
 

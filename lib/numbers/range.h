@@ -1,5 +1,12 @@
 // Intervals: bounds of what operations on numbers give when their operands lie anywhere in theirs,
-// rounding included.
+// rounding included (Moore, Interval Analysis, 1966):
+//
+//   a + b   [a.low + b.low, a.high + b.high]       a b   the hull of the four products of ends
+//   f(a)    [f(a.low), f(a.high)] where f rises
+//
+// Ends are computed in rounding to nearest and moved outward: by 2^-52 of them, of functions of
+// libm by 2^-50; products and functions also by the least double. Whole numbers up to 2^53 stay
+// exact.
 #pragma once
 
 #include <algorithm>

@@ -20,11 +20,13 @@ using expr::Op;
 /// EvaluationError for fractions that are too long to compute with. `times`: as much longer they
 /// will be.
 void check_size(const RationalMatrix& x, Eigen::Index times = 1) {
+  // 1204 decimal digits.
   constexpr std::size_t kMostBits = 4000;
   if (most_bits(x) > kMostBits / static_cast<std::size_t>(std::max<Eigen::Index>(times, 1)))
     throw expr::EvaluationError("the fraction has more than 1,200 digits");
 }
 
+/// floor(x): the quotient of numerator and denominator, rounded down.
 Rational whole_part(const Rational& x) {
   Rational floor(x);
   mpz_fdiv_q(mpq_numref(floor.backend().data()), mpq_numref(x.backend().data()),
@@ -33,6 +35,8 @@ Rational whole_part(const Rational& x) {
   return floor;
 }
 
+/// The rules of a field, and of functions that lead from fractions to fractions. Powers are made by
+/// squaring, with a check of the length after each square.
 struct Rules : FieldRules<Rational> {
   using FieldRules::operator();
 
@@ -118,6 +122,7 @@ void RationalNumbers::apply(const expr::Instruction& instruction, expr::Operands
   check_size(out);
 }
 
+/// By the operations alone, whatever their operands.
 void require_fractions(const expr::Program& program) {
   for (const expr::Instruction& one : program.code)
     if (is_irrational(one.op)) not_rational(one.op);
@@ -135,6 +140,7 @@ RationalMatrix rational_value(const expr::Program& program, const RationalValues
   return evaluator.run();
 }
 
+/// hi + lo is compared with x as fractions: a double is one.
 Ball<DoubleDouble> ball_of(const Rational& x) {
   const DoubleDouble mid = nearest_double_double(x);
   const bool exact = Rational(mid.hi()) + Rational(mid.lo()) == x;

@@ -1,4 +1,5 @@
-// The number type "rational": exact values of what is made of decimals by rational operations.
+// The number type "rational": exact values of what is made of decimals by rational operations, in
+// fractions of whole numbers of any length (GMP). Fractions of more than 4000 bits are refused.
 //
 // What has no rational value in general - roots, exponentials, norms, pi - throws EvaluationError,
 // also where it has one, but for exp, expm, sin, cos and tanh of 0. An inverse that does not exist
@@ -25,6 +26,8 @@ constexpr bool is_irrational(expr::Op op) {
                         range_basis, kernel_basis, complement_basis, jacobian});
 }
 
+/// The rules of expr/number_type.h. EvaluationError where an operation has no fraction, or one that
+/// is too long.
 struct RationalNumbers {
   using Value = RationalMatrix;
 
@@ -41,10 +44,10 @@ void require_fractions(const expr::Program& program);
 /// Evaluates once. EvaluationError when an operation or an input has no value here.
 RationalMatrix rational_value(const expr::Program& program, const RationalValues& values);
 
-/// In 31 digits.
+/// x in 31 digits, with a bound of its rounding: radius 0 where 31 digits hold x.
 Ball<DoubleDouble> ball_of(const Rational& x);
 
-/// Of the longest numerator or denominator.
+/// The bits of the longest numerator or denominator; 0 of an empty matrix.
 std::size_t most_bits(const RationalMatrix& x);
 
 /// (X + X') / 2.

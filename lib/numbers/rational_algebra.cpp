@@ -9,7 +9,7 @@ namespace gainsmith::numbers {
 
 namespace {
 
-/// Row r times factor from row i, from column `first` on.
+/// Row i minus M(i, first) times row r, from column `first` on, where M(r, first) = 1.
 void subtract_row(RationalMatrix& M, Eigen::Index i, Eigen::Index r, Eigen::Index first) {
   check_stop();
   const Rational factor = M(i, first);
@@ -19,7 +19,7 @@ void subtract_row(RationalMatrix& M, Eigen::Index i, Eigen::Index r, Eigen::Inde
 
 using Residues = Eigen::Matrix<std::uint64_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// None when the prime divides a denominator.
+/// The elements modulo kPrime. None when the prime divides a denominator.
 std::optional<Residues> residues_of(const RationalMatrix& M) {
   Residues result = Residues::Zero(M.rows(), M.cols());
   for (Eigen::Index i = 0; i < M.rows(); ++i)
@@ -34,6 +34,8 @@ std::optional<Residues> residues_of(const RationalMatrix& M) {
 
 }  // namespace
 
+/// Gauss' elimination modulo p, in 64-bit arithmetic: a pivot in each column shows the rank. False
+/// also where p divides a denominator, or a minor by chance.
 bool are_surely_independent(const RationalMatrix& M) {
   if (M.rows() < M.cols()) return false;
   auto residues = residues_of(M);
@@ -56,6 +58,7 @@ bool are_surely_independent(const RationalMatrix& M) {
   return true;
 }
 
+/// By outer products of columns and rows: a 0 of A saves a row of products.
 RationalMatrix rational_product(const RationalMatrix& A, const RationalMatrix& B) {
   RationalMatrix result = RationalMatrix::Constant(A.rows(), B.cols(), Rational(0));
   for (Eigen::Index k = 0; k < A.cols(); ++k)
@@ -73,6 +76,7 @@ bool is_rational_zero(const RationalMatrix& M) {
   return true;
 }
 
+/// Gauss and Jordan. The first element other than 0 is the pivot: without rounding any is as good.
 Echelon reduced_echelon(RationalMatrix M) {
   Echelon result;
   Eigen::Index r = 0;
@@ -93,6 +97,8 @@ Echelon reduced_echelon(RationalMatrix M) {
   return result;
 }
 
+/// For each column j without a pivot the x with x_j = 1, x_p(r) = -E_rj for the pivots p(r) of the
+/// echelon form E, and 0 elsewhere: n - rank columns.
 RationalMatrix rational_kernel(const RationalMatrix& M) {
   const Echelon echelon = reduced_echelon(M);
   const auto rank = static_cast<Eigen::Index>(echelon.pivots.size());
@@ -111,6 +117,7 @@ RationalMatrix rational_kernel(const RationalMatrix& M) {
   return result;
 }
 
+/// From the echelon form of [M, B]: a pivot behind M says 0 = 1. Rows of X without a pivot are 0.
 std::optional<RationalMatrix> rational_solution(const RationalMatrix& M, const RationalMatrix& B) {
   RationalMatrix whole(M.rows(), M.cols() + B.cols());
   whole << M, B;
@@ -124,6 +131,7 @@ std::optional<RationalMatrix> rational_solution(const RationalMatrix& M, const R
   return X;
 }
 
+/// d_k = M_kk, v_k = M e_k/d_k, M <- M - d_k v_k v_k'; what is left of M is symmetric.
 std::vector<std::pair<Rational, RationalMatrix>> rational_squares(RationalMatrix M) {
   std::vector<std::pair<Rational, RationalMatrix>> result;
   for (Eigen::Index k = 0; k < M.rows(); ++k) {
@@ -140,6 +148,9 @@ std::optional<RationalMatrix> rational_inverse(const RationalMatrix& M) {
   return rational_solution(M, RationalMatrix::Identity(M.rows(), M.rows()));
 }
 
+/// After k steps M = L [D, 0; 0, S] L' with D > 0, or >= 0; S is in the last rows and columns of M.
+/// Where S_kk is not as it must be, L'v = e_k gives v'Mv = S_kk. Where S_kk = 0 and S_ik = m != 0,
+/// a vector of rows k and i gives -1.
 std::optional<RationalMatrix> rational_witness(RationalMatrix M, bool definite) {
   const Eigen::Index n = M.rows();
   RationalMatrix v = RationalMatrix::Constant(n, 1, Rational(0));

@@ -1,4 +1,11 @@
-// Linear algebra over fractions: nothing is rounded.
+// Linear algebra over fractions: nothing is rounded, and what is said is certain.
+//
+//   kernel, solutions   the reduced echelon form of Gauss and Jordan, O(m n rank) operations
+//   definiteness        M = L D L' by symmetric elimination without exchanges:
+//                       M > 0 if and only if all pivots are > 0
+//   independence        the rank of M modulo the prime 2^31 - 1, which is not above that of M
+//
+// Numbers grow with each step of an elimination: a pivot is a quotient of two minors of M.
 #pragma once
 
 #include <optional>
@@ -9,6 +16,7 @@
 
 namespace gainsmith::numbers {
 
+/// Whether all elements are 0; true of an empty matrix.
 bool is_rational_zero(const RationalMatrix& M);
 
 /// A B, quick where elements are 0.
@@ -35,11 +43,12 @@ std::optional<RationalMatrix> rational_solution(const RationalMatrix& M, const R
 /// None for a singular matrix.
 std::optional<RationalMatrix> rational_inverse(const RationalMatrix& M);
 
-/// M = sum of d v v' with d > 0, for M > 0; empty for other symmetric matrices.
+/// M = sum_k d_k v_k v_k' with d_k > 0 and v_k n x 1, for M > 0, from M = L D L': v_k is column k
+/// of L. Empty for other symmetric matrices.
 std::vector<std::pair<Rational, RationalMatrix>> rational_squares(RationalMatrix M);
 
-/// Of a symmetric matrix, n x n, by elimination: a vector v != 0, n x 1, with v'Mv < 0, or <= 0 when
-/// it must be definite; none when it is as it must be.
+/// Of a symmetric matrix, n x n, by elimination: a vector v != 0, n x 1, with v'Mv < 0, or <= 0
+/// when it must be definite; none when it is as it must be.
 std::optional<RationalMatrix> rational_witness(RationalMatrix M, bool definite);
 
 /// Whether v'Mv > 0 (>= 0) for all v != 0. Empty matrices are both.

@@ -1,5 +1,6 @@
 // The number type "real": one matrix of real scalars a value. For double, and for the scalars of
-// base/scalars.h (31 and 100 decimal digits).
+// base/scalars.h (31 and 100 decimal digits). Errors are not bounded: enclosure.h does that. The
+// rules are in real_rules.h, instantiated by one source a scalar.
 #pragma once
 
 #include <functional>
@@ -27,7 +28,7 @@ struct Real {
 
 using RealAlgebra = Real<double>;
 
-/// Named matrices: data, parameters, gains, values of unknowns.
+/// Matrices by the names of inputs: data, parameters, gains, values of unknowns.
 template <class Scalar>
 using ValuesOf = std::map<std::string, MatrixOf<Scalar>, std::less<>>;
 using Values = ValuesOf<double>;
@@ -59,7 +60,7 @@ class KnownDoubles : public expr::KnownValues {
 };
 
 /// The number of singular values above tolerance * the largest one; tolerance < 0 means
-/// max(rows, cols) * 2^-52.
+/// max(rows, cols) * 2^-52. 0 of an empty matrix.
 int numerical_rank(const Matrix& matrix, double tolerance = -1);
 
 extern template struct Real<double>;

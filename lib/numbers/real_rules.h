@@ -39,7 +39,7 @@ namespace gainsmith::numbers {
 template <class Scalar>
 struct Foundation;
 
-/// Singular values above `tolerance` times the largest one.
+/// How many singular values are above `tolerance` times the largest one; 0 without values.
 template <class Scalar>
 int count_above(const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>& values, const Scalar& tolerance) {
   if (values.size() == 0) return 0;
@@ -74,6 +74,7 @@ struct RealRules : FieldRules<Scalar> {
     out = Value::Constant(1, 1, *value);
   }
   void operator()(Is<Op::multiply>, const At& at, Value& out) const { multiply(at[0], at[1], out); }
+  /// M^k, k >= 0, by squaring: some 2 log2 k products at most.
   void operator()(Is<Op::power>, const At& at, Value& out) const {
     Value square = at[0], next;
     out = Value::Identity(square.rows(), square.cols());
@@ -89,6 +90,7 @@ struct RealRules : FieldRules<Scalar> {
     }
   }
   void operator()(Is<Op::elementwise_quotient>, const At& at, Value& out) const {
+    // Below so many roundings of 1 a cosine counts as 0, where tan has its poles.
     constexpr int kRoundings = 4;
     const Scalar least = at.attribute(0) == expr::kPoleWithinRounding
                              ? Scalar(kRoundings * std::numeric_limits<Scalar>::epsilon())
@@ -132,6 +134,7 @@ struct RealRules : FieldRules<Scalar> {
   void operator()(Is<Op::atan2>, const At& at, Value& out) const {
     map([](const Scalar& y, const Scalar& x) { return angle(y, x); }, at, out);
   }
+  /// The length of a row or column, the largest singular value of other matrices, 0 of empty ones.
   void operator()(Is<Op::norm>, const At& at, Value& out) const {
     const Value& a = at[0];
     Scalar norm(0);
@@ -139,6 +142,7 @@ struct RealRules : FieldRules<Scalar> {
       norm = a.rows() == 1 || a.cols() == 1 ? a.norm() : Base::singular_values(a).maxCoeff();
     out = Value::Constant(1, 1, norm);
   }
+  /// `singular` where the reciprocal condition in the 1-norm is not above least_condition().
   void operator()(Is<Op::inverse>, const At& at, Value& out) const {
     out = at[0];
     if (out.size() == 0) return;
@@ -146,6 +150,8 @@ struct RealRules : FieldRules<Scalar> {
     if (!(found.condition > Base::least_condition())) expr::fault::singular(at.instruction);
     out = std::move(found.matrix);
   }
+  /// Moore and Penrose: A+ = sum_{i <= rank} v_i u_i' / s_i, with singular values above
+  /// rounding_of().
   void operator()(Is<Op::pseudo_inverse>, const At& at, Value& out) const {
     const Value& a = at[0];
     out = Value::Zero(a.cols(), a.rows());
@@ -161,6 +167,7 @@ struct RealRules : FieldRules<Scalar> {
   void operator()(Is<Op::singular_values>, const At& at, Value& out) const {
     out = Base::singular_values(at[0]);
   }
+  /// n x 2 (spectrum.h).
   void operator()(Is<Op::eigenvalues>, const At& at, Value& out) const {
     solve(at, [&] { out = real_eigenvalues<Scalar>(at[0]); });
   }
@@ -223,7 +230,7 @@ struct RealRules : FieldRules<Scalar> {
   }
 
  private:
-  /// Of the subspace of M with the projector P (canonical.h).
+  /// Of the subspace of M with the projector P, n x n (canonical.h): n x k; 0 without a pivot.
   static Value canonical_basis(canonical::Of of, const Value& P, int k, const Value& M) {
     const auto is_zero = [&](Eigen::Index i) { return (M.row(i).array() == Scalar(0)).all(); };
     const auto basis = canonical::basis(
@@ -233,7 +240,7 @@ struct RealRules : FieldRules<Scalar> {
     return B;
   }
 
-  /// What says by an exception why there is no result.
+  /// compute(), whose NoProjection or NoSolution becomes the EvaluationError of the operation.
   template <class Compute>
   static void solve(const At& at, const Compute& compute) {
     for (const Value* operand : at.operands)

@@ -18,8 +18,9 @@
 
 namespace gainsmith::numbers {
 
-/// e^M = (e^X)^(2^k) with X = M / 2^k, |X| <= 1/2 in the 1-norm, and e^X by its series, of which
-/// the first term left out is below epsilon / 8.
+/// e^M = (e^X)^(2^k), M n x n, with X = M / 2^k, |X| <= 1/2 in the 1-norm, and e^X by its series in
+/// Horner's form, I + X (I + X/2 (I + X/3 (...))), of which the first term left out is below
+/// epsilon / 8. At most 5000 squarings.
 template <class Scalar>
 MatrixOf<Scalar> balanced_exponential(const MatrixOf<Scalar>& M) {
   constexpr int kMostSquarings = 5000;

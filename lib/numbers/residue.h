@@ -1,4 +1,5 @@
-// Fractions modulo a prime: what is independent there is independent.
+// Fractions modulo a prime: what is independent there is independent, since a minor that is not 0
+// modulo p is not 0.
 #pragma once
 
 #include <cstdint>
@@ -7,10 +8,10 @@
 
 namespace gainsmith::numbers {
 
-/// A prime whose square is a number of 64 bits.
+/// The prime 2^31 - 1: products of residues, and their sums with a residue, fit 64 bits.
 constexpr std::uint64_t kPrime = 2147483647;
 
-/// Of x other than 0.
+/// 1/x of x in [1, p): x^(p - 2), by Fermat's little theorem.
 inline std::uint64_t inverse_modulo(std::uint64_t x) {
   std::uint64_t result = 1;
   for (std::uint64_t e = kPrime - 2; e > 0; e /= 2, x = x * x % kPrime)
@@ -18,6 +19,7 @@ inline std::uint64_t inverse_modulo(std::uint64_t x) {
   return result;
 }
 
+/// x modulo p, in [0, p).
 inline std::uint64_t residue_of(const Integer& x) {
   const Integer prime(kPrime);
   return static_cast<std::uint64_t>(Integer((x % prime + prime) % prime));

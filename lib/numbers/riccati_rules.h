@@ -1,5 +1,11 @@
 // Internal to numbers: stabilising solutions of the equations of Riccati (spectrum.h), over the
 // arithmetic W that they are computed in.
+//
+// With B R^-1 B' = G, A - B R^-1 S' for A and Q - S R^-1 S' for H the equations are
+//   continuous   A'X + X A - X G X + H = 0
+//   discrete     X = A'X (I + G X)^-1 A + H
+// The first becomes one of the second form by a Cayley transform, with the same X. Doubling solves
+// the second with quadratic convergence (Chu, Fan and Lin 2005).
 #pragma once
 
 #include <Eigen/Core>
@@ -20,6 +26,7 @@
 
 namespace gainsmith::numbers {
 
+/// An eigenvalue of a real matrix; both of a conjugate pair are listed.
 template <class W>
 struct Eigenvalue {
   W real{0};
@@ -58,7 +65,8 @@ class RiccatiSolver {
               weight - times<W>(cross, back)};
   }
 
-  /// `rounding`: of what the solution is rounded to.
+  /// X, n x n, symmetric. `rounding`: of what the solution is rounded to. NoSolution where nothing
+  /// that is found passes is_solution().
   M solve(const W& rounding) const {
     const auto start = discrete_ ? std::optional(start_) : transformed();
     if (!start) explain();
@@ -75,6 +83,8 @@ class RiccatiSolver {
   struct Doubling {
     M A, G, H;
   };
+  /// K of X, A - B K, and the left side of the equation: what it differs from 0 by is checked
+  /// against the size of its terms.
   struct Feedback {
     M gain, closed, residual;
     W terms;  ///< the size of what adds up to the residual
@@ -144,6 +154,8 @@ class RiccatiSolver {
     return Z ? std::optional<M>(Y + *Z) : std::nullopt;
   }
 
+  /// The doubling of spectrum.h from (A, G, H), until H changes by no more than rounding. None
+  /// where I + G H is singular, H or G overflows, or 200 steps do not suffice.
   static std::optional<M> doubled(Doubling at) {
     constexpr int kMostSteps = 200;
     const Eigen::Index n = at.A.rows();
@@ -182,6 +194,8 @@ class RiccatiSolver {
     return result;
   }
 
+  /// Whether the residual is at most n roundings of its terms, and all eigenvalues of A - B K lie
+  /// on the stable side by more than boundary_width().
   bool is_solution(const M& X, const W& rounding) const {
     const auto found = feedback(X);
     if (!found || !found->closed.allFinite()) return false;
@@ -199,7 +213,8 @@ class RiccatiSolver {
     return sqrt(W(one.real * one.real + one.imaginary * one.imaginary)) - W(1);
   }
 
-  /// Hautus: whether [A - l I, B] has full rank.
+  /// Hautus: whether [A - l I, B] has full rank n, in double. Of a complex l over real and
+  /// imaginary parts, 2n x 2(n + m).
   static bool reaches(const M& A, const M& B, const Eigenvalue<W>& l) {
     constexpr double kNothing = 1e-12;
     const auto rounded = [](const M& m) {
@@ -223,6 +238,7 @@ class RiccatiSolver {
            (imaginary > 0 ? " +- " + brief(imaginary) + "i" : "");
   }
 
+  /// Throws the reason: a mode that B does not reach, one that the weights do not see, or neither.
   [[noreturn]] void explain() const {
     const std::string none = "there is no stabilising solution: ";
     const auto& [A, G, H] = start_;

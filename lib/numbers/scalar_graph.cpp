@@ -13,6 +13,7 @@ namespace gainsmith::numbers {
 
 namespace {
 
+/// What the rows of scalar_ops.def call by name, over one double.
 double all(double x) { return x; }
 double abs_of(double x) { return std::abs(x); }
 double floor_of(double x) { return std::floor(x); }
@@ -37,6 +38,7 @@ double apply(ScalarOp op, double a, double b, double c) {
   throw std::logic_error("no operation on numbers");
 }
 
+/// Multiplicative hashing of each part by 2^64 over the golden ratio.
 std::size_t ScalarGraph::Hash::operator()(const Key& key) const {
   std::uint64_t hash = 0;
   for (const int part : key) {
@@ -47,6 +49,8 @@ std::size_t ScalarGraph::Hash::operator()(const Key& key) const {
   return static_cast<std::size_t>(hash);
 }
 
+/// Numbers rise in the order of making: nodes and blocks from the mark on go, with their entries in
+/// the tables. The values of their constants stay in constants_, where no node reads them.
 void ScalarGraph::return_to(Mark mark) {
   const auto is_later = [&](const auto& known) { return known.second >= mark.nodes; };
   std::erase_if(known_, is_later);
@@ -56,6 +60,7 @@ void ScalarGraph::return_to(Mark mark) {
   blocks_.resize(index(mark.blocks));
 }
 
+/// Constants are told apart by their bits: 0 and -0 are two.
 int ScalarGraph::constant(double value) {
   const auto [found, fresh] = known_constants_.emplace(std::bit_cast<std::uint64_t>(value),
                                                        static_cast<int>(nodes_.size()));
@@ -66,6 +71,7 @@ int ScalarGraph::constant(double value) {
   return found->second;
 }
 
+/// The node with this operation and these operands; made where there is none.
 int ScalarGraph::node(const Node& made) {
   const Key key{static_cast<int>(made.op), made.a, made.b, made.c};
   const auto [found, fresh] = known_.emplace(key, static_cast<int>(nodes_.size()));
@@ -78,11 +84,14 @@ int ScalarGraph::folded(const Node& made) {
   if (known(made.a) && known(made.b) && known(made.c)) {
     const auto number = [&](int at) { return at < 0 ? 0 : value(at); };
     const double result = numbers::apply(made.op, number(made.a), number(made.b), number(made.c));
+    // What has no finite value stays an operation, so that its fault is found in a run.
     if (std::isfinite(result)) return constant(result);
   }
   return node(made);
 }
 
+/// 0 + b = b, a + (-b) = a - b. Operands of sums and products are kept in rising order, since equal
+/// nodes are found by their order too.
 int ScalarGraph::add(int a, int b) {
   if (is_zero(a)) return b;
   if (is_zero(b)) return a;
@@ -97,6 +106,7 @@ int ScalarGraph::subtract(int a, int b) {
   return folded({ScalarOp::subtract, a, b, -1});
 }
 
+/// 0 b = 0, 1 b = b, -1 b = -b.
 int ScalarGraph::multiply(int a, int b) {
   if (is_zero(a)) return a;
   if (is_zero(b)) return b;
@@ -144,6 +154,8 @@ bool ScalarGraph::is_partial(int at) const {
   }
 }
 
+/// Equal blocks have the same operation, attributes, body and operands; the numbers of rows tell
+/// apart shapes with the same elements. The nodes of a result follow each other, column by column.
 int ScalarGraph::block(Block block) {
   const expr::Instruction& instruction = block.instruction;
   std::vector<int> heights;

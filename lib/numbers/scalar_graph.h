@@ -1,5 +1,6 @@
-// Operations on single numbers as a graph without equal nodes. What is known is folded: sums with 0,
-// products with 0 and 1, operations on constants.
+// Operations on single numbers as a directed graph without equal nodes (common subexpressions are
+// one node, by hashing). What is known is folded: sums with 0, products with 0 and 1, operations on
+// constants.
 //
 // Other libraries may rely on this: a node comes after the nodes that it reads, and its number does
 // not change until return_to(). The graph holds no operation "of tapes alone". A block has its
@@ -28,7 +29,8 @@ enum class ScalarOp : std::uint8_t {
   block  ///< number `a` of the blocks; of tapes alone
 };
 
-/// The operation on doubles.
+/// The operation on doubles; operands that it does not have are not read. std::logic_error for
+/// input, constant, element and block.
 double apply(ScalarOp op, double a, double b, double c);
 
 class ScalarGraph {
@@ -48,6 +50,7 @@ class ScalarGraph {
     int first = 0;  ///< node of its result; the others follow
   };
 
+  /// Each returns the number of its node: a new one, one like it, or one that it simplifies to.
   int input(int position) { return node({ScalarOp::input, position, -1, -1}); }
   int constant(double value);
   int add(int a, int b);
@@ -57,7 +60,7 @@ class ScalarGraph {
   int negate(int a);
   /// b where the node `difference` is > 0 (`strict`) or >= 0, otherwise c.
   int where(bool strict, int difference, int b, int c);
-  /// Any other operation on one or two nodes.
+  /// Any other operation on one or two nodes; folded where they are constants.
   int apply(ScalarOp op, int a, int b = -1);
   /// The first node of the result, unless there is one like it.
   int block(Block block);

@@ -67,6 +67,7 @@ bool NodeRules::linear(const Instruction& one, const TracedOperands& in,
   }
 }
 
+/// [A, B; C, D], row of blocks by row of blocks, with attributes[0] operands in each.
 void NodeRules::blocks(const Instruction& one, const TracedOperands& in,
                        const std::vector<const Nodes*>& nodes, Nodes& out) {
   out = zeros(one.shape);
@@ -85,6 +86,8 @@ void NodeRules::blocks(const Instruction& one, const TracedOperands& in,
   }
 }
 
+/// C_ij = sum_k A_ik B_kj. The terms other than 0 are counted first: a large product is one step of
+/// a tape, as a block, where it would be thousands.
 std::optional<Nodes> NodeRules::product(Shape left, const Nodes& a, Shape right, const Nodes& b) {
   int terms = 0;
   for (int row = 0; row < left.rows; ++row)
@@ -105,6 +108,7 @@ std::optional<Nodes> NodeRules::product(Shape left, const Nodes& a, Shape right,
   return result;
 }
 
+/// The product of the squares A^(2^k) over the binary digits of the exponent that are 1.
 std::optional<Nodes> NodeRules::matrix_power(Shape shape, Nodes square, int exponent) {
   Nodes result = zeros(shape);
   for (int k = 0; k < shape.rows; ++k) result[at(shape, k, k)] = number(1);
@@ -142,6 +146,7 @@ std::optional<Nodes> NodeRules::folded(const ScalarGraph::Block& block) {
   return nodes;
 }
 
+/// The nodes of a result have numbers in a row, from the first on.
 Nodes NodeRules::block_of(const ScalarGraph::Block& block) {
   if (auto known = folded(block)) return std::move(*known);
   Nodes nodes(static_cast<std::size_t>(block.instruction.shape.size()));

@@ -23,6 +23,7 @@ class NodeRules {
   int zero() { return graph_.constant(0); }
   int number(double value) { return graph_.constant(value); }
   Nodes zeros(expr::Shape shape) { return Nodes(static_cast<std::size_t>(shape.size()), zero()); }
+  /// The place of an element, column by column.
   static std::size_t at(expr::Shape shape, int row, int column) {
     return static_cast<std::size_t>(column) * static_cast<std::size_t>(shape.rows) +
            static_cast<std::size_t>(row);
@@ -32,9 +33,12 @@ class NodeRules {
   /// or slopes; `scale` by a number that does not move is among them. False: it is none of these.
   bool linear(const expr::Instruction& one, const TracedOperands& in,
               const std::vector<const Nodes*>& nodes, Nodes& out);
-  /// None where it has so many terms that it is better a block.
+  /// A B, column by column; products with the constant 0 are left out. None where more than 4096
+  /// terms are left: that is better a block.
   std::optional<Nodes> product(expr::Shape left, const Nodes& a, expr::Shape right, const Nodes& b);
+  /// A^exponent, exponent >= 0, by squaring; none as product().
   std::optional<Nodes> matrix_power(expr::Shape shape, Nodes square, int exponent);
+  /// The same of a number.
   int power(int square, int exponent);
   /// The nodes of a block's result: constants where all operands are.
   Nodes block_of(const ScalarGraph::Block& block);

@@ -7,6 +7,7 @@ namespace gainsmith::numbers {
 
 namespace {
 
+/// Rows and columns that are kept on the stack.
 constexpr int kLargest = 8;
 constexpr double kPlain = 0x1p25;  ///< a condition at which inverse() tries no other units
 
@@ -14,6 +15,7 @@ using Small =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kLargest, kLargest>;
 using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kLargest, 1>;
 
+/// The 1-norm: the largest column sum of |M|.
 double norm_1(const Small& M) { return M.cwiseAbs().colwise().sum().maxCoeff(); }
 
 bool is_small(const Matrix& M) {
@@ -22,6 +24,7 @@ bool is_small(const Matrix& M) {
 
 }  // namespace
 
+/// As inverse() of dense.h, with the condition |A| |A^-1| in the 1-norm, which is not estimated.
 bool small_inverse(const Matrix& M, double* out) {
   if (!is_small(M)) return false;
   const auto d = symmetric_units<SmallVector>(M);

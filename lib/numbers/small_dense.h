@@ -30,7 +30,8 @@ bool small_inverse(const Matrix& M, double* out);
 /// not finite.
 bool small_singular_values(const Matrix& M, double* out);
 
-/// The rates u' dM v of the singular values, in their order. That of a value of 0 is 0. False as
+/// Writes the rates u_k' dM v_k of the singular values as M moves by dM, in their order. That of a
+/// value of 0 is 0. Equal values have no rate of their own: these are of some u_k, v_k. False as
 /// above.
 bool small_singular_slopes(const Matrix& M, const Matrix& dM, double* out);
 

@@ -16,7 +16,9 @@
 
 namespace gainsmith::numbers {
 
-/// From the blocks on the diagonal of the real Schur form, of one row or two.
+/// From the blocks on the diagonal of the real Schur form M = U T U', of one row or two: those of
+/// [a, b; c, d] are d + p +- i sqrt(-(p^2 + b c)) with p = (a - d)/2. Eigen splits blocks whose
+/// eigenvalues are real.
 template <class W>
 std::vector<Eigenvalue<W>> eigenvalues(const MatrixOf<W>& M) {
   using std::sqrt;
@@ -41,6 +43,7 @@ std::vector<Eigenvalue<W>> eigenvalues(const MatrixOf<W>& M) {
   return found;
 }
 
+/// In balanced units, with parts below 64 n roundings of |M| as 0.
 template <class W>
 std::vector<Eigenvalue<W>> balanced_eigenvalues(const MatrixOf<W>& M) {
   const auto scale = [](const W& x, int exponent) { return times_power_of_two(x, exponent); };
@@ -57,6 +60,7 @@ std::vector<Eigenvalue<W>> balanced_eigenvalues(const MatrixOf<W>& M) {
   return found;
 }
 
+/// Sorted after rounding: real parts that are equal then count as equal.
 template <class Scalar>
 MatrixOf<Scalar> real_eigenvalues(const MatrixOf<Scalar>& M) {
   using W = numerics::Working<Scalar>;

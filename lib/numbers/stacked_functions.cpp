@@ -11,7 +11,7 @@ namespace gainsmith::numbers {
 
 using Eigen::Index;
 
-/// One program over Real.
+/// One program over Real, with the vector written to its inputs at each call.
 struct StackedFunctions::Careful {
   Careful(const expr::Program& program, const std::vector<Index>& where, const Values& constants)
       : evaluator(program), inputs(program.inputs.size()), places(where) {
@@ -26,6 +26,7 @@ struct StackedFunctions::Careful {
     }
   }
 
+  /// A place equal to `size` is that of the number beside the vector.
   const Matrix& operator()(const Eigen::VectorXd& x, Index size, double beside) {
     for (std::size_t k = 0; k < inputs.size(); ++k) {
       if (places[k] == size) inputs[k].setConstant(beside);
@@ -36,6 +37,7 @@ struct StackedFunctions::Careful {
   }
 
   expr::Evaluator<RealAlgebra> evaluator;
+  /// The evaluator reads those that move where they are.
   std::vector<Matrix> inputs;
   const std::vector<Index>& places;
 };
@@ -59,6 +61,8 @@ StackedFunctions::StackedFunctions(StackedFunctions&&) noexcept = default;
 StackedFunctions& StackedFunctions::operator=(StackedFunctions&&) noexcept = default;
 StackedFunctions::~StackedFunctions() = default;
 
+/// One graph for all programs, so that what they share is computed once. The number beside the
+/// vector is its last input.
 void StackedFunctions::make() {
   ScalarGraph graph;
   std::vector<std::vector<int>> results;
@@ -94,6 +98,7 @@ const Matrix& StackedFunctions::value(std::size_t k) {
   return values_[k];
 }
 
+/// The evaluator of a program is made at the first call for it.
 const Matrix& StackedFunctions::at(std::size_t k, const Eigen::VectorXd& x, double beside) {
   if (careful_[k] == nullptr)
     careful_[k] = std::make_unique<Careful>(*programs_[k], places_[k], *constants_);

@@ -55,6 +55,7 @@ class StackedFunctions {
  private:
   struct Careful;
 
+  /// Traces all programs to one graph, and makes the tape of it.
   void make();
 
   std::vector<const expr::Program*> programs_;

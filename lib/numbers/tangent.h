@@ -1,5 +1,5 @@
 // Internal to numbers: a number with its slope in one direction, for algorithms that are written
-// element by element (householder.h).
+// element by element (householder.h): (a + a' e)(b + b' e) = a b + (a' b + a b') e with e^2 = 0.
 #pragma once
 
 #include <cmath>
@@ -27,6 +27,7 @@ struct Tangent {
   }
 };
 
+/// What complement() asks of them: sqrt(x)' = x'/(2 sqrt(x)), not a number for x = 0.
 template <class S>
 struct TangentNumbers {
   static Tangent<S> root(const Tangent<S>& x) {

@@ -7,6 +7,7 @@
 
 namespace gainsmith::numbers {
 
+/// Registers: `inputs` of them, the constants, whose values stay, and one for each step.
 Tape::Tape(const ScalarGraph& graph, const std::vector<std::vector<int>>& results, int inputs) {
   TapeCode code = tape_code(graph, results, inputs);
   registers_.assign(code.registers, 0);
@@ -19,6 +20,7 @@ Tape::Tape(const ScalarGraph& graph, const std::vector<std::vector<int>>& result
   reads_ = std::move(code.reads);
 }
 
+/// Without a branch for each register: infinities and NaN are what has all bits of the exponent.
 bool Tape::is_finite() const {
   constexpr std::uint64_t kExponent = 0x7ff0000000000000U;
   std::uint64_t found = 0;
@@ -27,6 +29,8 @@ bool Tape::is_finite() const {
   return found == 0;
 }
 
+/// The steps of run() over intervals. Constants that are no whole numbers are widened by `part` of
+/// their size: a decimal is not a double.
 bool Tape::enclose(const Box& inputs, double part) {
   if (!blocks_.empty()) return false;
   ranges_.resize(registers_.size());
@@ -45,6 +49,8 @@ bool Tape::enclose(const Box& inputs, double part) {
   });
 }
 
+/// The frequent operations are cases of the switch; the others go through apply(). Infinities and
+/// NaN are found once at the end, not in each step.
 bool Tape::run() {
   double* const r = registers_.data();
   for (const TapeCode::Step& step : steps_) {

@@ -41,8 +41,9 @@ class Tape {
   std::size_t operations() const { return steps_.size(); }
 
   /// Bounds of the results when the inputs lie anywhere in the box, in which those that are read
-  /// have a place; constants that are no whole numbers may be off by `part` of them. False: something
-  /// may have no value there, or no bounds are known, as of blocks.
+  /// have a place; constants that are no whole numbers may be off by `part` of them. Interval
+  /// arithmetic operation by operation (range.h). False: something may have no value there, or no
+  /// bounds are known, as of blocks.
   bool enclose(const Box& inputs, double part = 0);
   /// Of element `k` of a result, after enclose().
   const Range& range(std::size_t result, std::size_t k) const {

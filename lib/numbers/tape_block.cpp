@@ -9,6 +9,7 @@
 
 namespace gainsmith::numbers {
 
+/// The slopes of a flow map follow its operands; one without columns does not move.
 TapeBlock::TapeBlock(const TapeCode::Block& block)
     : instruction_(std::make_unique<const expr::Instruction>(block.instruction)),
       from_(block.operands),
@@ -27,6 +28,8 @@ TapeBlock::TapeBlock(const TapeCode::Block& block)
   }
 }
 
+/// Small matrices without allocation first (small_dense.h), then as Real does. A fault is no value:
+/// who runs the tape evaluates over Real, which names it.
 bool TapeBlock::find_value() {
   using expr::Op;
   const Op op = instruction_->op;
@@ -47,6 +50,7 @@ bool TapeBlock::find_value() {
   return true;
 }
 
+/// A NaN among the operands differs from itself, so that the value is found anew.
 const Matrix* TapeBlock::operator()(const double* registers, std::size_t stride) {
   for (std::size_t k = 0; k < from_.size(); ++k) {
     double* to = operands_[k].data();

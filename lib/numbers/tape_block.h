@@ -20,6 +20,7 @@ class TapeBlock {
   const Matrix* operator()(const double* registers, std::size_t stride = 1);
 
  private:
+  /// Computes out_ from operands_; false where there is no value.
   bool find_value();
 
   /// At an address that stays, where the evaluators have it from.

@@ -40,7 +40,8 @@ class Maker {
     if (node >= 0) ++uses_[index(node)];
   }
 
-  /// From the last node to the first: what a node that is used needs.
+  /// From the last node to the first: what a node that is used needs. Nodes without uses have no
+  /// step (dead code).
   void count_uses(const std::vector<std::vector<int>>& results) {
     uses_.assign(nodes_.size(), 0);
     is_fused_.assign(nodes_.size(), false);
@@ -82,6 +83,8 @@ class Maker {
 
   std::uint32_t push() { return code_.registers++; }
 
+  /// The step of node k, after those of the blocks that begin before it; none for leaves and nodes
+  /// without uses. a b + c is one multiply_add where the product has no other use.
   void add(std::size_t k) {
     while (next_block_ < graph_.blocks().size() && index(graph_.blocks()[next_block_].first) <= k)
       add_block();
@@ -144,8 +147,10 @@ class Maker {
   const std::vector<ScalarGraph::Node>& nodes_;
   Computed computed_;
   TapeCode& code_;
+  /// By node: how often it is read; 2 for one reading that keeps a product from being fused.
   std::vector<int> uses_;
   std::vector<bool> is_fused_;  ///< by node: a product without a register of its own
+  /// By node: an operand of a sum that is used. Made at the first question.
   std::vector<bool> summand_of_;
   std::vector<std::uint32_t> registers_;  ///< by node
   std::size_t next_block_ = 0;

@@ -22,6 +22,7 @@ struct WideInverse {
   S condition;
 };
 
+/// The 1-norm: the largest column sum of |M|.
 template <class S>
 S norm_1(const MatrixOf<S>& M) {
   return M.cwiseAbs().colwise().sum().maxCoeff();
@@ -65,7 +66,8 @@ struct WideSvd {
   MatrixOf<S> V;
 };
 
-/// The orthogonal matrix nearest to one that is nearly orthogonal: X <- X (3 I - X'X) / 2.
+/// The orthogonal matrix nearest to one that is nearly orthogonal, by the iteration of Newton and
+/// Schulz, X <- X (3 I - X'X) / 2, which about squares |I - X'X| in each step.
 template <class S>
 MatrixOf<S> orthogonal(MatrixOf<S> X) {
   constexpr int kSteps = 5;  // 1e-15, 1e-30, 1e-60, 1e-120, 1e-240
@@ -76,8 +78,9 @@ MatrixOf<S> orthogonal(MatrixOf<S> X) {
 }
 
 /// Rotations of the columns of B, which V takes as well, until they are orthogonal (one-sided
-/// Jacobi: Golub & Van Loan 8.6.3). Columns below `rounding` are left alone, and those below
-/// `least` among themselves.
+/// Jacobi: Golub & Van Loan 8.6.3). Columns p, q with a = |p|^2, b = |q|^2, c = p'q are turned by
+///   z = (b - a)/(2 c),  tan = sign(z)/(|z| + sqrt(1 + z^2)).
+/// Columns below `rounding` are left alone, and those below `least` among themselves.
 template <class S>
 void rotate_columns(MatrixOf<S>& B, MatrixOf<S>& V, const S& least, const S& rounding) {
   using std::abs;
@@ -107,6 +110,7 @@ void rotate_columns(MatrixOf<S>& B, MatrixOf<S>& V, const S& least, const S& rou
   }
 }
 
+/// A V = B with orthogonal columns, s_i = |b_i|, u_i = b_i/s_i, where V starts as that of double.
 /// M must be finite and not empty.
 template <class S>
 WideSvd<S> wide_svd(const MatrixOf<S>& M) {

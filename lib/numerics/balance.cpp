@@ -32,8 +32,9 @@ Graph reachable(const Matrix& sizes) {
 // Halves are common in integer data: they all have to round in the same direction.
 constexpr double kPastHalf = 0.5 + 0.0137;
 
-/// The x that minimises sum (log2 |A_ij| + x_j - x_i)^2, with x = 0 for the first `fixed` states and
-/// the first of each other connected part: Gaussian elimination from the last state to the first.
+/// The x that minimises sum (log2 |A_ij| + x_j - x_i)^2, with x = 0 for the first `fixed` states
+/// and the first of each other connected part. The normal equations have the Laplacian of the graph
+/// as their matrix: Gaussian elimination from the last state to the first.
 Vector least_squares(const Matrix& sizes, Index fixed = 0) {
   const Index n = sizes.rows();
   Matrix normal = Matrix::Zero(n, n);
@@ -99,7 +100,8 @@ class Balance {
     }
   }
 
-  /// Rows and columns of the strongly connected parts.
+  /// Rows and columns of the strongly connected parts: with their sums r and c in the part, state i
+  /// is multiplied by the power of two nearest to sqrt(r/c), where that makes r + c smaller by 5 %.
   void balance_parts() {
     constexpr int kMostSweeps = 100;
     for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
@@ -161,7 +163,8 @@ class Balance {
   std::vector<int> exponents_;
 };
 
-/// The exponents of least_squares() but for the first `skipped`; none where a size is not finite.
+/// The exponents of least_squares() but for the first `skipped`; all zero where a size is not
+/// finite.
 std::vector<int> rounded_units(const Matrix& sizes, Index fixed, Index skipped) {
   std::vector<int> exponents;
   const Vector all = sizes.allFinite() ? least_squares(sizes, fixed) : Vector::Zero(sizes.rows());

@@ -19,10 +19,10 @@ std::vector<int> balance(const Matrix& sizes);
 
 /// Exponents e with D^-1 A D and C D near 1, D = diag(2^e): they minimise
 ///   sum (log2 |D^-1 A D|_ij)^2 + sum (log2 |C D|_kj)^2   over i != j and elements that are not 0,
-/// from the sizes |A|, n x n, and |C|, p x n, of outputs whose units stay as they are (Curtis & Reid
-/// 1972). The first state of a connected part without outputs stays as it is. In other units of the
-/// states that are powers of two D^-1 A D and C D are the same bit for bit. All zero where a size is
-/// not finite.
+/// from the sizes |A|, n x n, and |C|, p x n, of outputs whose units stay as they are (Curtis &
+/// Reid 1972). The first state of a connected part without outputs stays as it is. In other units
+/// of the states that are powers of two D^-1 A D and C D are the same bit for bit. All zero where a
+/// size is not finite.
 std::vector<int> units(const Matrix& A, const Matrix& C);
 
 /// Of the rows and columns of M, n x n: 2^-rows M 2^columns is near 1 in the same sense.
@@ -31,7 +31,7 @@ struct Equilibrium {
 };
 Equilibrium equilibrium(const Matrix& sizes);
 
-/// 2^-rows A 2^columns.
+/// 2^-rows A 2^columns; scale(x, k) is x 2^k.
 template <class S, class Scale>
 MatrixOf<S> in_units(const MatrixOf<S>& A, const std::vector<int>& rows,
                      const std::vector<int>& columns, const Scale& scale) {

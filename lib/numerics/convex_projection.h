@@ -26,8 +26,9 @@
 // convex. Where neither shows, that is not noticed, and the conditions hold at z.
 //
 // The result is that of exact arithmetic on the given numbers, rounded once, as those of
-// projection.h are: c is asked for in the working arithmetic. An x with c_i(x) <= epsilon (|a|'|x| +
-// |b|), for the tangents a'z <= b at x, is inside and returned bit by bit.
+// projection.h are: c is asked for in the working arithmetic. An x with
+// c_i(x) <= epsilon (|a|'|x| + |b|), for the tangents a'z <= b at x, is inside and returned bit by
+// bit.
 #pragma once
 
 #include <functional>
@@ -49,8 +50,8 @@ using Functions = std::function<Tangents<W>(const MatrixOf<W>& z)>;
 
 /// NoProjection: P is not positive definite, the set is empty, c is not convex, no convergence.
 ///
-/// The second derivatives are differences of slopes at z +- h e_j, with h = eps^(1/3) of the size of
-/// z_j in the working arithmetic: their error is some eps^(2/3), below the rounding of S.
+/// The second derivatives are differences of slopes at z +- h e_j, with h = eps^(1/3) of the size
+/// of z_j in the working arithmetic: their error is some eps^(2/3), below the rounding of S.
 template <class S>
 Projection<S> project_convex(const MatrixOf<S>& x, const MatrixOf<S>& P,
                              const Functions<Working<S>>& c);

@@ -83,12 +83,14 @@ class Extrapolation {
   }
 
  private:
+  /// The most columns of the table: more where the scalar has more digits.
   static constexpr int kColumns = 6 + std::min(std::numeric_limits<Scalar>::digits10, 105) / 3;
   static constexpr int kGaveUp = 0;     ///< all columns were tried
   static constexpr int kFailed = -1;    ///< they do not converge
   static constexpr int kCrosses = -2;   ///< what f branches on comes near 0
   static constexpr int kNoRate = -3;    ///< at one of the points
   static constexpr int kMost = 400000;  ///< evaluations
+  /// Steps below these parts of the whole time end the integration.
   const Scalar kShortest{0x1p-44};
   const Scalar kShortestAtZero{0x1p-51};  ///< where f is known to branch
   // The lengths below which zeros are crossed: what f does at a kink changes y by their square.
@@ -98,12 +100,13 @@ class Extrapolation {
   const Scalar kUpTo{0.7};
   const Scalar kAwayFrom{2.8};
   const Scalar kEscaped{1e6};
-  /// Of what is computed: Decimal100 has digits to spare.
+  /// Where T_{k,k} and T_{k,k-1} agree, relative: Decimal100 has digits to spare.
   const Scalar kError =
       std::max(Scalar(16) * std::numeric_limits<Scalar>::epsilon(), Scalar(1e-105));
   const Scalar kClose{1e-4};
   const Scalar kRounding = Scalar(256) * kError;  ///< where columns do not agree better
 
+  /// By what the next step may be longer, from the columns that the last one took.
   static Scalar growth(int columns) {
     if (columns <= 4) return Scalar(4);
     if (columns < 2 * kColumns / 3) return Scalar(2);

@@ -48,6 +48,7 @@ class Reduction {
   }
 
  private:
+  /// lambda_k0 to lambda_k,k-1 and d_k: Gram and Schmidt in whole numbers. All divisions are exact.
   void orthogonalise(size_t k) {
     for (size_t j = 0; j <= k; ++j) {
       Integer u = dot(b_[k], b_[j]);
@@ -56,6 +57,7 @@ class Reduction {
     }
   }
 
+  /// Makes |mu_kl| <= 1/2, by subtracting the nearest multiple of b_l from b_k.
   void reduce(size_t k, size_t l) {
     if (2 * abs(lambda_[k][l]) <= d_[l + 1]) return;
     const Integer q = nearest_integer(Rational(lambda_[k][l], d_[l + 1]));
@@ -64,6 +66,7 @@ class Reduction {
     for (size_t i = 0; i < l; ++i) lambda_[k][i] -= q * lambda_[l][i];
   }
 
+  /// Exchanges b_k and b_{k-1}: Lovasz' condition |b*_k|^2 >= (3/4 - mu^2) |b*_{k-1}|^2 fails.
   void swap(size_t k, size_t known) {
     std::swap(b_[k], b_[k - 1]);
     for (size_t j = 0; j + 1 < k; ++j) std::swap(lambda_[k][j], lambda_[k - 1][j]);
@@ -163,7 +166,8 @@ class QuickReduction {
     return result;
   }
 
-  /// How often to add each vector to come from `away` near 0.
+  /// How often to add each vector to come from `away` near 0: Babai's nearest plane, from the last
+  /// vector to the first.
   std::vector<double> steps_towards(Vector away) const {
     std::vector<double> steps(b_.size(), 0.0);
     for (size_t j = b_.size(); j-- > 0;) {

@@ -22,6 +22,7 @@ double root(double value, std::size_t degree) {
   return std::pow(value, 1.0 / static_cast<double>(degree));
 }
 
+/// The spectral norm, sqrt(lambda_max(A'A)).
 double norm(const Matrix& A) {
   const Matrix square = A.transpose() * A;
   return std::sqrt(
@@ -30,7 +31,9 @@ double norm(const Matrix& A) {
                         .maxCoeff()));
 }
 
-/// In coordinates T x in which norms tell more of what products do.
+/// The factors in coordinates T x in which norms tell more of what products do: T A_i T^-1, with
+/// T'T = P after 60 steps of the power iteration P <- n S/tr S + 1e-9 I, S = sum A_i' P A_i. The
+/// factors themselves where P is not definite.
 std::vector<Matrix> in_common_norm(const std::vector<Matrix>& factors) {
   constexpr int kSteps = 60;
   constexpr double kRegular = 1e-9;  // P stays positive definite
@@ -52,6 +55,7 @@ std::vector<Matrix> in_common_norm(const std::vector<Matrix>& factors) {
   return result;
 }
 
+/// Keeps the `most` branches whose least norm is largest.
 void bound_branches(std::vector<Branch>& branches, std::size_t most) {
   if (branches.size() <= most) return;
   std::stable_sort(branches.begin(), branches.end(),

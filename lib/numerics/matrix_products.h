@@ -7,8 +7,8 @@
 //
 // Of the products of k factors those are kept whose every beginning has ||A_i(j) ... A_i(1)||^(1/j)
 // above the best rho^(1/k) so far, and above 1: of a sequence that grows faster some rotation has
-// beginnings that all are. The norm is |T x|, with T'T = P the fixed point of P -> sum A_i' P A_i up
-// to a factor.
+// beginnings that all are. The norm is |T x|, with T'T = P the fixed point of P -> sum A_i' P A_i
+// up to a factor.
 #pragma once
 
 #include <cstddef>

@@ -44,6 +44,9 @@ class ClosedLoop {
     return units_.cwiseProduct(g.reshaped(units_.rows(), units_.cols()));
   }
 
+  /// With M = A + B F C, M r = lambda r, l'M = lambda l' and l'r = 1 (no conjugates), the gradient
+  /// of the real part is Re(B'l (C r)'), m x p. That of the modulus has the factor
+  /// conj(lambda)/|lambda| before the real part is taken.
   Peak at(const Vector& g) const {
     const Matrix closed = A_ + B_ * gain(g) * C_;
     Peak peak{.gradient = Vector::Zero(g.size())};
@@ -78,7 +81,10 @@ struct Found {
   Peak peak;
 };
 
-/// A point along the direction that satisfies the weak Wolfe conditions, by bisection.
+/// A point along the direction d that satisfies the weak Wolfe conditions, by bisection and
+/// doubling (Lewis & Overton 2013):
+///   f(g + s d) <= f(g) + 1e-4 s f'd,   f'(g + s d) d >= 0.9 f'd.
+/// The last point that was tried where 40 do not suffice.
 Found along(const ClosedLoop& loop, const Found& from, const Vector& direction, double step) {
   constexpr double kDecrease = 1e-4, kCurvature = 0.9;
   const double slope = from.peak.gradient.dot(direction);
@@ -98,7 +104,8 @@ Found along(const ClosedLoop& loop, const Found& from, const Vector& direction, 
   return to;
 }
 
-/// A local search.
+/// A local search by BFGS. With a step s and a change y of the gradient the inverse curvature is
+///   H <- (I - s y'/y's) H (I - y s'/y's) + s s'/y's,   where y's > 0;   H = I y's/y'y at first.
 Found descend(const ClosedLoop& loop, const Vector& start) {
   Found found{start, loop.at(start)};
   const Matrix eye = Matrix::Identity(start.size(), start.size());

@@ -22,6 +22,7 @@ Working<S> rounding() {
   return as<Working<S>>(std::numeric_limits<S>::epsilon());
 }
 
+/// M in its working arithmetic, which holds it exactly, and back, rounded once.
 template <class S>
 MatrixOf<Working<S>> widened(const MatrixOf<S>& M) {
   return M.unaryExpr([](const S& x) { return as<Working<S>>(x); });

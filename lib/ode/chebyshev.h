@@ -22,9 +22,9 @@ const Eigen::VectorXd& points(int degree);
 /// Coefficients from the values at points(degree), one column a point.
 numbers::Matrix coefficients(const numbers::Matrix& values);
 
-/// p(x), x in [-1, 1].
+/// p(x), x in [-1, 1]: T_k by the recurrence T_{k+1} = 2 x T_k - T_{k-1}, and a sum.
 Eigen::VectorXd at(const numbers::Matrix& coefficients, double x);
-/// Of the first function alone; of a matrix or a row.
+/// Of the first function alone, by Clenshaw's recurrence; of a matrix or a row.
 template <class Coefficients>
 double first(const Coefficients& coefficients, double x) {
   double result = 0;
@@ -48,7 +48,7 @@ numbers::Matrix trimmed(const numbers::Matrix& coefficients, double least);
 /// p on [from, to], a part of [-1, 1], as a series of its own.
 numbers::Matrix part(const numbers::Matrix& coefficients, double from, double to);
 
-/// p'.
+/// p', of one degree less; of a constant one column of 0.
 numbers::Matrix derivative(const numbers::Matrix& coefficients);
 
 /// t in [from, to] as a point of [-1, 1].

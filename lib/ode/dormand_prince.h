@@ -32,7 +32,8 @@ constexpr StageWeights kErrorOfOrder5{0.1312004499419488073250102996e-1, 0, 0, 0
 constexpr double kOrder3Of1 = 0.244094488188976377952755905512;
 constexpr double kOrder3Of9 = 0.733846688281611857341361741547;
 constexpr double kOrder3Of12 = 0.220588235294117647058823529412e-1;
-/// Stage i is at the time t + c_i h; stage 13 is at the end of the step, and 14 to 16 are for what lies within.
+/// Stage i is at the time t + c_i h; stage 13 is at the end of the step, and 14 to 16 are for what
+/// lies within.
 constexpr std::array<double, kStages + 4> kStageTimes{0.0, 0.526001519587677318785587544488e-1, 0.789002279381515978178381316732e-1, 0.118350341907227396726757197510, 0.281649658092772603273242802490, 0.333333333333333333333333333333, 0.25, 0.307692307692307692307692307692, 0.651282051282051282051282051282, 0.6, 0.857142857142857142857142857142, 1.0, 1.0, 0.1, 0.2, 0.777777777777777777777777777778};
 /// What lies within a step, to order 7. Rows of a(i, j) of the stages 14 to 16.
 constexpr std::array<std::array<double, kStages + 3>, 3> kInnerStages{{

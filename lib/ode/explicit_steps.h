@@ -1,8 +1,12 @@
-// Steps of the method of order 8 of Dormand and Prince (dormand_prince.h), each with a polynomial of
-// order 7 within.
+// Steps of the method of order 8 of Dormand and Prince (dormand_prince.h), each with a polynomial
+// of order 7 within.
 //
-// The error at the end of a step is estimated by the embedded methods of orders 5 and 3, that of the
-// polynomial by what its rate is off from f at one place.
+//   k_i = f(t + c_i h, x + h sum_{j<i} a_ij k_j),   x(t + h) = x + h sum_j b_j k_j
+//
+// The error at the end of a step is estimated by the embedded methods of orders 5 and 3,
+//   e = h |e5|^2 / sqrt(|e5|^2 + 0.01 |e3|^2),
+// in the root mean square of elements over what is allowed (Hairer, Norsett & Wanner, II.10). That
+// of the polynomial is estimated by what its rate is off from f at one place.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,9 +28,10 @@ class ExplicitSteps {
   /// `rate` must outlive it.
   explicit ExplicitSteps(GuardedRate& rate);
 
-  /// As Integrator::start, after GuardedRate::begin.
+  /// As Integrator::start, after GuardedRate::begin. Evaluates nothing.
   void start(double t, const Eigen::VectorXd& x, double last, double relative,
              const Eigen::VectorXd& absolute, double longest);
+  /// The next step, accepted by both errors. After `failed` t() and x() are as before.
   Result step();
 
   double t() const { return t_; }
@@ -38,6 +43,8 @@ class ExplicitSteps {
  private:
   using Stages = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic>;
 
+  /// The length of the first step: 0.3 of the least max(|x_i/x_i'|, |x_i'/x_i''|) of the elements,
+  /// within what is left and `longest`.
   double first_length();
   /// Stages 2 to 13 of a step of length h, and its end. False: f has no value.
   bool try_step(double h);
@@ -50,8 +57,9 @@ class ExplicitSteps {
   Error error(double h) const;
   /// Of the polynomial, as a part of what is allowed.
   double inner_error(double h);
-  /// What an error of each element counts as, between x and `other`.
+  /// What an error of each element counts as, between x and `other`: a_i + r max(|x_i|, |other_i|).
   Eigen::ArrayXd allowed(const Eigen::VectorXd& other) const;
+  /// Whether stability or noise, and not the error, has kept the last steps short.
   bool is_kept_short(double h, bool by_noise);
 
   GuardedRate* rate_;

@@ -12,14 +12,17 @@
 
 namespace gainsmith::ode {
 
-/// The maps of z' = G z over the parts of the steps of one generator.
+/// The maps z(t + h) = exp(h G) z(t) of z' = G z over the parts of the steps of one generator G.
+/// Steps have the lengths shortest * 2^level; a level follows from the one before by squaring.
 struct ExponentialTable {
-  /// Squaring multiplies the rounding of a short step by |G| times the length, which no twin shows.
+  /// 31 digits: squaring multiplies the rounding of a short step by |G| times the length. A run
+  /// that is repeated with smaller errors has the same maps, and does not show it.
   using WideMatrix = numbers::MatrixOf<DoubleDouble>;
 
   struct Level {
     double length = 0;
     std::vector<WideMatrix> wide;  ///< to each point of the series
+    /// `wide`, rounded to double.
     std::vector<numbers::Matrix> maps;
   };
 

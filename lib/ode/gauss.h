@@ -15,6 +15,7 @@
 
 namespace gainsmith::ode {
 
+/// c, b, A (a_ij) and d of the header.
 struct GaussTableau {
   Eigen::Vector4d c;
   Eigen::Vector4d b;
@@ -22,7 +23,7 @@ struct GaussTableau {
   Eigen::Vector4d d;
 };
 
-/// To rounding.
+/// The coefficients of four stages, to rounding of double.
 GaussTableau gauss_tableau();
 
 class GaussIntegrator {
@@ -32,6 +33,7 @@ class GaussIntegrator {
   /// Where the solution may lie; a start for the stages, of no influence on what they converge to.
   using Guess = std::function<Eigen::VectorXd(double t)>;
 
+  /// For x of `size` elements.
   GaussIntegrator(Eigen::Index size, Rate rate);
 
   /// One step from x at t. `tolerance` > 0, one an element: the equations of the stages are solved
@@ -41,7 +43,10 @@ class GaussIntegrator {
                                       const Eigen::VectorXd& tolerance, const Guess& guess);
 
  private:
+  /// Z <- h A F(Z), at most kMostIterations times; false where that does not contract by 2.
   bool fixed_point(double t, const Eigen::VectorXd& x, double h, const Eigen::VectorXd& tolerance);
+  /// (I - h A (x) J) dZ = h A F(Z) - Z, 4n x 4n with Kronecker's product, where J, n x n, is the
+  /// Jacobian at the start of the step.
   bool newton(double t, const Eigen::VectorXd& x, double h, const Eigen::VectorXd& tolerance);
   /// h A F(Z) - Z, one column a stage; false where f has no finite value.
   bool residual(double t, const Eigen::VectorXd& x, double h);

@@ -22,6 +22,7 @@ struct GaussStages {
   numbers::MatrixOf<Scalar> A;         ///< s x s
   numbers::MatrixOf<Scalar> legendre;  ///< P_k(z_i) at (i, k), k = 0 ... s
 
+  /// s > 0. The z_i are found by Newton's method, P_s' = s (z P_s - P_{s-1}) / (z^2 - 1).
   explicit GaussStages(int s);
 
   /// P_0(z), ..., P_s(z).

@@ -1,4 +1,4 @@
-// The right side of x' = f(t, x), with what it met meanwhile.
+// The right side of x' = f(t, x), whose exceptions and infinities become a text.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,7 +21,8 @@ class GuardedRate {
   /// Why f had no value, the last time that it had none; empty: it had one since forget_trouble().
   const std::string& trouble() const { return trouble_; }
   void forget_trouble() { trouble_.clear(); }
-  /// x has grown, and at this rate would go on to grow in the time that is left.
+  /// Whether x has grown, and at this rate would go on to grow in the time that is left:
+  ///   |x| > kEscape size,  (last - t) |slope| > kEscape |x|   in the largest element.
   bool has_escaped(double t, const Eigen::VectorXd& x, const Eigen::VectorXd& slope) const;
 
  private:

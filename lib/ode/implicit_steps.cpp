@@ -82,8 +82,8 @@ class ImplicitSteps::Solver {
     matrix_.reset(cvode::made(SUNDenseMatrix(size, size, context_.get())));
     solver_.reset(cvode::made(SUNLinSol_Dense(vector_.get(), matrix_.get(), context_.get())));
     require(CVodeSetLinearSolver(memory_.get(), solver_.get(), matrix_.get()));
-    // With a jacobian of 50 steps ago, as CVODE may use it, what decays fast is left wrong where its
-    // rate has changed. So it costs less, too.
+    // With a jacobian of 50 steps ago, as CVODE may use it, what decays fast is left wrong where
+    // its rate has changed. So it costs less, too.
     require(CVodeSetNonlinConvCoef(memory_.get(), kSolved));
     require(CVodeSetLSetupFrequency(memory_.get(), jacobian_lasts));
     require(CVodeSetJacEvalFrequency(memory_.get(), jacobian_lasts));

@@ -1,4 +1,9 @@
-// Steps of BDF with Newton's method, of SUNDIALS CVODE: for stiff flows.
+// Steps of the backward differentiation formulas for stiff flows, with Newton's method: CVODE of
+// SUNDIALS (Hindmarsh et al., ACM Trans. Math. Software 31, 2005).
+//
+//   x_{k+1} = sum_i alpha_i x_{k-i} + h beta f(t_{k+1}, x_{k+1}),   orders 1 to 5
+//
+// The Jacobian is dense, by differences. It is made anew after five steps at the latest.
 #pragma once
 
 #include <Eigen/Core>

@@ -3,6 +3,15 @@
 // The explicit method of order 8 of Dormand and Prince (explicit_steps.h); where what decays fast
 // keeps its steps short, or none is short enough, the flow is stiff and goes on with BDF
 // (implicit_steps.h).
+//
+// The folder holds the ordinary differential equations of a run, in double, and functions of time
+// along their solutions. Errors are estimated, not bounded.
+//   integrator.h              the choice of the method, step by step
+//   dormand_prince.h          coefficients of the explicit method;  step_control.h  its lengths
+//   gauss.h, gauss_stages.h   implicit Runge-Kutta steps of a given length, of order 2 s
+//   exponential_tables.h      matrix exponentials that exact flows share
+//   chebyshev.h, roots.h      series of functions on a step, and all their roots
+//   guarded_rate.h            f with its faults;  tolerances.h  all sizes that decide
 #pragma once
 
 #include <Eigen/Core>
@@ -28,7 +37,7 @@ class Integrator {
   /// the integration.
   using Rate = std::function<void(double t, const Eigen::VectorXd& x, Eigen::VectorXd& rate)>;
 
-  /// Of size 0 there is nothing to integrate.
+  /// `size` elements of x. Of size 0 there is nothing to integrate: the one step leads to `last`.
   Integrator(Eigen::Index size, Rate rate);
   Integrator(Integrator&&) noexcept;
   Integrator& operator=(Integrator&&) noexcept;
@@ -50,7 +59,8 @@ class Integrator {
   /// The next step, of a length that the error control chooses, at most to
   /// `last`. IntegrationError where the flow ends before.
   Step step();
-  /// x at a time of the last step.
+  /// Writes x at a time t of the last step, from its polynomial; no value of f is asked for. Leaves
+  /// `x` as it is for size 0.
   void within(double t, Eigen::VectorXd& x);
 
  private:

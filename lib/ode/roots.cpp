@@ -200,8 +200,8 @@ class RootSearch {
   };
   Point at(double t) { return {t, value(t)}; }
 
-  /// The part of the way from `last` to `other`, on both sides of the root, to try next: by inverse
-  /// quadratic interpolation where it is safe (Chandrupatla 1997), otherwise a half.
+  /// The part of the distance from `last` to `other`, on both sides of the root, to try next: by
+  /// inverse quadratic interpolation where it is safe (Chandrupatla 1997), otherwise a half.
   static double next_part(const Point& last, const Point& other, const Point& before) {
     const double xi = (last.t - other.t) / (before.t - other.t);
     const double phi = (last.g - other.g) / (before.g - other.g);

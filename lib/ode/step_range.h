@@ -12,6 +12,7 @@ namespace gainsmith::ode {
 struct StepRange {
   double low = 0, high = 0;
 
+  /// The least and the largest of function(points[k]), three evaluations.
   template <class Function>
   StepRange(const Function& function, const std::array<Eigen::VectorXd, 3>& points) {
     const std::array<double, 3> values = {function(points[0]), function(points[1]),

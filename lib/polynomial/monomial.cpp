@@ -60,6 +60,7 @@ std::vector<Monomial> monomials(std::size_t n, int low, int high) {
     if (degree >= low) result.insert(result.end(), of_degree.begin(), of_degree.end());
     std::vector<Monomial> next;
     for (const Monomial& m : of_degree)
+      // Each monomial of the next degree comes once: times its last variable, or one behind.
       for (std::size_t i = std::max<std::size_t>(m.variables(), 1) - 1; i < n; ++i)
         next.push_back(m * Monomial(i));
     of_degree = std::move(next);

@@ -17,6 +17,7 @@ int Polynomial::unknown() const {
 }
 
 int Polynomial::degree() const {
+  // Terms are in the order of their monomials, by degree first.
   return terms_.empty() ? 0 : terms_.rbegin()->first.monomial.degree();
 }
 
@@ -46,6 +47,7 @@ Polynomial& Polynomial::operator*=(const Rational& factor) {
 }
 
 Polynomial operator*(const Polynomial& a, const Polynomial& b) {
+  // The number of terms may be the product of both.
   check_stop();
   Polynomial result;
   for (const auto& [s, c] : a.terms_)
@@ -61,6 +63,7 @@ Polynomial derivative(const Polynomial& p, std::size_t variable) {
   for (const auto& [term, c] : p.terms()) {
     const int e = term.monomial.exponent(variable);
     if (e == 0) continue;
+    // d(x_i^e m)/dx_i = e x_i^(e-1) m
     const Monomial lower = term.monomial.without(variable) * Monomial(variable, e - 1);
     result.add({lower, term.unknown}, Rational(c * e));
   }
@@ -82,6 +85,7 @@ Polynomial substituted(const Polynomial& p, std::size_t first,
     Monomial rest = term.monomial;
     Polynomial product(c);
     for (std::size_t k = 0; k < values.size(); ++k) {
+      // x_{first+k}^e becomes values[k]^e; the other variables are a factor at the end.
       for (int e = rest.exponent(first + k); e > 0; --e) product *= values[k];
       rest = rest.without(first + k);
     }

@@ -1,6 +1,12 @@
 // Polynomials in x_1, x_2, ... whose coefficients are affine in unknowns u_1, u_2, ..., with
 // fractions for numbers:
 //   p(x; u) = sum over monomials m of (c_m0 + sum_k c_mk u_k) m(x).
+//
+// The room is the exact arithmetic beneath sums of squares: nothing is rounded, so two texts of one
+// polynomial give the same terms. A product of two unknowns has no such form and is refused.
+//   monomial              exponents, their order, all monomials of some degrees
+//   polynomial            sums, products, derivatives, substitution
+//   polynomial_numbers    matrices of them as the values of a program
 #pragma once
 
 #include <cstddef>
@@ -20,12 +26,13 @@ struct Term {
   auto operator<=>(const Term&) const = default;
 };
 
-/// It is no polynomial of this kind.
+/// Thrown for a product of u_first and u_second, which is not affine in the unknowns.
 struct ProductOfUnknowns : std::logic_error {
   ProductOfUnknowns(int a, int b) : logic_error("a product of unknowns"), first(a), second(b) {}
   int first, second;
 };
 
+/// A sum of terms; 0 has none.
 class Polynomial {
  public:
   Polynomial() = default;
@@ -41,13 +48,14 @@ class Polynomial {
   bool is_number() const;
   /// Of one that is a number.
   Rational number() const { return terms_.empty() ? Rational(0) : terms_.begin()->second; }
-  /// 0, or an unknown that occurs.
+  /// An unknown that occurs, from 1; 0 where none does.
   int unknown() const;
   /// The highest degree in x; of 0 it is 0.
   int degree() const;
   /// The number of variables up to the last that occurs.
   std::size_t variables() const;
 
+  /// A term whose coefficient becomes 0 is removed.
   void add(const Term& term, const Rational& coefficient);
   Polynomial& add(const Polynomial& other, const Rational& factor);
 
@@ -63,16 +71,17 @@ class Polynomial {
   bool operator==(const Polynomial&) const = default;
 
  private:
-  std::map<Term, Rational> terms_;
+  std::map<Term, Rational> terms_;  ///< by monomial, then by unknown
 };
 
-/// dp/dx_i.
+/// dp/dx_i, i from 0.
 Polynomial derivative(const Polynomial& p, std::size_t variable);
 
-/// p with numbers for its unknowns.
+/// p with the number u[k - 1] for unknown k; what is left has no unknown.
 Polynomial with_unknowns(const Polynomial& p, const std::vector<Rational>& u);
 
-/// p with polynomials for the variables from `first` on.
+/// p with polynomials for the variables first, first + 1, ...: one for each value; those behind
+/// stay. ProductOfUnknowns where a value brings a second unknown into a term.
 Polynomial substituted(const Polynomial& p, std::size_t first,
                        const std::vector<Polynomial>& values);
 

@@ -13,6 +13,7 @@ namespace {
 using Eigen::Index;
 using expr::Op;
 
+/// Says of the operation that it leaves polynomials, and what to write instead.
 [[noreturn]] void refuse(Op op) {
   std::string mend;
   switch (op) {
@@ -39,6 +40,7 @@ using expr::Op;
                               mend);
 }
 
+/// Whether no element has a variable or an unknown.
 bool is_number(const PolynomialMatrix& x) {
   return std::ranges::all_of(x.reshaped(), [](const Polynomial& p) { return p.is_number(); });
 }
@@ -52,6 +54,7 @@ constexpr bool leaves_polynomials(Op op) {
                          tanh, exp, cos, matrix_exponential, constant}));
 }
 
+/// The operations of polynomials beside those of every ring.
 struct Rules : numbers::RingRules<Polynomial> {
   using RingRules::operator();
   const PolynomialNumbers& type;
@@ -86,6 +89,7 @@ struct Rules : numbers::RingRules<Polynomial> {
   template <Op op>
   requires expr::OneOf<op, Op::power, Op::elementwise_power, Op::real_power>
   void operator()(Is<op>, const At& at, Value& out) const {
+    // Larger exponents are refused: a power of a sum expands to too many terms.
     constexpr int kMost = 100;
     int exponent = 0;
     if constexpr (op == Op::real_power) {
@@ -106,11 +110,13 @@ struct Rules : numbers::RingRules<Polynomial> {
       out = is_matrix ? Value(out.lazyProduct(at[0])) : Value(out.cwiseProduct(at[0]));
   }
   void operator()(Is<Op::jacobian>, const At& at, Value& out) const {
+    // The body at new variables y, behind all that occur: d body/dy, with the point put in for y.
     const expr::Program& body = *at.instruction.body;
     std::size_t fresh = 0;
     for (const Value* operand : at.operands)
       for (const Polynomial& p : operand->reshaped()) fresh = std::max(fresh, p.variables());
     const Value& point = at[0];
+    // y, of the shape of the point.
     Value varied(point.rows(), point.cols());
     for (Index k = 0; k < varied.size(); ++k)
       varied(k) = Polynomial(Term{Monomial(fresh + static_cast<std::size_t>(k)), 0});
@@ -148,6 +154,7 @@ void PolynomialNumbers::apply(const expr::Instruction& instruction, expr::Operan
     }
     return;
   }
+  // Of numbers alone the rules of fractions hold.
   std::vector<numbers::RationalMatrix> values;
   for (const Value* operand : operands)
     values.push_back(operand->unaryExpr([](const Polynomial& p) { return p.number(); }));

@@ -1,8 +1,8 @@
 // The number type "polynomial": matrices of polynomials in the variables of `forall`, affine in the
 // unknowns, without rounding.
 //
-// Sums, products, whole powers, quotients by numbers, blocks, parts, transposes, traces and jacobians
-// of what moves are polynomials. Everything may be done to numbers that has a fraction
+// Sums, products, whole powers, quotients by numbers, blocks, parts, transposes, traces and
+// jacobians of what moves are polynomials. Everything may be done to numbers that has a fraction
 // (numbers/rational.h). All else throws EvaluationError with what makes a polynomial of it.
 #pragma once
 
@@ -26,9 +26,11 @@ using PolynomialMatrix = numbers::MatrixOf<Polynomial>;
 struct PolynomialNumbers {
   using Value = PolynomialMatrix;
 
-  /// The names of the unknowns, from 1 on, for messages.
+  /// The names of the unknowns, from 1 on, for messages: not null where unknowns occur. The list
+  /// must outlive this.
   const std::vector<std::string>* unknowns = nullptr;
 
+  /// EvaluationError for a product of unknowns, a power above 100 and all that is no polynomial.
   void apply(const expr::Instruction& instruction, expr::Operands<Value> operands,
              Value& out) const;
 };
@@ -39,6 +41,7 @@ using PolynomialValues = std::map<std::string, PolynomialMatrix, std::less<>>;
 PolynomialMatrix polynomial_value(const expr::Program& program, const PolynomialValues& values,
                                   const std::vector<std::string>& unknowns);
 
+/// Polynomials of degree 0, without unknowns.
 PolynomialMatrix polynomial_matrix(const numbers::RationalMatrix& numbers);
 
 }  // namespace gainsmith::polynomial

@@ -27,6 +27,8 @@ FrequencyResponse::FrequencyResponse(const StateSpace& system) : D_(system.D), s
   C_ = C * Q;
 }
 
+/// C (s I - A)^-1 B + D with s I - A in Hessenberg form, n x n. Elimination has one row below each
+/// pivot; the larger of the two is taken. So it costs O(n^2 m).
 ComplexMatrix FrequencyResponse::at(double w) const {
   const Eigen::Index n = A_.rows();
   const Complex s = step_ > 0 ? std::polar(1.0, w * step_) : Complex(0, w);

@@ -17,15 +17,16 @@ class FrequencyResponse {
 
   /// H(i w), or H(exp(i w T)): p x m. w in radians per unit of time. Not finite at a pole.
   ComplexMatrix at(double w) const;
-  /// The largest singular value of H.
+  /// The largest singular value of H; 0 of an H without elements.
   double largest_gain(double w) const;
 
  private:
+  /// Q'A Q in Hessenberg form, Q'B, C Q in balanced units, with Q orthogonal; D.
   Matrix A_, B_, C_, D_;
   double step_;
 };
 
-/// The singular values, largest first.
+/// The min(p, m) singular values of a response that is not empty, largest first.
 numbers::Vector gains_of(const ComplexMatrix& response);
 
 }  // namespace gainsmith::response

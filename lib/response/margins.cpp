@@ -13,7 +13,8 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// Where f, of another sign at both ends, is 0: by halving, in log w.
+/// The w in [a, b] where f, of another sign at both ends, is 0: by bisection in log w, until a and
+/// b are neighbours.
 double root(const std::function<double(double)>& f, double a, double b) {
   const bool rises = f(b) > 0;
   for (int k = 0; k < 100; ++k) {
@@ -46,6 +47,7 @@ std::vector<double> crossings(const Sweep& sweep, const std::function<double(con
 
 std::pair<double, double> range_with_crossover(const StateSpace& loop) {
   constexpr int kDecades = 15;
+  // A gain that moves towards 1 by less than kMoves a decade is taken as constant.
   constexpr double kDecade = 10, kMoves = 1.5;
   const FrequencyResponse response(loop);
   auto [low, high] = range_of(loop);

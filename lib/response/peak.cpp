@@ -23,7 +23,9 @@ namespace {
 using numbers::Enclosed;
 using Balls = Enclosed<double>;
 
-/// x+ = ... as x' = ... by z = (1 + s)/(1 - s), which keeps the gains.
+/// x+ = ... as x' = ... by z = (1 + s)/(1 - s), which keeps the gains. With E = (I + A)^-1:
+///   E (A - I),  sqrt(2) E B;  sqrt(2) C E,  D - C E B.
+/// A is stable, so that -1 is no eigenvalue.
 StateSpace as_continuous(const StateSpace& system) {
   if (!system.is_sampled()) return system;
   const Matrix one = Matrix::Identity(system.states(), system.states());
@@ -33,7 +35,11 @@ StateSpace as_continuous(const StateSpace& system) {
           std::sqrt(2.0) * system.C * through, system.D - system.C * through * system.B, 0};
 }
 
-/// The frequencies at which a singular value of the continuous system is `level`.
+/// The frequencies w >= 0 at which a singular value of the continuous system is g = `level`: i w is
+/// an eigenvalue of the Hamiltonian matrix, 2n x 2n (Boyd, Balakrishnan & Kabamba 1989),
+///   [ A + B R^-1 D'C          B R^-1 B'           ]
+///   [ -C'(I + D R^-1 D')C     -(A + B R^-1 D'C)'  ],   R = g^2 I - D'D.
+/// None where R is singular. In rising order.
 std::vector<double> level_frequencies(const StateSpace& system, double level) {
   const Eigen::Index n = system.states(), m = system.inputs();
   const Matrix R = level * level * Matrix::Identity(m, m) - system.D.transpose() * system.D;
@@ -66,7 +72,7 @@ class Search {
     best_.value = gain;
     best_.frequency = w;
   }
-  /// Between two others the largest one.
+  /// The largest gain between two frequencies, by 80 steps of golden section.
   void climb(double a, double b) {
     constexpr double kGolden = 0.6180339887498949;
     double left = b - kGolden * (b - a), right = a + kGolden * (b - a);
@@ -89,7 +95,8 @@ class Search {
     meet(left);
     meet(right);
   }
-  /// Of the continuous system.
+  /// Of a frequency of the continuous system, the one of the system itself: z = (1 + i w)/(1 - i w)
+  /// has the angle 2 atan(w) = w' T.
   double frequency_of(double w) const { return step_ > 0 ? 2 * std::atan(w) / step_ : w; }
   Peak& best() { return best_; }
 
@@ -99,7 +106,9 @@ class Search {
   Peak best_;
 };
 
-/// Larger levels until no frequency has one.
+/// The level method: at a level just above the largest gain so far, between the frequencies that
+/// have it, the gain is larger. The middles of these intervals give the next level, until none is
+/// larger. Convergence is quadratic (Bruinsma & Steinbuch 1990).
 void raise(const StateSpace& system, Search& search) {
   constexpr int kMost = 30;
   constexpr double kAbove = 1e-9;
@@ -129,7 +138,8 @@ Balls twice(const Matrix& M) {
   return block(exact(M), exact(none), exact(none), exact(M));
 }
 
-/// A gain that the system has at this frequency: |H u| <= it for the best u that was found.
+/// A lower bound of the gain at this frequency, |H v|/|v| in balls. H is written over real and
+/// imaginary parts, 2p x 2m, and v is its first right singular vector in double.
 std::optional<double> proved_gain(const StateSpace& system, double w) {
   const Eigen::Index n = system.states();
   Balls H = twice(system.D);
@@ -167,6 +177,9 @@ std::optional<double> proved_gain(const StateSpace& system, double w) {
 /// Whether no gain is above the level: by P with
 ///   -[A'P + P A + C'C, P B + C'D; *, D'D - level^2 I] > 0,  P > 0,
 /// of a sampled system -[A'P A - P + C'C, A'P B + C'D; *, B'P B + D'D - level^2 I] > 0.
+/// P solves the Riccati equation of equality in the Schur complement, with C'C + share I for C'C:
+/// this leaves share I to the strict inequality. P is double; both inequalities are checked in
+/// balls.
 bool is_proved_below(const StateSpace& system, double level, double share) {
   const Eigen::Index n = system.states(), m = system.inputs();
   const Balls A = exact(system.A), B = exact(system.B), C = exact(system.C), D = exact(system.D);
@@ -236,7 +249,8 @@ std::optional<Peak> peak(const StateSpace& given) {
   Peak& found = search.best();
   if (found.value == 0) found.frequency = 0;
   found.low = proved_gain(system, found.frequency);
-  // Room for the rows of P: a part of what the level leaves, at the states of the peak.
+  // share I beside C'C raises |H|^2 by share |(s I - A)^-1 B|^2: half of level^2 - value^2, at the
+  // frequency of the peak.
   const double w = std::isfinite(found.frequency) ? found.frequency : 0;
   const StateSpace to_states{system.A, system.B, Matrix::Identity(system.states(), system.states()),
                              Matrix::Zero(system.states(), system.inputs()), system.step};

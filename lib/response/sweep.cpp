@@ -13,7 +13,8 @@ using Complex = std::complex<double>;
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 
-/// Natural and damped frequencies of poles and zeros.
+/// Natural and damped frequencies |s| and |Im s| of poles and zeros, in rising order; of a sampled
+/// system s = log(z)/T. Those at 0 are left out.
 std::vector<double> features(const StateSpace& system) {
   std::vector<double> all;
   for (const Matrix& roots : {poles(system), zeros(system)})
@@ -61,7 +62,8 @@ class Refinement {
     into_.frequency.push_back(w);
     into_.response.push_back(std::move(response));
   }
-  /// What lies between two neighbours.
+  /// Points between two neighbours a < b: the middle in log w, and where H bends there by more than
+  /// kBend, both halves.
   void between(double a, const ComplexMatrix& at_a, double b, const ComplexMatrix& at_b) {
     constexpr double kBend = 0.01, kNearest = 1e-7;
     constexpr std::size_t kMost = 20'000;

@@ -19,10 +19,12 @@ std::pair<double, double> range_of(const StateSpace& system);
 
 /// Neighbours are so near that between them the logarithm of each element of H, size and phase, is
 /// linear in log w to 0.01: 0.1 dB, 0.6 degrees; at a resonance or a notch as near as 1e-7 of w. A
-/// pole on the axis is left out.
+/// pole on the axis is left out. 0 < low < high, which are the first and last frequencies; beyond
+/// 20 000 points the grid of 20 a decade is refined no further.
 Sweep sweep(const StateSpace& system, double low, double high);
 
-/// The phase of element (i, j) in degrees, without jumps: it begins in [-180, 180).
+/// The phase of element (i, j) in degrees, one a frequency, without jumps: it begins in
+/// [-180, 180), and neighbours differ by at most 180.
 std::vector<double> phase(const Sweep& sweep, Eigen::Index i, Eigen::Index j);
 
 }  // namespace gainsmith::response

@@ -41,6 +41,8 @@ TimeResponse time_response(const StateSpace& system, Stimulus stimulus, Eigen::I
       sampled ? static_cast<int>(std::min<double>(kMost, std::floor(until / system.step))) + 1
               : points;
   const double length = sampled ? system.step : until / (points - 1);
+  // z = [x; u], (n + 1) x 1. A step is u = 1, an impulse x(0) = b; of a sampled system it is
+  // u = 1/T in the first step.
   // x and u after a time of this length.
   Matrix whole = Matrix::Zero(n + 1, n + 1);
   whole.topLeftCorner(n, n) = system.A;
@@ -64,7 +66,8 @@ TimeResponse time_response(const StateSpace& system, Stimulus stimulus, Eigen::I
 
 namespace {
 
-/// A mode as a rate at which it dies out and a speed at which it moves.
+/// A mode s as a rate -Re s at which it dies out and a speed |s| at which it moves; of a sampled
+/// system -log |z| and 1, per step.
 struct Speed {
   double rate = 0, speed = 0;
 };
@@ -120,6 +123,7 @@ class StepReader {
   }
 
  private:
+  /// Settled: |y/end - 1| is not above it.
   static constexpr double kBand = 0.02;
 
   void meet(double t, double y) {
@@ -166,6 +170,8 @@ bool StepFacts::ends_at_0() const { return std::abs(final_value) <= 1e-9 * std::
 
 std::optional<StepFacts> step_facts(const StateSpace& system, Eigen::Index input,
                                     Eigen::Index output) {
+  // e^-kDead = 1e-7 is left of a mode; kPart of the time 1/|s| is a step; kMost steps in all.
+  // The final value is D - C A^-1 b, of a sampled system D + C (I - A)^-1 b.
   constexpr double kDead = 16, kPart = 0.02, kMost = 2e6;
   const Eigen::Index n = system.states();
   const Matrix still =

@@ -1,3 +1,6 @@
+// The finite zeros of (A, B, C, D): the pencil [A - s I, B; C, D] is reduced to one with the same
+// finite zeros and D square and invertible (Emami-Naeini & Van Dooren 1982). Its zeros are
+//   eig(A - B D^-1 C).
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 #include <algorithm>
@@ -28,7 +31,10 @@ Rows compressed_rows(const Matrix& M, double tolerance) {
   return rows;
 }
 
-/// [A, B; C, D] with the same finite zeros and D of full row rank.
+/// [A, B; C, D] with the same finite zeros and D of full row rank. U'[C, D] = [C1, D1; C2, 0]: at a
+/// zero C2 x = 0. In an orthogonal basis x = V [s; r], in which C2 sees s alone, s = 0 leaves
+///   r' = A_rr r + B_r u,   outputs  A_sr r + B_s u  and  C1_r r + D1 u.
+/// This is repeated; each time there are fewer states, or D has full row rank.
 StateSpace reduced(StateSpace system, double tolerance) {
   for (;;) {
     const Rows of_d = compressed_rows(system.D, tolerance);
@@ -69,7 +75,7 @@ StateSpace transposed(const StateSpace& system) {
 
 StateSpace balanced(const StateSpace& system) {
   StateSpace result = in_units(system, numerics::units(system.A.cwiseAbs(), system.C.cwiseAbs()));
-  // Units of the inputs and outputs.
+  // In these units of the inputs and outputs B and C have the Frobenius norm 1.
   const auto size_of = [](const Matrix& M) { return M.norm() > 0 ? M.norm() : 1.0; };
   const double inputs = size_of(result.B), outputs = size_of(result.C);
   result.B /= inputs;

@@ -6,6 +6,7 @@
 namespace gainsmith::sdp {
 namespace {
 
+/// The factor of F_i in sum_i x_i F_i - tau F_0: x_i, or -tau of F_0.
 template <typename T>
 T multiplier(int constraint, const Vector<T>& x, const T& tau) {
   return constraint == 0 ? T(-tau) : T(x[constraint - 1]);
@@ -52,6 +53,7 @@ void adjoint(const Data& data, const Vector<T>& x, const T& tau, Blocks<T>& s) {
         target(term.row, term.column) += factor * coefficient<T>(block, t);
       }
     }
+    // Terms are those of the upper triangle.
     target.template triangularView<Eigen::StrictlyLower>() = target.transpose();
   }
   auto target = s.linear();
@@ -67,6 +69,7 @@ template <typename T>
 T apply(const Data& data, const Blocks<T>& s, Vector<T>& r) {
   r.setZero();
   T with_f0(0);
+  // F_0 is constraint 0; its product is the result, those of the others are r.
   const auto add = [&](int constraint, const T& value) {
     (constraint == 0 ? with_f0 : r[constraint - 1]) += value;
   };

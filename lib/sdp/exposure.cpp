@@ -30,6 +30,7 @@ constexpr int kCorrections = 10;
 constexpr int kSteps = 200;
 constexpr double kFlat = 1e-7;
 
+/// The multiple of 1 / kDenominator next to `value`; NaN where none is within kNearby.
 double nearest_weight(double value) {
   const double nearest = std::round(value * kDenominator) / kDenominator;
   return std::abs(value - nearest) <= kNearby ? nearest : std::numeric_limits<double>::quiet_NaN();
@@ -37,6 +38,8 @@ double nearest_weight(double value) {
 
 /// By elimination, of the last row whose pivot is at least `least` of the largest (1: complete
 /// pivoting); weights are rounded. Nothing when one is far from what it would become.
+/// Column operations bring row k of the pivots of U to e_k'. Then U'y = 0 says that its y_k is
+/// -sum_j u_jk y_j over the other rows j.
 std::optional<Kernel> kernel_of(Matrix<double> u, double least) {
   const Eigen::Index r = u.cols(), n = u.rows();
   Kernel kernel;
@@ -84,6 +87,7 @@ bool Exposure::find(const Iterate<double>& point) {
     values.insert(values.end(), spectrum.begin(), spectrum.end());
   }
   std::sort(values.begin(), values.end(), std::greater<>());
+  // Wherever a gap of the spectrum suggests a rank of U, largest eigenvalues first.
   int gaps = 0;
   for (std::size_t k = 0; k + 1 < values.size() && gaps < kGaps; ++k) {
     if (!(values[k] > kGap * values[k + 1])) continue;
@@ -177,6 +181,7 @@ bool Exposure::solve(const Vector<double>& x) {
   if (!(norm > 0) || !std::isfinite(norm)) return false;
   d_.resize(data_.m());
   for (Eigen::Index i = 0; i < d_.size(); ++i) d_[i] = DoubleDouble(x[i] / norm);
+  // Residuals in 31 digits, corrections in double; each has to halve what is left.
   double before = 1;
   for (int round = 0; round < kCorrections; ++round) {
     adjoint(data_, d_, DoubleDouble(0), image_);

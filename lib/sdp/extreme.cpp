@@ -12,7 +12,9 @@ constexpr double kSharpness = 0.01, kTridiagonalSharpness = 0.001;
 /// Ritz values are checked from this step on, every few steps.
 constexpr Eigen::Index kFirstCheck = 8, kBetweenChecks = 4;
 
-/// Are all eigenvalues of T above `shift`?
+/// Are all eigenvalues of T above `shift`? By the signs of the pivots of T - s I,
+///   d_1 = a_1 - s,   d_i = a_i - s - b_{i-1}^2 / d_{i-1}
+/// with a the diagonal and b the subdiagonal (Sylvester's law of inertia).
 bool all_above(const Eigen::Ref<const Eigen::VectorXd>& diagonal,
                const Eigen::Ref<const Eigen::VectorXd>& subdiagonal, double shift) {
   double pivot = diagonal[0] - shift;
@@ -67,6 +69,7 @@ double Lanczos::lower_bound(const Matrix& factor, const Matrix& D, double enough
   for (Eigen::Index k = 0; k < steps; ++k) {
     apply(factor, D, k);
     alpha_[k] = image_.dot(basis_.col(k));
+    // Gram and Schmidt against all of the basis, twice: once would leave rounding along it.
     for (int pass = 0; pass < 2; ++pass) {
       half_.head(k + 1).noalias() = basis_.leftCols(k + 1).transpose() * image_;
       image_.noalias() -= basis_.leftCols(k + 1) * half_.head(k + 1);

@@ -25,11 +25,11 @@ class Lanczos {
   double lower_bound(const Matrix& factor, const Matrix& D, double enough, bool& converged);
 
  private:
-  static constexpr Eigen::Index kSteps = 60;
+  static constexpr Eigen::Index kSteps = 60;  ///< at most; then `converged` is false
   void apply(const Matrix& factor, const Matrix& D, Eigen::Index k);
 
   Eigen::MatrixXd basis_;
-  Eigen::VectorXd image_, half_, alpha_, beta_;
+  Eigen::VectorXd image_, half_, alpha_, beta_;  ///< alpha, beta: Lanczos' tridiagonal matrix
 };
 
 }  // namespace gainsmith::sdp

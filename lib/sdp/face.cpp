@@ -48,6 +48,7 @@ class Accumulator {
   std::vector<std::size_t> touched_;
 };
 
+/// Number `at` with what it was rounded by, where that is known.
 template <typename Packed>
 DoubleDouble both(const Packed& value, const Packed& rest, std::size_t at) {
   return rest.empty() ? DoubleDouble(value[at]) : DoubleDouble(value[at], rest[at]);
@@ -78,6 +79,7 @@ std::optional<Face> find_face(const Problem& problem, const Presolved& presolved
       eliminate(recovery.dense[b][static_cast<std::size_t>(i)]);
   for (std::size_t k = 0; k < recovery.linear.size(); ++k)
     if (exposure.on(static_cast<Eigen::Index>(k))) eliminate(recovery.linear[k]);
+  // Kept rows become rows of Z in their order; blocks without any are zero.
   int number = 0;
   for (const auto& rows : eliminated) {
     Face::Rows& block = face.blocks.emplace_back();
@@ -89,6 +91,7 @@ std::optional<Face> find_face(const Problem& problem, const Presolved& presolved
     if (block.size > 0) block.number = number++;
   }
   for (std::size_t b = 0; b < recovery.dense.size(); ++b) {
+    // An eliminated row is y_P = weights y_kept.
     const Kernel& kernel = exposure.kernel(b);
     const auto& rows = recovery.dense[b];
     auto& parts = face.blocks[static_cast<std::size_t>(rows.front().block)].parts;
@@ -124,6 +127,7 @@ Problem restrict_to(const Face& face, const Problem& problem) {
       const DoubleDouble value(e.value, e.rest);
       for (const Face::Part& p : face.blocks[b].parts[static_cast<std::size_t>(e.row)])
         for (const Face::Part& q : face.blocks[b].parts[static_cast<std::size_t>(e.column)]) {
+          // (N'F N)_pq += N_ip F_ij N_jq, and the mirror place of (i, j).
           const DoubleDouble product = value * p.weight * q.weight;
           sums[b].add(p.row, q.row, product);
           if (e.row != e.column) sums[b].add(q.row, p.row, product);
@@ -156,10 +160,12 @@ Iterate<double> restrict_to(const Face& face, const Problem& problem, const Poin
             const std::size_t to = static_cast<std::size_t>(p.row) +
                                    (diagonal ? 0 : size * static_cast<std::size_t>(q.row));
             const std::size_t from = diagonal ? i : i + n * j;
+            // N'X N; Z is Y at the kept rows, where N is the identity.
             x[to] += p.weight * q.weight * point.X[b][from];
             if (rows.kept[i] && rows.kept[j]) y[to] = point.Y[b][from];
           }
   }
+  // x - (d'x / d'd) d
   double along = 0, square = 0;
   for (std::size_t i = 0; i < point.x.size(); ++i) {
     const double d = face.direction[i].hi();
@@ -202,12 +208,14 @@ std::optional<Point<DoubleDouble>> lift(const Face& face, const Problem& problem
         else
           y[i + n * j] = y[j + n * i] = sum;
       }
+    // Y has the rank of Z: a rounding of I gives it a Cholesky factor.
     if (size < n && !block.diagonal)
       for (std::size_t i = 0; i < n; ++i) y[i * (n + 1)] += kRidge * largest;
   }
   double largest = 0, rows = 0;
   for (const Entry& e : problem.f[0]) largest = std::max(largest, std::abs(e.value));
   for (const Block& block : problem.blocks) rows += block.size;
+  // ||s I||_F = tolerance (1 + max|F_0|), the unit of error 3 of Solution::dimacs.
   const double shift = tolerance * (1 + largest) / std::sqrt(rows);
   const std::vector<DoubleDouble> start = [&] {
     std::vector<DoubleDouble> x;
@@ -216,6 +224,7 @@ std::optional<Point<DoubleDouble>> lift(const Face& face, const Problem& problem
     return x;
   }();
   double t = 0;
+  // t = 0, then from the largest element of X on.
   for (int step = 0; step < kLiftTries; ++step) {
     point.x = start;
     for (std::size_t i = 0; i < start.size(); ++i) point.x[i] += face.direction[i] * t;

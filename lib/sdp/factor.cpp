@@ -72,6 +72,9 @@ void ConeFactor<T>::divide(int b, const View<T>& M, const View<T>& work) {
   multiply_lower(constant(work), View<const T>(inverse_factor_.dense(b)), M);
 }
 
+/// W = L^-1 D L^-T is formed in T and rounded. Where W - enough I has a Cholesky factor `enough` is
+/// the bound; otherwise bisection on a tridiagonal form of W finds it (extreme.h). Large blocks in
+/// double try Lanczos' method before that.
 template <typename T>
 double ConeFactor<T>::smallest_eigenvalue(const Blocks<T>& D, int b, double enough) {
   const auto at = static_cast<std::size_t>(b);
@@ -102,6 +105,7 @@ double ConeFactor<T>::smallest_eigenvalue(const Blocks<T>& D, int b, double enou
 
 template <typename T>
 T ConeFactor<T>::step(const Blocks<T>& D, const T& longest) {
+  // An eigenvalue above -1 / longest does not shorten the step.
   T smallest = T(-1) / longest;
   const auto reciprocal = inverse_factor_.linear();
   const auto d = D.linear();

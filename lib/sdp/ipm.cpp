@@ -100,6 +100,8 @@ Cause Ipm<T>::iterate_or_stop() {
   }
 }
 
+/// Until stop() or a failure ends it. Directions aim at X Y = sigma mu I; a step that leaves the
+/// cone is taken back in part.
 template <typename T>
 Cause Ipm<T>::iterate() {
   residuals_.update(point_);
@@ -161,6 +163,7 @@ T Ipm<T>::centering(const Steps<T>& reach) const {
   return T(std::clamp(std::pow(std::max(ratio, 0.0), exponent), kLeastCentering, 1.0));
 }
 
+/// The steps that are taken, at most 1: a share of the longest that grows with the predictor's.
 template <typename T>
 Steps<T> Ipm<T>::shortened(const Steps<T>& longest, const Steps<T>& reach) const {
   const T gamma = T(kShortest) + T(kLongest - kShortest) * std::min(reach.primal, reach.dual);
@@ -178,6 +181,7 @@ bool Ipm<T>::satisfied(double tolerance) const {
 template <typename T>
 std::optional<Cause> Ipm<T>::stop() const {
   if (satisfied(run_.aim)) return Cause::converged;
+  // Half of the tolerance: what is recomputed from the raw data has to meet all of it.
   if (std::min(residuals_.primal_certificate, residuals_.dual_certificate) <=
       options_.certificate_tolerance / 2)
     return Cause::certificate;
@@ -197,6 +201,7 @@ std::optional<Cause> Ipm<T>::limits() const {
 template <typename T>
 bool Ipm<T>::is_enough() const {
   if (!run_.early || !options_.enough) return false;
+  // x_i = gamma_f s_i x'_i / tau (presolve.h).
   const Recovery& recovery = presolved_.recovery;
   std::vector<double> x(problem_.c.size(), 0.0);
   for (std::size_t i = 0; i < recovery.constraint.size(); ++i)

@@ -32,7 +32,13 @@ struct Run {
   bool early = false;       ///< Options::enough may end it
 };
 
-/// Predictor-corrector (Mehrotra 1992) on the model of newton.h in the arithmetic of T.
+/// Predictor-corrector (Mehrotra 1992) on the model of newton.h in the arithmetic of T. With a_P
+/// and a_D the longest steps <= 1 along the predictor (sigma = 0), an iteration takes
+///   fixed tau:    sigma = (mu that the predictor reaches / mu)^max(1, 3 min(a_P, a_D)^2), eta = 1;
+///   homogeneous:  sigma = (1 - a)^3, eta = 1 - sigma, a = a_P = a_D;
+///   steps:        min(1, g b) with b the longest along the corrected direction,
+///                 g = 0.9 + 0.08 min(a_P, a_D).
+/// Exponent and step rule are after Toh, Todd & Tutuncu (1999).
 template <typename T>
 class Ipm {
  public:
@@ -63,18 +69,26 @@ class Ipm {
   bool left() const { return left_; }
 
  private:
+  /// x = 0, multiples X and Y of I, tau = kappa = 1.
   void start(const T& X, const T& Y);
   void lift(double rounding);
   Cause iterate_or_stop();
   Cause iterate();
+  /// Are all errors within `tolerance`, and both infeasibilities within Run::feasibility or the
+  /// rounding that this arithmetic leaves in them?
   bool satisfied(double tolerance) const;
+  /// Why to end at the present point; none to go on.
   std::optional<Cause> stop() const;
   std::optional<Cause> limits() const;
+  /// Asks Options::enough about x of the original problem.
   bool is_enough() const;
+  /// Is the last direction the sign at which Run::leave ends the run?
   bool leaves() const;
   T centering(const Steps<T>& reach) const;
   Steps<T> shortened(const Steps<T>& longest, const Steps<T>& reach) const;
   bool advance(Steps<T>& step);
+  /// Keeps the point of the least worst error. Progress is a better point within kInSight, an error
+  /// that was halved farther off, or a certificate residual that was halved.
   void keep_best();
   void report(const Steps<T>& step) const;
 

@@ -46,6 +46,7 @@ struct Defect {
   Vector<T> dual;
 };
 
+/// Rounds or widens every number of a point. Both have the same layout.
 template <typename To, typename From>
 void convert(const Iterate<From>& from, Iterate<To>& to) {
   convert(from.x, to.x);

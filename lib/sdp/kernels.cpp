@@ -122,6 +122,7 @@ void multiply_pairs(const View<const DoubleDouble>& a, const View<const DoubleDo
   for (; j < c.columns; ++j) multiply_columns<1>(halves, a.columns, b, c, j, update);
 }
 
+/// Each column of C as a sum of columns of A, for 100 digits.
 template <typename T>
 void multiply_plain(const View<const T>& a, const View<const T>& b, const View<T>& c,
                     Update update) {
@@ -180,6 +181,7 @@ constexpr Index kPanel = 32, kInnerPanel = 8, kOuterPanel = 128;
 /// Columns of a large matrix.
 constexpr Index kLarge = 512;
 
+/// By rows k of L X = I: row k of X is divided by L_kk, and each row i below loses L_ik X_k.
 template <typename T>
 void invert_lower_plain(const View<const T>& l, const View<T>& result) {
   for (Index k = 0; k < l.rows; ++k) {
@@ -193,6 +195,8 @@ void invert_lower_plain(const View<const T>& l, const View<T>& result) {
   }
 }
 
+/// Column j loses L_jp L(:, p), p < j, and is divided by the root of its pivot. False when a pivot
+/// is not positive.
 template <typename T>
 bool cholesky_plain(const View<T>& a) {
   using std::sqrt;
@@ -214,6 +218,7 @@ Index narrower(Index width) {
   return width > kInnerPanel ? kInnerPanel : 1;
 }
 
+/// Such a part of L21 changes nothing: sparse factors skip it.
 template <typename T>
 bool is_zero(const View<T>& a) {
   for (Index j = 0; j < a.columns; ++j)
@@ -306,6 +311,7 @@ void multiply_outer(const View<const T>& a, const View<const T>& b, const View<T
   if constexpr (std::is_same_v<T, double>) {
     multiply_outer_doubles(a, b, c, update);
   } else {
+    // B' is copied, so that one kernel does for both products; in double B is read as it lies.
     static thread_local Matrix<T> transposed;
     if (transposed.size() < b.rows * b.columns) transposed.resize(b.columns, b.rows);
     const View<T> copy(transposed.data(), b.columns, b.rows, b.columns);
@@ -324,6 +330,7 @@ void multiply_upper(const View<const T>& a, const View<const T>& u, const View<T
   }
 }
 
+// By block columns: L has zeros above its diagonal block.
 template <typename T>
 void multiply_lower(const View<const T>& a, const View<const T>& l, const View<T>& c) {
   const Index n = c.columns;
@@ -367,6 +374,7 @@ void solve_factored(const View<const T>& l, Vector<T>& x) {
   } else if constexpr (std::is_same_v<T, DoubleDouble>) {
     solve_factored_pairs(l, x);
   } else {
+    // Forward by columns, backward by inner products: both read L along its columns.
     for (Index k = 0; k < l.rows; ++k) {
       x[k] /= l(k, k);
       for (Index i = k + 1; i < l.rows; ++i) x[i] -= l(i, k) * x[k];

@@ -33,9 +33,11 @@ class Blocks {
   }
 
   const Layout& layout() const { return *layout_; }
+  /// All numbers in the packing of the layout, Layout::total of them.
   Vector<T>& flat() { return values_; }
   const Vector<T>& flat() const { return values_; }
 
+  /// Dense block b as an n_b x n_b map. Both triangles are stored and have to agree.
   MatrixMap<T> dense(int b) {
     const auto i = static_cast<std::size_t>(b);
     return {values_.data() + layout_->offset[i], layout_->size[i], layout_->size[i]};
@@ -44,6 +46,7 @@ class Blocks {
     const auto i = static_cast<std::size_t>(b);
     return {values_.data() + layout_->offset[i], layout_->size[i], layout_->size[i]};
   }
+  /// The l entries of the linear part.
   VectorMap<T> linear() { return {values_.data() + layout_->linear_offset, layout_->linear}; }
   ConstVectorMap<T> linear() const {
     return {values_.data() + layout_->linear_offset, layout_->linear};
@@ -67,7 +70,7 @@ void convert(const Vector<From>& from, Vector<To>& to) {
   for (Eigen::Index i = 0; i < from.size(); ++i) to[i] = as<To>(from[i]);
 }
 
-/// A . B = trace(A B).
+/// A . B = trace(A B); both triangles are stored, so it is the product of the packed numbers.
 template <typename T>
 T inner(const Blocks<T>& a, const Blocks<T>& b) {
   return a.flat().dot(b.flat());

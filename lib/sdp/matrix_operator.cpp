@@ -13,6 +13,7 @@ using Dense = Matrix<double>;
 
 double size_of(const Dense& M) { return static_cast<double>(M.size()); }
 
+/// One dense block a block, one linear entry a row.
 Layout layout_of(const MatrixProgram& program) {
   std::vector<int> sizes;
   for (const MatrixProgram::Block& block : program.blocks) sizes.push_back(block.size);
@@ -40,7 +41,7 @@ double inner_with(const std::vector<MatrixProgram::Element>& elements, const Den
   return sum;
 }
 
-/// sum += E V F of sides that may be scaled, in the cheaper order.
+/// sum += E V F', E n x r, V r x c, F n x c: of sides that may be scaled, in the cheaper order.
 void add_between(const Dense& E, const Dense& V, const Dense& F, Dense& sum) {
   const auto inner = static_cast<double>(std::min(V.rows(), V.cols()));
   spend(kBlockWork * (size_of(V) + inner * static_cast<double>(E.rows())) *
@@ -51,6 +52,7 @@ void add_between(const Dense& E, const Dense& V, const Dense& F, Dense& sum) {
     sum.noalias() += E * (V * F.transpose());
 }
 
+/// At most one element a column.
 bool is_sparse(const Dense& M) {
   for (Eigen::Index j = 0; j < M.cols(); ++j)
     if ((M.col(j).array() != 0).count() > 1) return false;
@@ -155,10 +157,12 @@ void MatrixOperator::add_terms(const MatrixProgram::Block& from, Block& to) cons
   for (const MatrixProgram::Product& product : from.products) {
     Pair pair{static_cast<std::size_t>(product.unknown), stored(product.E),
               stored(product.F).transpose()};
+    // He(E V F) = He(F' V E') of a symmetric V.
     if (program_.unknowns[pair.unknown].symmetric && is_sparse(pair.F) && !is_sparse(pair.E))
       pair.E.swap(pair.F);
     const bool sparse_F = is_sparse(pair.F) && !is_sparse(pair.E);
     Dense &unit = sparse_F ? pair.F : pair.E, &other = sparse_F ? pair.E : pair.F;
+    // One side gets the largest element 1, the other one the factor.
     const double size = unit.cwiseAbs().maxCoeff();
     if (!(size > 0)) continue;
     unit /= size;
@@ -193,9 +197,11 @@ void MatrixOperator::pack(std::size_t unknown, const Dense& V, Vector<double>& x
   }
   Eigen::Index at = of.first;
   for (Eigen::Index j = 0; j < of.rows; ++j)
+    // The mean of both triangles, as rounding may tell them apart.
     for (Eigen::Index i = j; i < of.rows; ++i) x[at++] = 0.5 * (V(i, j) + V(j, i));
 }
 
+// The scalar V_ij = V_ji, i > j, is at two places: its part of <R, dV> is R_ij + R_ji.
 void MatrixOperator::add_gradient(std::size_t unknown, const Dense& R, Vector<double>& g) const {
   const MatrixProgram::Unknown& of = program_.unknowns[unknown];
   if (!of.symmetric) {
@@ -209,6 +215,7 @@ void MatrixOperator::add_gradient(std::size_t unknown, const Dense& R, Vector<do
   }
 }
 
+// Half of g at each of two mirror places.
 Dense MatrixOperator::gradient(std::size_t unknown, const Vector<double>& g) const {
   Dense R = unpack(unknown, g);
   if (!program_.unknowns[unknown].symmetric) return R;
@@ -224,6 +231,7 @@ void MatrixOperator::apply(const Vector<double>& x, Blocks<double>& S) const {
     auto target = S.dense(static_cast<int>(k));
     Dense sum = Dense::Zero(target.rows(), target.cols());
     for (const Term& term : blocks_[k].terms) {
+      // V F, as (F' V')'.
       const Dense right = term.F.times(V[term.unknown].transpose()).transpose();
       term.E.add_product(right, sum);
     }
@@ -238,6 +246,7 @@ void MatrixOperator::apply(const Vector<double>& x, Blocks<double>& S) const {
 void MatrixOperator::adjoint(const Blocks<double>& Q, Vector<double>& g) const {
   g.setZero(variables());
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    // <He(E V F), Q> = 2 <V, E'Q F'> for symmetric Q.
     const Dense block = Q.dense(static_cast<int>(k));
     for (const Term& term : blocks_[k].terms)
       add_gradient(term.unknown, 2 * term.E.transposed_times(term.F.from_left(block)), g);
@@ -281,6 +290,7 @@ void SchurOperator::apply(const Vector<double>& v, Vector<double>& Mv) const {
     const MatrixOperator::Block& block = of_.blocks()[k];
     const Scaled& scaled = scaled_[k];
     const Eigen::Index n = W_->dense(static_cast<int>(k)).rows();
+    // Q = W L(v) W, then its share of L*(Q).
     Dense half = Dense::Zero(n, n);
     for (std::size_t t = 0; t < block.terms.size(); ++t)
       add_between(scaled.E[t], unknowns_[block.terms[t].unknown], scaled.F[t], half);
@@ -299,6 +309,8 @@ void SchurOperator::apply(const Vector<double>& v, Vector<double>& Mv) const {
   }
 }
 
+// A term E V F of a block of `size` rows takes E V and E'(Q F'), of size rows columns each, and E V
+// F and Q F', of size^2 times min(rows, columns) and columns.
 double SchurOperator::cost() const {
   double sum = 0;
   for (const MatrixOperator::Block& block : of_.blocks())

@@ -30,7 +30,8 @@ Dense eigenvectors(const Dense& M) {
   return Eigen::SelfAdjointEigenSolver<Dense>(M).eigenvectors();
 }
 
-/// D_ij += K_ii G_jj + G_ii K_jj + G_ij K_ij + G_ji K_ji.
+/// Part of the quadratic form of M at e_i e_j' + e_j e_i', from two products G and K of the sides
+/// of two terms: D_ij += K_ii G_jj + G_ii K_jj + G_ij K_ij + G_ji K_ji.
 void add_symmetric(const Dense& G, const Dense& K, Dense& D) {
   const Vector<double> g = G.diagonal(), k = K.diagonal();
   D.noalias() += k * g.transpose();
@@ -49,6 +50,7 @@ Dense reciprocal(const Dense& D) {
 
 Preconditioner::Preconditioner(const MatrixOperator& of) : of_(of) { find_links(); }
 
+/// Is a side of a term of Y (its E; of Y' its F) also a side of a term of P in the same block?
 bool Preconditioner::shares_a_side(std::size_t P, std::size_t Y, bool transposed) const {
   for (const MatrixOperator::Block& block : of_.blocks())
     for (const MatrixOperator::Term& y : block.terms)
@@ -82,6 +84,7 @@ void Preconditioner::find_links() {
   }
 }
 
+/// With W = G G' products of these are E'W E and the like.
 Preconditioner::Terms Preconditioner::scaled_terms(std::size_t unknown,
                                                    const Blocks<double>& G) const {
   Terms result(of_.blocks().size());
@@ -94,7 +97,7 @@ Preconditioner::Terms Preconditioner::scaled_terms(std::size_t unknown,
   return result;
 }
 
-/// K, and the terms of P with Y - P K for Y.
+/// K, and the terms of P with Y - P K for Y: E (P F + Y C) becomes E (P (F - K C) + Y C).
 void Preconditioner::decouple(Link& link, std::vector<Terms>& terms) const {
   Terms& P = terms[link.P];
   const Eigen::Index n = of_.program().unknowns[link.P].rows;
@@ -104,7 +107,7 @@ void Preconditioner::decouple(Link& link, std::vector<Terms>& terms) const {
   // The terms of Y with the term of P that has a common side, or none.
   struct Beside {
     std::size_t block;
-    Dense common, free;
+    Dense common, free;  ///< G'E, and G'C' on the side of C
     Dense* matched;
   };
   std::vector<Beside> beside;
@@ -134,6 +137,7 @@ void Preconditioner::decouple(Link& link, std::vector<Terms>& terms) const {
   link.K = own.llt().solve(across.transpose()).transpose();
   std::vector<std::pair<std::size_t, Sides>> more;
   for (const Beside& term : beside) {
+    // G'(K C)'
     const Dense part = term.free * link.K.transpose();
     if (term.matched)
       *term.matched -= part;
@@ -143,6 +147,7 @@ void Preconditioner::decouple(Link& link, std::vector<Terms>& terms) const {
   for (auto& [block, sides] : more) P[block].push_back(std::move(sides));
 }
 
+/// The basis Q of the header for a V of n x n, and the diagonal of M in it.
 Preconditioner::Basis Preconditioner::symmetric_basis(const Terms& terms, Eigen::Index n) const {
   Dense total = Dense::Zero(n, n);
   for (const auto& block : terms)
@@ -182,6 +187,9 @@ Preconditioner::Basis Preconditioner::symmetric_basis(const Terms& terms, Eigen:
   return basis;
 }
 
+/// V = P Z Q': each side's Gram matrix is whitened, and the eigenvectors are those of its sum over
+/// blocks, weighted by the traces of the other side. D_ab is the element of M (matrix_schur.h) at
+/// left_a right_b'.
 Preconditioner::Basis Preconditioner::full_basis(Terms terms, Eigen::Index rows,
                                                  Eigen::Index columns) const {
   std::vector<Dense> lefts, rights;
@@ -242,6 +250,7 @@ void Preconditioner::prepare(const SchurOperator& M, const Blocks<double>& G) {
   }
 }
 
+/// z = T D^-1 T' r with T: (P, Y) -> (P, Y - P K) and D the diagonal of each unknown in its basis.
 void Preconditioner::apply(const Vector<double>& r, Vector<double>& z) const {
   z.setZero(r.size());
   std::vector<Dense> gradients, steps;

@@ -70,6 +70,7 @@ bool Scaling::prepare(const Blocks<double>& R, const Blocks<double>& S) {
     check_stop();
     const auto n = static_cast<double>(R.dense(b).rows());
     spend_on<double>(20 * n * n * n);
+    // With S = L L' and R'S R = V diag(d^2) V':  G = R V diag(d)^-1/2.
     const Eigen::LLT<Dense> s(S.dense(b));
     if (s.info() != Eigen::Success) return false;
     const Dense L = R.dense(b);
@@ -108,6 +109,7 @@ double Scaling::step(const Blocks<double>& M, double longest) const {
   if (linear_d_.size() > 0)
     smallest = std::min(smallest, M.linear().cwiseQuotient(linear_d_).minCoeff());
   for (int b = 0; b < M.layout().blocks(); ++b) {
+    // diag(d) + a M >= 0 where I + a diag(d)^-1/2 M diag(d)^-1/2 is.
     const auto root = d_[static_cast<std::size_t>(b)].cwiseSqrt().cwiseInverse();
     const Dense relative = root.asDiagonal() * M.dense(b) * root.asDiagonal();
     smallest = std::min(smallest, smallest_eigenvalue(relative, smallest));

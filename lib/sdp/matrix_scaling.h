@@ -1,4 +1,5 @@
-// Nesterov and Todd's scaling of a point.
+// Nesterov and Todd's scaling of a point: the metric in which X and S are the same diagonal matrix,
+// so that a step treats both alike (Nesterov & Todd 1997; Todd, Toh & Tutuncu 1998).
 #pragma once
 
 #include "sdp/linalg.h"

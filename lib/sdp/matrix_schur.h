@@ -37,7 +37,9 @@ class MatrixSchur {
 
   void find_order();
   void estimate(std::vector<std::vector<bool>> coupled);
+  /// The number of its scalars.
   std::size_t count(std::size_t unknown) const;
+  /// Are both in some block?
   bool is_coupled(std::size_t V, std::size_t U) const;
   std::vector<Pair> pairs(std::size_t U, const Blocks<double>& W) const;
   void form(const SchurOperator& M, const Blocks<double>& W);

@@ -14,6 +14,8 @@
 namespace gainsmith::sdp {
 namespace {
 
+/// One solve: x and S = C + L(x), the multipliers X = R R' and the equations of matrix_solver.h.
+/// Steps are computed in the coordinates of Scaling, in which X and S are diag(d).
 class MatrixIpm {
  public:
   MatrixIpm(const MatrixProgram& program, const MatrixOptions& options)
@@ -61,6 +63,8 @@ class MatrixIpm {
   static constexpr double kRetreat = 0.2;
   static constexpr int kRetreats = 6;
 
+  /// From S(x) at the point given and X = I/n, n the order of the cone; or from x = 0 and
+  /// S = X = 10 max(1, |C|, |c|) I. False where S(x) is not positive definite.
   bool start() {
     const Layout& layout = operator_.layout();
     x_.setZero(operator_.variables());
@@ -100,6 +104,7 @@ class MatrixIpm {
 
   double mu() const { return inner(X_, S_) / operator_.layout().order(); }
 
+  /// Changes to the factor from the iteration on whose conjugate gradients would have cost more.
   Cause iterate(int& iterations) {
     for (iterations = 0; iterations < options_.iteration_limit; ++iterations) {
       if (exact_ && options_.enough && options_.enough({x_.data(), x_.data() + x_.size()}))
@@ -132,6 +137,7 @@ class MatrixIpm {
     const double reached = (now * operator_.layout().order() + primal * scaled_inner(image_) +
                             dual * scaled_inner(dX_) + primal * dual * inner(image_, dX_)) /
                            operator_.layout().order();
+    // sigma = (mu that the predictor reaches / mu)^max(1, 3 a^2), a the shorter step.
     const double ratio = std::clamp(reached / now, 0.0, 1.0);
     const double shorter = std::min(primal, dual);
     const double sigma = std::max(1e-6, std::pow(ratio, std::max(1.0, 3 * shorter * shorter)));
@@ -260,6 +266,8 @@ class MatrixIpm {
     return residual_.norm() <= (options_.enough ? kUseless * size : kUselessToMinimum * goal);
   }
 
+  /// A share of the longest steps, larger where the predictor reached farther. X moves by its
+  /// factor (Scaling::factor), S with x. False where no step of use stays in the cone.
   bool advance(double reach) {
     const double part = kShortest + (kLongest - kShortest) * reach;
     double primal = std::min(1.0, part * scaling_.step(image_, 2));
@@ -289,6 +297,7 @@ class MatrixIpm {
   double objective() const { return c_.dot(x_); }
   double gap() const { return inner(X_, S_) / (1 + std::abs(objective())); }
 
+  /// The dual objective is c'x - X.S: a bound as far as L*(X) = c holds.
   void conclude(Solution& result) const {
     result.x.assign(x_.data(), x_.data() + x_.size());
     result.primal_objective = objective();

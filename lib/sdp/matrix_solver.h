@@ -1,5 +1,6 @@
 // An interior-point method for programs in matrices, as far as it goes without the Schur
-// complement.
+// complement. It serves programs with thousands of scalars in matrices. It decides nothing: the
+// caller has to check its point.
 //
 // Nesterov and Todd's direction: with W S W = X the step in x solves
 //   M dx = L*(X + R) - c,   M(v) = L*(W L(v) W),

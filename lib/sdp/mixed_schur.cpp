@@ -45,6 +45,7 @@ void MixedSchur<T>::assemble(const Blocks<T>& inverse_X, const Blocks<T>& Y, boo
     narrow_->schur.assemble(narrow_->inverse_X, narrow_->Y);
     return;
   }
+  // Made when it is first needed, for its memory.
   if (!schur_) schur_ = std::make_unique<Schur<T>>(data_, threads_);
   schur_->assemble(inverse_X, Y);
 }

@@ -23,10 +23,12 @@ constexpr int kPrograms = 4;
 constexpr const char* kByErrorsAlone =
     "by its errors alone: rounding of the data moves the optimum by more than the tolerance";
 
+/// c_i and what it was rounded by.
 DoubleDouble coefficient_of(const Problem& problem, std::size_t i) {
   return {problem.c[i], problem.c_rest.empty() ? 0 : problem.c_rest[i]};
 }
 
+/// One more unknown with the cost c and the matrix f.
 void append(Problem& program, const DoubleDouble& c, std::vector<Entry> f) {
   program.c.push_back(c.hi());
   program.c_rest.push_back(c.lo());
@@ -190,6 +192,7 @@ Solution solve_around(const Problem& problem, const Options& options, Point<Doub
   for (const double c : problem.c) largest_c = std::max(largest_c, std::abs(c));
   for (const Entry& e : problem.f[0]) largest_f0 = std::max(largest_f0, std::abs(e.value));
   const double share = kShare * options.tolerance;
+  // ||A(Y) - c|| <= sqrt(m) w is `share` of error 1, and |S| <= share (1 + max|F_0|) of error 3.
   const double weight = share * (1 + largest_c) / std::sqrt(static_cast<double>(problem.m()));
   const Direction direction(problem, point);
   const double most = share * (1 + largest_f0);
@@ -223,6 +226,7 @@ Solution solve_around(const Problem& problem, const Options& options, Point<Doub
     }
     if (cause != Cause::converged) break;
     solution.cause = Cause::stalled;
+    // A multiple of Y / ||Y|| as S moves the gap by that multiple of ||Y||.
     const double gap = solution.dual_objective - solution.primal_objective;
     const double next = std::clamp(shift + gap / direction.norm, 0.0, most);
     if (next == shift) {

@@ -90,8 +90,10 @@ bool Newton<T>::prepare(const Iterate<T>& point, const Defect<T>& defect, Model 
   if (!schur_.factorise()) return false;
 
   mu_ = model == Model::fixed ? point.mu_fixed() : point.mu();
+  // A dual residual e moves c'x by e'x at most: by X.Y where ||e|| is this.
   harmless_ = inner(point.X, point.Y) / (T(1) + point.x.norm());
   goal_ = refinement_goal(defect, allowance);
+  // ||X^-1 R|| bounds the size of H(X^-1 R Y) beside Y.
   if (std::is_same_v<T, double> && model == Model::fixed &&
       defect.primal.flat().norm() * inverse_X_.flat().norm() < T(kNegligible)) {
     residual_term_.flat().setZero();
@@ -119,6 +121,7 @@ T Newton<T>::refinement_goal(const Defect<T>& defect, double allowance) const {
                    std::min(T(T(kRefineShare) * harmless_), T(kAllowanceShare * allowance))});
 }
 
+// Newton's direction to mu = 0. The corrector repeats it with C = dX_a dY_a.
 template <typename T>
 void Newton<T>::predict(const Iterate<T>& point, const Defect<T>& defect, Iterate<T>& direction) {
   correction_.flat().setZero();
@@ -134,6 +137,9 @@ void Newton<T>::correct(const Iterate<T>& point, const Defect<T>& defect,
         direction);
 }
 
+// K, h = A(K) - eta r and u = B^-1 h come first, then dx, and dX and dY from dx, and refinement. dX
+// gets its part eta R last, since refinement works on A*(dx) - dtau F_0 alone. Where B in double
+// does not lead to the goal, the direction is computed again with B in T.
 template <typename T>
 void Newton<T>::solve(const Iterate<T>& point, const Defect<T>& defect, const T& sigma,
                       const T& eta, const T& trace_c, const T& c_tau_kappa, Iterate<T>& direction) {
@@ -208,6 +214,8 @@ void Newton<T>::refine(const Iterate<T>& point, const Defect<T>& defect, const T
                best > std::max({goal_, harmless_, T(T(kExhausted) * defect.dual.norm())});
 }
 
+// The formulas of newton.h for dx and dtau; dkappa is from
+//   kappa dtau + tau dkappa = sigma mu - tau kappa - c_tk.
 template <typename T>
 void Newton<T>::move_tau(const Iterate<T>& point, const Defect<T>& defect, const T& sigma,
                          const T& eta, const T& trace_c, const T& c_tau_kappa,
@@ -223,6 +231,8 @@ void Newton<T>::move_tau(const Iterate<T>& point, const Defect<T>& defect, const
   direction.x = u_ + direction.tau * ((point.x + p_) / point.tau - T(2.0) * z_);
 }
 
+// The least of the ratios of X, Y, tau and kappa. In the homogeneous model both steps are equal, or
+// the residuals, which have tau in common, would not fall together.
 template <typename T>
 Steps<T> Newton<T>::step(const Iterate<T>& point, const Iterate<T>& direction, const T& longest) {
   if (model_ == Model::fixed)

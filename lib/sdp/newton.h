@@ -7,7 +7,9 @@
 
 namespace gainsmith::sdp {
 
-/// The simplified homogeneous self-dual model (Xu, Hung, Ye 1996; for SDP de Klerk, Roos, Terlaky):
+/// The simplified homogeneous self-dual model (Xu, Hung, Ye 1996; for SDP de Klerk, Roos, Terlaky),
+/// in the HKM direction (Helmberg, Rendl, Vanderbei, Wolkowicz 1996; Kojima, Shindoh, Hara 1997;
+/// Monteiro 1997), whose B is symmetric and cheap to form:
 ///   R  = sum x_i F_i - tau F_0 - X      (primal)
 ///   r  = tau c - A(Y),  A(Y)_i = F_i.Y  (dual)
 ///   g  = F_0.Y - c'x - kappa            (gap)
@@ -91,13 +93,13 @@ class Newton {
   Blocks<T> inverse_X_;
   Blocks<T> residual_term_;  ///< H(X^-1 R Y)
   Blocks<T> correction_;     ///< H(X^-1 C)
-  Blocks<T> k_;
+  Blocks<T> k_;              ///< K
   Blocks<T> half_, product_;
   Iterate<T> refinement_, trial_;
-  Vector<T> a_, q_, p_, z_, u_, h_, c_;
-  T mu_{0}, order_{0}, r_y_{0}, r_r_{0};
-  T goal_{0};      ///< residual of the dual equation that refinement aims at
-  T harmless_{0};  ///< residual that moves the objective by X.Y
+  Vector<T> a_, q_, p_, z_, u_, h_, c_;   ///< m each, of the formulas above
+  T mu_{0}, order_{0}, r_y_{0}, r_r_{0};  ///< mu, n + 1, R.Y and R.H(X^-1 R Y)
+  T goal_{0};                             ///< residual of the dual equation that refinement aims at
+  T harmless_{0};                         ///< residual that moves the objective by X.Y
   bool exhausted_ = false, imprecise_ = false;
   bool missed_ = false;  ///< did refinement end above goal_?
 };

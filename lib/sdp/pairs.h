@@ -37,8 +37,8 @@ V multiply_add(const V& a, const V& b, const V& c) {
 }
 #endif
 
-/// a b - p for p = a b as rounded: no rounding of its own. Without a fused operation from the halves
-/// of a and b (Dekker 1971), for factors below 1e300.
+/// a b - p for p = a b as rounded: no rounding of its own. Without a fused operation from the
+/// halves of a and b (Dekker 1971), for factors below 1e300.
 template <typename V>
 V product_error(const V& a, const V& b, const V& p) {
 #if defined(__FMA__)

@@ -1,4 +1,5 @@
-// Eight symmetric matrices side by side, for inner products with one sparse matrix at vector speed.
+// Eight symmetric matrices side by side, for inner products with one sparse matrix at vector speed:
+// F_j . U_i for the eight U_i of a batch, F_j read once (schur.h).
 #pragma once
 
 #include <array>

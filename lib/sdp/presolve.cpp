@@ -39,6 +39,7 @@ struct Target {
   int row = -1;
 };
 
+/// The largest power of two that is <= value > 0, but for the rounding of the logarithm.
 double power_of_two_below(double value) { return std::exp2(std::floor(std::log2(value))); }
 
 /// Gives every row that occurs its place: components of one row go to the linear part.
@@ -53,6 +54,7 @@ std::vector<std::vector<Target>> place_rows(const Problem& problem, Recovery& re
     for (const Entry& e : list) {
       if (e.value == 0) continue;
       const auto b = static_cast<std::size_t>(e.block);
+      // An entry joins its two rows: what is not joined can be split into blocks.
       occurs[b][static_cast<std::size_t>(e.row)] = occurs[b][static_cast<std::size_t>(e.column)] =
           1;
       components[b].join(e.row, e.column);
@@ -69,6 +71,7 @@ std::vector<std::vector<Target>> place_rows(const Problem& problem, Recovery& re
       if (!occurs[b][static_cast<std::size_t>(r)]) continue;
       const auto root = static_cast<std::size_t>(components[b].find(r));
       const Recovery::Row row{static_cast<int>(b), r};
+      // A row that no entry joins with another is a scalar inequality.
       if (count[root] == 1) {
         target[static_cast<std::size_t>(r)] = {-1, static_cast<int>(recovery.linear.size())};
         recovery.linear.push_back(row);
@@ -142,6 +145,7 @@ void append(const Problem& problem, int i, int constraint, double factor,
 constexpr double kSparse = 0.2;
 constexpr int kSparseSize = 24;
 
+/// Sets BlockData::pattern_start and pattern_row where they are worth keeping.
 void find_pattern(BlockData& block, int n) {
   if (n < kSparseSize) return;
   const auto size = static_cast<std::size_t>(n);
@@ -185,6 +189,7 @@ Presolved presolve(const Problem& problem) {
   data.layout = layout_of(recovery);
   data.dense.resize(recovery.dense.size());
 
+  // gamma_f and s_i bring the norms of F_0 and F_i to [1, 2), gamma_c the largest |s_i c_i|.
   const double norm_f0 = frobenius_norm(problem.f[0]);
   if (norm_f0 > 0) recovery.gamma_f = power_of_two_below(norm_f0);
   append(problem, 0, 0, 1 / recovery.gamma_f, targets, data);
@@ -219,6 +224,7 @@ Presolved presolve(const Problem& problem) {
   return result;
 }
 
+// x_i = gamma_f s_i x'_i, X = gamma_f X', Y = gamma_c Y'; places without a working row are 0.
 template <typename Out, typename T>
 Point<Out> restore(const Problem& problem, const Presolved& presolved, const Vector<T>& x,
                    const Blocks<T>& X, const Blocks<T>& Y, const T& scale) {

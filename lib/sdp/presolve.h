@@ -36,7 +36,9 @@ struct Presolved {
   Data data;
   Recovery recovery;
   /// A far starting point X' = far_X I, Y' = far_Y I (after Toh, Todd, Tutuncu 1999 and Borchers
-  /// 1999): the sizes that the data suggest for X and Y, times the square root of n, or n.
+  /// 1999): the sizes that the data suggest for X and Y, times the square root of n, or n,
+  ///   far_X = sqrt(n) (1 + max_i ||F_i||_F) / gamma_f,               and at least 1,
+  ///   far_Y = n max_{i>0} (1 + |c_i|) / (1 + ||F_i||_F) / gamma_c,   and at least 1.
   double far_X = 1;
   double far_Y = 1;
   /// An i with F_i = 0 and c_i != 0, from 0: x = -sign(c_i) e_i is a certificate; or -1.

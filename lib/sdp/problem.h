@@ -1,7 +1,9 @@
 // A semidefinite program in the SDPA standard form:
 //   primal:  minimise c'x        subject to  X = sum_i x_i F_i - F_0 >= 0
 //   dual:    maximise F_0 . Y    subject to  F_i . Y = c_i (i = 1..m),  Y >= 0
-// over block-diagonal symmetric matrices; a diagonal block is a set of linear inequalities.
+// over block-diagonal symmetric matrices; a diagonal block is a set of linear inequalities. F . Y
+// is trace(F Y). For feasible x and Y weak duality says c'x - F_0 . Y = X . Y >= 0. Other rooms
+// state matrix inequalities as the primal and sums of squares as the dual.
 #pragma once
 
 #include <vector>
@@ -25,7 +27,7 @@ struct Block {
 /// ill posed problems have another answer without it. Arithmetics wider than double use value +
 /// rest, 100 digits also Problem::finer.
 struct Entry {
-  int block = 0;
+  int block = 0;  ///< index in Problem::blocks
   int row = 0;
   int column = 0;
   double value = 0;

@@ -22,6 +22,7 @@ constexpr Index kInner = 256, kRows = 10 * kTileRows;
 
 using Lanes = double __attribute__((vector_size(kVector * sizeof(double))));
 
+/// What becomes of C: A B, C + A B or C - A B.
 enum class Write { assign, add, subtract };
 
 /// Up to kVector numbers and zeros after them.
@@ -115,6 +116,8 @@ void multiply_columns(const double* a, const Right& b, Index inner, const View<d
   }
 }
 
+/// C = A B, C += A B or C -= A B: parts of the inner length, in each of them groups of rows of A
+/// that are packed once, then all columns of B against that group.
 void multiply_blocks(const View<const double>& a, const Right& b, const View<double>& c,
                      Write how) {
   static thread_local Eigen::VectorXd packed(kRows * kInner);

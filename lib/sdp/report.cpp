@@ -16,6 +16,7 @@ namespace {
 template <typename T>
 using Packed = std::vector<std::vector<T>>;
 
+/// Where (row, column) of a block is in the packing of BlockMatrix.
 std::size_t place(const Block& block, int row, int column) {
   return static_cast<std::size_t>(block.diagonal ? row : row + block.size * column);
 }
@@ -57,6 +58,7 @@ Packed<T> combine(const Problem& problem, const std::vector<T>& x, double tau) {
   return result;
 }
 
+/// lambda_min over all blocks, by an eigensolver in double.
 double rounded_eigenvalue(const Problem& problem, const Packed<double>& matrix) {
   double smallest = std::numeric_limits<double>::infinity();
   for (std::size_t b = 0; b < problem.blocks.size(); ++b) {
@@ -131,6 +133,7 @@ T dot(const Packed<T>& a, const Packed<T>& b) {
   return sum;
 }
 
+/// c_i in T.
 template <typename T>
 T cost(const Problem& problem, std::size_t i) {
   return coefficient<T>(problem.c[i], problem.c_rest.empty() ? 0 : problem.c_rest[i]);
@@ -144,6 +147,7 @@ T objective(const Problem& problem, const std::vector<T>& x) {
   return sum;
 }
 
+/// The doubles of numbers, and what rounding left of them (none in double).
 template <typename T>
 void split(const std::vector<T>& from, std::vector<double>& value, std::vector<double>& rest) {
   for (const T& v : from) {

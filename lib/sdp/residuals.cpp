@@ -20,6 +20,7 @@ Residuals<T>::Residuals(const Problem& problem, const Presolved& presolved)
   for (const double c : problem.c) largest_c_ = std::max(largest_c_, std::abs(c));
   for (const Entry& e : problem.f[0]) largest_f0_ = std::max(largest_f0_, std::abs(e.value));
   const auto& scales = presolved.recovery.s;
+  // From ||r_i gamma_c / s_i|| <= ||r|| gamma_c / min s_i.
   if (!scales.empty())
     dual_unit_ = (1 + largest_c_) * *std::min_element(scales.begin(), scales.end()) /
                  presolved.recovery.gamma_c;
@@ -35,6 +36,8 @@ void Residuals<T>::update(const Iterate<T>& point) {
   const T f0_y = apply(data, point.Y, products_);
 
   const double tau = static_cast<double>(point.tau);
+  // With x_i = gamma_f s_i x'_i, c_i = gamma_c c'_i / s_i, Y = gamma_c Y' (presolve.h) objectives
+  // have the unit gamma_c gamma_f, residuals of the dual equation i the unit gamma_c / s_i.
   const double unit = recovery.gamma_c * recovery.gamma_f / tau;
   T cx(0);
   double dual_square = 0, moved = 0, products = 0;
@@ -77,6 +80,7 @@ void Residuals<T>::update(const Iterate<T>& point) {
                   (1 + largest_c_);
 
   const double none = std::numeric_limits<double>::infinity();
+  // A*(x) = X + R + tau F_0 with X >= 0, so its negative part is within ||R|| + tau ||F_0||.
   const double ascent = dual_objective * tau, descent = -primal_objective * tau;
   primal_certificate = ascent > 0 ? products / ascent : none;
   dual_certificate =

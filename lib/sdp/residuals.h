@@ -12,6 +12,7 @@ class Residuals {
  public:
   Residuals(const Problem& problem, const Presolved& presolved);
 
+  /// Computes all members at `point`; A(Y) and A*(x) in T, the measures in double.
   void update(const Iterate<T>& point);
 
   Defect<T> defect;
@@ -46,7 +47,7 @@ class Residuals {
 
  private:
   const Presolved& presolved_;
-  double largest_c_, largest_f0_, norm_f0_, dual_unit_;
+  double largest_c_, largest_f0_, norm_f0_, dual_unit_;  ///< max|c|, max|F_0|, ||F_0||_F
   Vector<T> products_;
 };
 

@@ -17,6 +17,7 @@
 namespace gainsmith::sdp {
 namespace {
 
+/// The place of (row, column), row <= column, in an upper triangle packed by columns.
 std::size_t packed_index(int row, int column) {
   return static_cast<std::size_t>(column) * (static_cast<std::size_t>(column) + 1) / 2 +
          static_cast<std::size_t>(row);
@@ -85,6 +86,8 @@ Schur<T>::Schur(const Data& data, unsigned threads)
   scale_.setZero(m);
 }
 
+// Lists of many entries come first: the product U of one serves all that follow. Runs of one
+// formula become batches of kBatch lists, but by rows each list is its own.
 template <typename T>
 typename Schur<T>::Plan Schur<T>::plan_block(const BlockData& block, int n) const {
   std::vector<std::size_t> order;
@@ -127,6 +130,10 @@ void Schur<T>::append_list(const BlockData& block, std::size_t k, Plan& plan) co
   list.last = plan.terms.size();
 }
 
+// Costs, with f the terms of the lists that follow, s the rows of the cover and r the nonzero rows:
+//   dense  kProductCost n^3 + kPanelCost f
+//   rank   kProductCost n (n (2 s + kRankRest) + 2 nonzeros) + kPanelCost f
+//   rows   2 kDotCost r f + kPanelCost r n
 template <typename T>
 void Schur<T>::choose_formula(Plan& plan, double following, int n) const {
   List& list = plan.lists.back();
@@ -161,6 +168,7 @@ void Schur<T>::choose_formula(Plan& plan, double following, int n) const {
   plan.cost += cost;
 }
 
+// The largest that any list of any block needs, once for each thread.
 template <typename T>
 void Schur<T>::size_workspaces() {
   std::size_t product = 0, panel = 0, rank_rows = 0, rank = 0;
@@ -339,6 +347,7 @@ void Schur<T>::add_rows(const Plan& plan, std::size_t position, const ConstMatri
   }
 }
 
+// B_ij += sum_k F_i[k] F_j[k] y_k / x_k over the entries k of the linear part.
 template <typename T>
 void Schur<T>::add_linear(const ConstVectorMap<T>& inverse_x, const ConstVectorMap<T>& y) {
   for (std::size_t k = 0; k < columns_.size(); ++k) {
@@ -378,6 +387,7 @@ bool Schur<T>::factorise(const T& delta) {
   return cholesky(View<T>(factor_));
 }
 
+// x = D (D B D + delta I)^-1 D r with D = diag(B)^-1/2, the inverse by the factor.
 template <typename T>
 void Schur<T>::solve(const Vector<T>& r, Vector<T>& x) const {
   x = r.cwiseProduct(scale_);

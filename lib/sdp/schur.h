@@ -13,7 +13,8 @@
 namespace gainsmith::sdp {
 
 /// B_ij = F_i . (X^-1 F_j Y), i, j = 1..m, symmetric positive definite when the F_i are independent
-/// (Helmberg-Rendl-Vanderbei-Wolkowicz / Kojima-Shindoh-Hara / Monteiro direction).
+/// (Helmberg-Rendl-Vanderbei-Wolkowicz / Kojima-Shindoh-Hara / Monteiro direction). The linear part
+/// adds sum_k F_i[k] F_j[k] y_k / x_k.
 ///
 /// Within a dense block of n rows each F_i, in falling order of its nonzeros, takes the cheaper of
 ///   dense: U = X^-1 (F_i Y) by one matrix product for eight F_i at a time, then F_j . U for the

@@ -109,6 +109,7 @@ class Scanner {
   /// "=" may touch the number that a remark explains ("3=mDIM").
   static bool remark_follows(char c) { return c == '='; }
 
+  /// The text at the last number, up to 24 characters, for messages.
   std::string word() const {
     std::size_t end = token_;
     while (end < text_.size() && end < token_ + 24 && !is_space(text_[end]) && text_[end] != '\n')
@@ -135,6 +136,7 @@ class Scanner {
 // With M the digits as a whole number and P = 10^|e|: rest = (M - value P)/P or M P - value. Digits
 // beyond the thirtieth are below what double-double holds.
 double Scanner::rest() const {
+  // Where powers of ten leave the range, nothing is said of the rest.
   constexpr int kMostDigits = 30, kLargestExponent = 200;
   DoubleDouble mantissa(0);
   int digits = 0, exponent = 0;
@@ -163,6 +165,7 @@ double Scanner::rest() const {
     exponent += written;
   }
   if (std::abs(exponent) > kLargestExponent) return 0;
+  // 10^|e| by squaring.
   DoubleDouble power(1), square(10);
   for (int e = std::abs(exponent); e > 0; e /= 2, square *= square)
     if (e % 2 == 1) power *= square;
@@ -230,6 +233,7 @@ std::optional<NumberedEntry> read_entry(Scanner& in, const Problem& problem) {
   return result;
 }
 
+/// Entries are ordered, and the same, by their place alone.
 auto place_of(const Entry& e) { return std::tie(e.block, e.row, e.column); }
 
 bool before(const Entry& a, const Entry& b) { return place_of(a) < place_of(b); }

@@ -75,10 +75,14 @@ struct Solution {
   double primal_objective = 0;  ///< c'x, recomputed from the raw data
   double dual_objective = 0;    ///< F_0.Y, recomputed from the raw data
   double relative_gap = 0;      ///< (primal - dual) / (1 + |primal| + |dual|)
-  /// The six DIMACS errors, recomputed on the unscaled problem: 1 ||F_i.Y - c_i|| / (1 + max|c|),
-  /// 2 max(0, -lambda_min(Y)) / (1 + max|c|), 3 ||sum x_i F_i - F_0 - X||_F / (1 + max|F_0|),
-  /// 4 max(0, -lambda_min(X)) / (1 + max|F_0|), 5 gap, 6 X.Y / (1 + |primal| + |dual|); the
-  /// eigenvalues of 2 and 4 rounded up to a power of two.
+  /// The six DIMACS errors (Mittelmann 2003), recomputed on the unscaled problem:
+  ///   1  ||F_i.Y - c_i|| / (1 + max|c|)
+  ///   2  max(0, -lambda_min(Y)) / (1 + max|c|)
+  ///   3  ||sum x_i F_i - F_0 - X||_F / (1 + max|F_0|)
+  ///   4  max(0, -lambda_min(X)) / (1 + max|F_0|)
+  ///   5  relative_gap, with its sign
+  ///   6  X.Y / (1 + |primal| + |dual|)
+  /// with the eigenvalues of 2 and 4 rounded up to a power of two.
   std::array<double, 6> dimacs{};
   Certificate certificate;
 

@@ -8,6 +8,7 @@
 namespace gainsmith::sdp {
 namespace {
 
+/// One line an element of the upper triangles that is not 0, indices from 1.
 void append_entries(const Problem& problem, const BlockMatrix& matrix, int number,
                     std::string& text) {
   for (std::size_t b = 0; b < problem.blocks.size(); ++b) {
@@ -37,6 +38,7 @@ std::string braced(const double* first, std::size_t count, std::size_t stride) {
   return text + "}";
 }
 
+/// All blocks of a matrix, full rows, in SDPA's braces.
 std::string braced(const Problem& problem, const BlockMatrix& matrix) {
   std::string text = "{\n";
   for (std::size_t b = 0; b < problem.blocks.size(); ++b) {

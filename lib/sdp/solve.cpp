@@ -9,6 +9,7 @@ extern "C" const Variant v3_gainsmith_sdp;
 
 namespace {
 
+/// The code for x86-64-v3, unless isa() (base/isa.h) is x86-64-v2 or there is no such code.
 const Variant& variant() {
 #ifdef GAINSMITH_VARIANTS
   if (isa() != "v2") return v3_gainsmith_sdp;

@@ -40,7 +40,9 @@ int digits_of(const std::string& precision) {
   return digits;
 }
 
-/// What the run showed, judged on the raw problem alone.
+/// What the run showed, judged on the raw problem alone: a certificate only where its residual on
+/// the raw data is within certificate_tolerance, an optimum only where all DIMACS errors are within
+/// tolerance.
 template <typename T>
 Solution conclude(const Problem& problem, const Presolved& presolved, const Options& options,
                   const Ipm<T>& ipm, Cause cause) {
@@ -88,6 +90,9 @@ class Ladder {
   }
 
  private:
+  /// With more digits than double's asked for: one run in that arithmetic. Else double from `from`
+  /// or a far point, the program on a face (for "auto"), and the homogeneous model. For "auto" 31
+  /// and 100 digits follow as far as their cost permits.
   void rise(int digits, const Iterate<double>* from) {
     strict_ = digits > kDoubleDigits;
     if (digits > kQuadDigits) return rise_in<Decimal100>(kFarthest);
@@ -220,6 +225,8 @@ class Ladder {
   bool searched_ = false;  ///< the homogeneous model had its turn
 };
 
+/// One run, measured on the raw problem. best_ becomes its result where that decides or has the
+/// least error so far.
 template <typename T>
 void Ladder::run(Ipm<T>& ipm, Model model) {
   const double feasibility =
@@ -246,6 +253,8 @@ void Ladder::run(Ipm<T>& ipm, Model model) {
   best_.iterations = iterations_;
 }
 
+/// The program over Z is solved like any other, from the projection of the point. What it found
+/// counts only where it is optimal for the raw problem too.
 void Ladder::descend(const Ipm<double>& narrow) {
   if (over()) return;
   const auto face = find_face(problem_, presolved_, narrow.point());

@@ -1,4 +1,23 @@
-// The primal-dual interior-point solver.
+// The primal-dual interior-point solver for semidefinite programs in the form of problem.h.
+//
+// With A*(x) = sum_i x_i F_i and A(Y)_i = F_i . Y the optimality conditions are
+//   X = A*(x) - F_0 >= 0,   A(Y) = c,   Y >= 0,   X Y = 0.
+// Newton's method follows X Y = mu I, mu -> 0, in the HKM direction (newton.h), with Mehrotra's
+// predictor and corrector (ipm.h). It works on the problem at a fixed tau first, from a far point.
+// The homogeneous self-dual model runs where no solution is in sight. Double comes first; 31 and
+// 100 digits follow where they are affordable. A result is called optimal or infeasible only by
+// measures that are recomputed from the raw data (report.h).
+//
+// The files of this room:
+//   problem, solution, sdpa_file, solution_file   programs, results and their texts
+//   presolve, layout, linalg, data                the working problem, its scaling, A and A*
+//   iterate, residuals, ipm                       the point, its errors, the iteration
+//   newton, schur, mixed_schur, sparse_schur      Newton's equations and their matrix B
+//   factor, extreme, kernels, product, pairs      factors, step lengths, dense linear algebra
+//   exposure, face                                programs whose Y have no interior
+//   nearby                                        programs that rounding of the data spoiled
+//   matrix_*                                      programs whose variables are matrices
+//   report, forecast, work                        measures, memory, the count of operations
 #pragma once
 
 #include <functional>
@@ -9,17 +28,18 @@
 
 namespace gainsmith::sdp {
 
-/// One line of the progress table.
+/// One line of the progress table: the point before an iteration, in terms of the problem as given.
+/// Infeasibilities and the gap are those of residuals.h.
 struct Progress {
   int iteration = 0;
-  std::string precision;  ///< the arithmetic of this iteration
-  double primal_objective = 0;
-  double dual_objective = 0;
+  std::string precision;        ///< the arithmetic of this iteration
+  double primal_objective = 0;  ///< c'x
+  double dual_objective = 0;    ///< F_0.Y
   double relative_gap = 0;
   double primal_infeasibility = 0;
   double dual_infeasibility = 0;
-  double step_primal = 0;
-  double step_dual = 0;
+  double step_primal = 0;  ///< of (x, X), the step that led here, from 0 to 1
+  double step_dual = 0;    ///< of Y, the same
 };
 
 struct Options {

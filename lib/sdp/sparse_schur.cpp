@@ -34,6 +34,8 @@ std::vector<std::vector<int>> groups(const Data& data) {
 
 }  // namespace
 
+// Column by column the i >= j that share a group with j. Gives up where a group, or all columns,
+// have more entries than kDensest of the triangle.
 template <typename T>
 SparseSchur<T>::SparseSchur(const Data& data) {
   const int m = data.m();

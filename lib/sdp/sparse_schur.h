@@ -33,6 +33,7 @@ class SparseSchur {
 
  private:
   using Sparse = Eigen::SparseMatrix<T>;
+  /// Makes the pattern, where columns[j] are the rows i >= j of column j, increasing.
   void build(const std::vector<std::vector<int>>& columns);
 
   bool worthwhile_ = false;

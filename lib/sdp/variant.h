@@ -10,6 +10,7 @@
 
 namespace gainsmith::sdp {
 
+/// The entry points of one compiled variant; solve.cpp chooses one by the machine.
 struct Variant {
   Solution (*solve_scalars)(const Problem& problem, const Options& options);
   Solution (*solve_matrices)(const MatrixProgram& program, const MatrixOptions& options);

@@ -38,6 +38,7 @@ double Axis::fraction(double value) const {
 }
 
 Axis axis(double low, double high) {
+  // Two decades.
   constexpr double kWide = 100;
   return {low, high, low > 0 && high / low >= kWide};
 }

@@ -1,4 +1,14 @@
-// A range of one scalar, on a linear or logarithmic scale.
+// Searches over a few scalars, where each value is expensive, such as the optimum of a semidefinite
+// program.
+//
+//   bisect.h        the largest or smallest value of one scalar with the answer yes
+//   minimize.h      the least value of a function of a few, which may have no value at a point
+//   optimizers.h    what NLopt (nlopt.h: Nelder & Mead 1965, Powell's BOBYQA 2009, Price 1983)
+//                   and Ipopt (ipopt.h: Waechter & Biegler 2006) do for them
+//   known_values.h  answers that are kept from search to search
+// Nothing here knows of inequalities. All searches are deterministic, for any number of threads.
+//
+// In this file: a range of one scalar, on a linear or logarithmic scale.
 #pragma once
 
 #include <vector>
@@ -12,6 +22,7 @@ struct Axis {
 
   /// The value at a fraction of the range, from low (0) to high (1), on the axis's scale. The ends
   /// are exact.
+  /// low + f (high - low), or low (high/low)^f.
   double at(double fraction) const;
   /// The inverse of at(): the fraction of a value, within [0, 1].
   double fraction(double value) const;

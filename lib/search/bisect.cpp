@@ -31,6 +31,7 @@ class Halving {
 
   double sign() const { return options_.largest ? 1.0 : -1.0; }
 
+  /// False, and nothing is asked, when evaluations are used up or everything stops.
   bool ask(double value) {
     if (std::ssize(answers_) >= options_.evaluations) return false;
     try {
@@ -43,6 +44,7 @@ class Halving {
     return true;
   }
 
+  /// The first values, and the one that is known.
   bool spread() {
     for (const double value : points_on(axis_, std::max(2, options_.spread)))
       if (!ask(value)) return false;
@@ -69,6 +71,7 @@ class Halving {
     return true;
   }
 
+  /// end() where no answer is yes.
   Answers::const_iterator outermost_yes() const {
     const auto found = std::find_if(answers_.rbegin(), answers_.rend(),
                                     [](const auto& item) { return item.second == Answer::yes; });
@@ -109,6 +112,7 @@ class Halving {
     return middle(std::prev(no)->first, no->first);
   }
 
+  /// The bracket of the answers so far.
   Bisection result(bool finished) const {
     Bisection found;
     found.finished = finished;

@@ -98,7 +98,9 @@ struct Free {
 };
 using Problem = std::unique_ptr<std::remove_pointer_t<IpoptProblem>, Free>;
 
+/// c(v) = 0 as lower and upper bounds 0 of all constraints.
 Problem problem_of(const SmoothProgram& program) {
+  // Beyond 1e19 Ipopt takes a bound for none.
   constexpr double kIpoptInfinity = 2e19;
   constexpr Index kFromZero = 0;
   std::vector<double> low = program.low;

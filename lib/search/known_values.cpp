@@ -12,6 +12,7 @@ KnownValues::Value KnownValues::value(const std::string& function, const std::ve
     const std::scoped_lock lock(mutex_);
     if (const auto known = values_.find(key); known != values_.end()) return known->second;
   }
+  // Not under the lock: several threads may ask the same at once, and the first answer stays.
   const Value found = ask();
   const std::scoped_lock lock(mutex_);
   if (values_.emplace(std::move(key), found).second && grown) grown();

@@ -38,6 +38,8 @@ class Search {
   }
 
  private:
+  /// The grid, a feasible point where it has none, then local searches from up to three starts,
+  /// each with an equal share of the evaluations that are left.
   void search() {
     std::vector<Trial> trials = spread();
     if (found_.feasible == 0 && options_.violation && may_go_on()) approach(trials);
@@ -57,6 +59,7 @@ class Search {
         1, static_cast<int>(std::pow(third, 1.0 / static_cast<double>(axes_.size())) + 1e-9));
   }
 
+  /// From fractions of the axes to values.
   Point point(const Point& unit) const {
     Point result(axes_.size());
     for (std::size_t i = 0; i < axes_.size(); ++i) result[i] = axes_[i].at(unit[i]);
@@ -175,6 +178,7 @@ class Search {
     return starts;
   }
 
+  /// One local search in the unit box, an infeasible point counting as `penalty_`.
   void descend(const Point& start, int share) {
     const auto function = [&](const Point& unit) {
       const auto value =

@@ -35,7 +35,7 @@ struct MinimizeOptions {
 
 struct Minimum {
   std::optional<Point> point;  ///< none when no point was feasible
-  double value = 0;
+  double value = 0;            ///< at `point`
   int evaluations = 0;
   int feasible = 0;       ///< of the evaluations
   bool finished = false;  ///< not stopped

@@ -80,6 +80,7 @@ double evaluate(unsigned count, const double* x, double*, void* data) {
   }
 }
 
+/// One run of an algorithm in the unit box; what it finds is in `run`.
 void search(nlopt_algorithm algorithm, Run& run, std::vector<double> start, double step) {
   const LocalSearchOptions& options = run.options;
   if (run.stopped || run.evaluations >= options.evaluations) return;

@@ -78,6 +78,8 @@ void Branches::update_one(std::size_t k, VectorXd& values) {
   }
 }
 
+/// Two cheap tests exclude most elements: an interval over the whole step, and a parabola through
+/// three of its points where D is slow.
 std::optional<Branches::Change> Branches::first_change(const StepValues& inside,
                                                        const VectorXd& values) {
   std::optional<Change> first;
@@ -128,6 +130,8 @@ std::optional<Branches::Change> Branches::change_of(std::size_t one, Index eleme
   // No pair of roots hides between points of a D that is far from 0 at all of them.
   if (!watch_->switches[one].waves() && least > (largest - least) / ode::kFar) return std::nullopt;
   ode::Found found = on_step.crossings->roots(element, branch < 0);
+  // D is asked at sample points and between neighbouring roots: between two of these its sign is
+  // one.
   std::vector<double> places(times.begin(), times.end());
   for (std::size_t k = 0; k + 1 < found.roots.size(); ++k)
     places.push_back((found.roots[k].right + found.roots[k + 1].left) / 2);

@@ -48,7 +48,9 @@ class Branches {
 
  private:
   struct OnStep;
+  /// Sets H of one switch: the sign of D, of a kink that of before where D is rounding.
   void update_one(std::size_t one, Eigen::VectorXd& values);
+  /// The first change of one element from `branch`; none where D stays on its side up to the slack.
   std::optional<Change> change_of(std::size_t one, Eigen::Index element, double branch,
                                   OnStep& on_step);
 

@@ -31,6 +31,8 @@ constexpr std::array<double, 2> check_points = {-0.617, 0.443};
 
 }  // namespace
 
+/// With c_k the series of degree 4, |c_0| > sum_(k >= 1) |c_k| + kFar error + noise excludes a
+/// root, since |T_k| <= 1. The error is seen at two more points and in the last two coefficients.
 bool seems_apart(hybrid::EventFunction& function, const StepValues& inside, double near) {
   constexpr int few = 4;
   if (!function.breaks().none()) return false;
@@ -68,6 +70,7 @@ CrossingsOnStep::CrossingsOnStep(hybrid::EventFunction& function, const StepValu
       used_(inside, function.elements()),
       values_(function.size(), static_cast<Index>(times.size())),
       is_known_(times.size(), false) {
+  // kTermRounding times the largest terms at the start, the middle and the end.
   noise_ = function.terms(used_.at(times.front())).reshaped();
   for (const double t : {times[times.size() / 2], times.back()})
     noise_ = noise_.cwiseMax(function.terms(used_.at(t)).reshaped());
@@ -104,6 +107,8 @@ RowVectorXd CrossingsOnStep::on_points(Index element) {
   return values;
 }
 
+/// The root of g' in the first kEarly of the step, by bisection of the derivative of an
+/// interpolant.
 std::optional<double> CrossingsOnStep::hidden_turn(Index element) {
   const double noise = noise_(element);
   if (!(std::abs(value(element, inside_.from())) <= noise) || !breaks_.empty()) return std::nullopt;
@@ -125,6 +130,7 @@ std::optional<double> CrossingsOnStep::hidden_turn(Index element) {
   return std::max((1 + high) / 2, earliest);
 }
 
+/// g'(from), as long as |g'| (t - from) is below kPlain times the rounding.
 double CrossingsOnStep::hidden_slope(Index element, double t) {
   const double from = inside_.from();
   const double x = 1 + ode::chebyshev::inner(t, from, inside_.to());
@@ -135,6 +141,7 @@ double CrossingsOnStep::hidden_slope(Index element, double t) {
   return std::abs(first) > noise && std::abs(first) * x <= noise ? first : 0;
 }
 
+/// Bisection between the last sample within twice the noise and the first beyond it.
 std::optional<double> CrossingsOnStep::leaves_zero(Index element, double rounding) {
   double low = inside_.from();
   if (!(std::abs(value(element, low)) <= std::max(noise_(element), rounding))) return std::nullopt;

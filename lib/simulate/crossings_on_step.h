@@ -1,4 +1,8 @@
 // The zero crossings of one event function on a step, of all its elements.
+//
+// Roots of g(t) = e(x(t)) with x a Chebyshev series: ode/roots.h finds them on the pieces between
+// breaks of e. At the start of a flow g is often 0 but for rounding, as after a jump at its root.
+// There the sign of g says nothing, and its slope decides (hidden_turn, hidden_slope, leaves_zero).
 #pragma once
 
 #include <Eigen/Core>

@@ -78,6 +78,7 @@ void DueEvents::note_sign(std::size_t event, const VectorXd& values, double t) {
   mark.since = noise ? t : Mark().since;
 }
 
+/// The clock goes on; `when` waits until its condition has been false.
 void DueEvents::spend(std::size_t event, double t, VectorField& field) {
   marks_[event].spent = system_->dynamics.events[event].kind == DueKind::when;
   marks_[event].crossed = false;

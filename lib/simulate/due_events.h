@@ -1,4 +1,8 @@
 // Which event of a System is due (simulator.h says when).
+//
+// One mark an event holds what its past says: whether an occurrence is spent, and the last certain
+// sign of e. A crossing is a change of that sign in the wanted direction. Rounding that leads back
+// over the root is none.
 #pragma once
 
 #include <Eigen/Core>
@@ -43,8 +47,11 @@ class DueEvents {
   void set_marks(const std::vector<Mark>& marks) { marks_ = marks; }
 
  private:
+  /// Updates the mark of the event; clocks may be early by rounding at the horizon.
   bool is_due(std::size_t event, const Eigen::VectorXd& values, double t);
+  /// 1, 0 or -1.
   int sign_of(std::size_t event, const Eigen::VectorXd& values);
+  /// Sets `crossed` where the sign of e has changed for sure in the direction of the event.
   void note_sign(std::size_t event, const Eigen::VectorXd& values, double t);
 
   const hybrid::System* system_;

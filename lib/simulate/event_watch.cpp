@@ -21,6 +21,8 @@ double line_root(const std::function<double(double)>& g, bool strict, double t, 
   const double first = g(t);
   const double end = g(last);
   if (side(first) == side(end) || first == end) return last;
+  // The secant is exact for a line. Rounding may put it on the near side: steps of 1, 2, 4, ...
+  // units follow.
   double root = std::clamp(t + (last - t) * (first / (first - end)), std::nextafter(t, last), last);
   double unit = std::max(std::abs(root), last - t) * std::numeric_limits<double>::epsilon();
   while (root < last && side(g(root)) == side(first)) {
@@ -114,6 +116,7 @@ bool EventWatch::is_noise(std::size_t event, const VectorXd& values) {
          std::abs((*crossing[event])(values)(0)) <= rounding_[event];
 }
 
+/// The time of an instant rounds too, and e moves by its rate in that time.
 bool EventWatch::may_be_noise(std::size_t event, const VectorXd& values) {
   return is_noise(event, values) ||
          std::abs((*crossing[event])(values)(0)) <= rounding_[event] + time_rounding_[event];

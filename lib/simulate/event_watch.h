@@ -1,4 +1,7 @@
 // The texts of a System that decide when something happens, and their zero crossings on a step.
+//
+// Each text is an EventFunction whose sign decides. A condition that no flow can change from these
+// values on is left out (at_rest), and so is a function that an interval holds away from 0.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,6 +18,7 @@ namespace gainsmith::simulate {
 
 class EventWatch {
  public:
+  /// A condition under `while`, and what a run says that ends there.
   struct FlowSet {
     hybrid::EventCondition where;
     std::string say;
@@ -68,7 +72,9 @@ class EventWatch {
   };
   using Visit = std::function<void(hybrid::EventFunction&, Sides, const Role&)>;
 
+  /// Visits all functions that may decide something in a flow from these values.
   void active_functions(const Eigen::VectorXd& values, const Visit& visit);
+  /// The moving comparisons of a condition that is not decided by what rests.
   static void comparisons_of(const Role& role, const Eigen::VectorXd& values, const Visit& visit);
   static bool decides(const Role& role, const Eigen::VectorXd& values);
 

@@ -46,6 +46,7 @@ WideMatrix short_step(const std::vector<WideMatrix>& terms, const DoubleDouble& 
   return sum;
 }
 
+/// Steps of the lengths 2^k s_0; level k holds the maps of that length.
 class ExactFlow : public Flow {
  public:
   ExactFlow(VectorField& field, double longest, const LastPlaces* moved)
@@ -105,6 +106,7 @@ class ExactFlow : public Flow {
     table_ = known;
   }
 
+  /// G by values: its last column is y'(0, 0), the others y'(unit vector) - y'(0, 0).
   std::shared_ptr<ode::ExponentialTable> make_table() {
     const auto& inputs = field_->linear_inputs();
     const Index n = field_->size();
@@ -129,6 +131,8 @@ class ExactFlow : public Flow {
     return made;
   }
 
+  /// s_0 = min(top, 1/(2 |G|)), |G| the 1-norm of the balanced matrix; top = 1/w or the longest
+  /// step.
   void set_lengths(ode::ExponentialTable& table) const {
     const Index n = size_ - 1;
     const Matrix M = table.generator.topLeftCorner(n, n);
@@ -160,6 +164,7 @@ class ExactFlow : public Flow {
     return std::max(exponent, -most_doublings);
   }
 
+  /// The maps at the Chebyshev points; those of level k > 0 are squares of those of level k - 1.
   const Level& level_at(int number) {
     const auto known = table_->levels.find(number);
     if (known != table_->levels.end()) return known->second;
@@ -183,6 +188,8 @@ class ExactFlow : public Flow {
     return table_->levels.emplace(number, std::move(level)).first->second;
   }
 
+  /// The Chebyshev coefficients of y, n x at most 13. `agrees`: the last two are rounding of the
+  /// terms.
   Matrix series_over(const Level& level, bool& agrees) {
     const Index n = field_->size();
     Matrix values(n, exact_degree + 1);
@@ -208,6 +215,7 @@ class ExactFlow : public Flow {
   }
 
   /// What rests is not moved.
+  /// Adds a line from 0 at the start of the step to the move at its end.
   void move(Matrix& series) {
     moves_ = VectorXd::Zero(series.rows());
     for (Index k = 0; k < series.rows(); ++k) {
@@ -231,6 +239,7 @@ class ExactFlow : public Flow {
     return step;
   }
 
+  /// The part of a step up to `last`, from the polynomial of the whole.
   hybrid::DenseStep last_step(const Level& level, const Matrix& series, double end) {
     const double inside = 2 * ((last_ - t_ - late_) / level.length) - 1;
     const Matrix part = end == last_ ? series : ode::chebyshev::part(series, -1, inside);

@@ -19,6 +19,7 @@
 
 namespace gainsmith::simulate {
 
+/// The error of a step may be relative |x| + absolute, element by element.
 struct Accuracy {
   double relative = 1e-10;
   double absolute = 1e-10;

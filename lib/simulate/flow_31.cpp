@@ -13,6 +13,8 @@ namespace {
 /// Of the polynomials, as many as the steps have stages.
 constexpr int kDegree = 16;
 
+/// The terms of a step of length h go like h^16. The next length is 0.9 h terms^(-1/16) times the
+/// share, at most twice h. A step whose terms are above 1 is taken again.
 class Flow31 : public Flow {
  public:
   Flow31(VectorField& field, State31& state, double longest, double share)
@@ -34,6 +36,7 @@ class Flow31 : public Flow {
     for (int k = 0; k < kMostTries; ++k) {
       if (++steps_ > most_) break;
       const double rest = last_ - from;
+      // Two last steps of equal length, in place of a long one and a tiny one.
       const double length = wanted_ >= rest ? rest : std::min(wanted_, rest / 2);
       t_ = length == rest ? last_ : from + length;
       const double terms = state_->step(t_);
@@ -54,8 +57,11 @@ class Flow31 : public Flow {
   }
 
  private:
+  /// Of one step.
   static constexpr int kMostTries = 100;
 
+  /// The polynomial of degree 16 in double, of what changes since the start: so its rounding is
+  /// small.
   hybrid::DenseStep dense(double from) const {
     const Eigen::VectorXd& points = ode::chebyshev::points(kDegree);
     const numbers::Matrix all = state_->along((points.array() + 1) / 2);

@@ -1,5 +1,7 @@
 // The conditions under `while`, the flow sets, along one run: each has to remain true in a flow once
 // it has been true there.
+//
+// A run that leaves its flow set without a jump that is due has no continuation, and ends.
 #pragma once
 
 #include <Eigen/Core>

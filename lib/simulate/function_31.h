@@ -1,4 +1,7 @@
 // Texts of a System in 31 digits, where each number of a text enters as its decimals.
+//
+// 31 digits are pairs of doubles (double-double). Evaluation is operation by operation, without
+// code that is compiled.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,6 +18,7 @@ using Values31 = Eigen::Matrix<DoubleDouble, Eigen::Dynamic, 1>;
 using Matrix31 = numbers::MatrixOf<DoubleDouble>;
 using Constants31 = numbers::ValuesOf<DoubleDouble>;
 
+/// The nearest doubles: the leading parts.
 inline Eigen::VectorXd rounded(const Values31& x) {
   return x.unaryExpr([](const DoubleDouble& one) { return one.hi(); });
 }

@@ -1,4 +1,7 @@
 // Flows that are integrated (flow.h).
+//
+// A step of the integrator has a polynomial of its own, of some degree. Its values at degree + 1
+// Chebyshev points give the same polynomial as a Chebyshev series.
 #pragma once
 
 #include <memory>

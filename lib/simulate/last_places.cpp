@@ -11,7 +11,8 @@ namespace gainsmith::simulate {
 
 namespace {
 
-/// More than what one result rounds: a twin is to differ by more than the errors that it shows.
+/// More than what one result rounds, relative to the terms: the perturbed run is to differ by more
+/// than the errors that it shows.
 constexpr double size_of_move = hybrid::kTermRounding / 4;
 
 }  // namespace

@@ -27,6 +27,7 @@ class MeasuredRows {
   bool leave(double t, Eigen::VectorXd& values);
 
  private:
+  /// One series and where its values are in the vector of the run.
   struct Quantity {
     const model::Dynamics::Measured* measured;
     Eigen::Index value;                ///< its first element among the values

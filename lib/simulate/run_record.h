@@ -1,4 +1,7 @@
 // What a run leaves while it is made.
+//
+// Steps are added to the open flow; flow_ends() closes it as one FlowPiece. Notes are limited to
+// kInARow, jumps and numbers by RecordLimits.
 #pragma once
 
 #include <Eigen/Core>
@@ -31,6 +34,7 @@ class RunRecord {
   void add(const hybrid::DenseStep& step, const Eigen::VectorXd& end);
   /// The flow that is open; without steps none is.
   const hybrid::FlowPiece& flow() const { return piece_; }
+  /// Closes the open flow; nothing where no step was added.
   void flow_ends();
   /// Where the flow that is open ended is known better.
   void ended_at(const Eigen::VectorXd& end) { end_ = end; }
@@ -48,6 +52,7 @@ class RunRecord {
   void add(const hybrid::NearTurn& turn) { result_.turns.push_back(turn); }
   void accumulates(double t) { result_.accumulation = t; }
 
+  /// The solution up to `end`; the record is empty afterwards.
   hybrid::Trajectory take(double end);
   /// With its cause; `why` is without time and place of the run.
   void ends(hybrid::Ending ending, const std::string& why, double t, std::int64_t j);

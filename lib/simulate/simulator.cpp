@@ -40,6 +40,7 @@ struct Simulator::Texts {
 
 namespace {
 
+/// One run: the state t, j, values, and what its parts remember.
 class EventRun {
  public:
   EventRun(const hybrid::System& system, const hybrid::Scenario& scenario, VectorField& field,
@@ -100,6 +101,7 @@ class EventRun {
 
   // --- The start and the end. ---
 
+  /// t = 0, j = 0: noise, rows, clocks and branches at the start.
   void begin() {
     field_.reset();
     for (std::size_t k = 0; k < system_.noise.size(); ++k) noise_.draw(k, values_);
@@ -116,6 +118,7 @@ class EventRun {
 
   VectorXd variables(const VectorXd& values) const { return values.head(system_.size); }
 
+  /// RunEnd where a variable is beyond kLargestState or no number.
   void require_range() const {
     for (Index k = 0; k < system_.size; ++k)
       if (!(std::abs(values_(k)) <= hybrid::kLargestState))
@@ -125,11 +128,13 @@ class EventRun {
 
   // --- Instants. ---
 
+  /// Jumps, one after the other, until no event is due. Which flow sets hold is noted for the flow.
   void instant() {
     while (const auto event = due_.first(values_, t_)) occurrence(*event);
     flow_sets_.begin(values_);
   }
 
+  /// Draws the noise of the event; then `if` decides between a jump and a spent occurrence.
   void occurrence(std::size_t event) {
     const auto& noise = system_.dynamics.noise;
     for (std::size_t k = 0; k < noise.size(); ++k)
@@ -144,6 +149,7 @@ class EventRun {
     branches_.update(values_);
   }
 
+  /// x+ = g(x) at t, j + 1. Clocks and marks follow; the record takes the values before and after.
   void jump(std::size_t event) {
     check_stop();
     if (chain_ == 0) watch_zeno(event);
@@ -180,6 +186,7 @@ class EventRun {
     record_.ended_at(variables(values_));
   }
 
+  /// RunEnd that names the events and the condition that stays true.
   [[noreturn]] void end_chain(std::size_t event) {
     const std::string names = record_.last_events();
     record_.shorten_chain(hybrid::kMost);
@@ -202,6 +209,7 @@ class EventRun {
                     hybrid::kMost, names, one.name, value, RunRecord::kept_of_chain, cure));
   }
 
+  /// RunEnd where the flow that this event ends is one of flows that accumulate or chatter.
   void watch_zeno(std::size_t event) {
     const hybrid::FlowPiece& flow = record_.flow();
     if (flow.steps.empty()) return;
@@ -229,6 +237,7 @@ class EventRun {
 
   // --- Flows. ---
 
+  /// One flow from t up to the first of horizon, clock, noise, row and line, or to an event before.
   void flow() {
     if (rows_.leave(t_, values_)) {
       if (state_ != nullptr) state_->adopt_given(values_, false);

@@ -21,6 +21,19 @@
 //
 // Between zero crossings `where`, `sign`, `abs`, `max` and `min` in a flow keep their branch
 // (hybrid/switches.h, branches.h); where one changes the flow starts again with the new branch.
+//
+// A solution is a hybrid arc (Goebel, Sanfelice & Teel 2012). One round of a run, with x = values:
+//
+//   instant()   while an event is due: x = g(x), j + 1
+//   flow()      stop = the earliest clock, noise, row of data, line or horizon
+//               while t < stop and nothing happens: one step with dense output; its first event,
+//               change of a branch or end of a flow set cuts it off there
+//
+//   due_events, event_watch, crossings_on_step    which event is due, and zero crossings
+//   flow, exact_flow, integrated_flow, flow_31    the steps of flows
+//   vector_field, step_values   x' and the values on a step
+//   branches, sliding           switches of the flow
+//   flow_sets, jump_maps, measured_rows, last_places, state_31, run_record    the rest
 #pragma once
 
 #include <cstdint>
@@ -49,7 +62,8 @@ class Simulator {
   /// a mode that is no whole number.
   /// Accuracy::in_31_digits: of systems that may run so (state_31.h) alone; a run that cannot be
   /// followed so is lost.
-  /// `moved`: which of its twins it is, moved in the last places (last_places.h); none: the run.
+  /// `moved`: the number of a perturbed run, moved in the last places (last_places.h). None: the
+  /// run itself.
   hybrid::Trajectory run(std::uint64_t seed, std::uint64_t run, const Accuracy& accuracy = {},
                          const RecordLimits& limits = {}, std::optional<std::uint64_t> moved = {});
 

@@ -4,6 +4,9 @@
 //   within noise  100 switches of one branch in a row, without a jump between them, between which
 //                 what it branches on never leaves the error of the integration: of x' = -sign(x)
 //                 sqrt(abs(x)) after it has come to 0
+//
+// A run has one branch at a time. It does not follow the sliding mode of Filippov 1988, a mean of
+// both branches along D = 0, but ends with the place of the switch.
 #pragma once
 
 #include <Eigen/Core>
@@ -29,7 +32,9 @@ class SlidingDetector {
   void switched(std::size_t branch, double t, const Eigen::VectorXd& values);
 
  private:
+  /// |D| since the last switch <= absolute + relative * terms.
   bool is_noise(const Eigen::VectorXd& values);
+  /// RunEnd that names the switch and its place.
   [[noreturn]] void end(std::size_t branch) const;
 
   const hybrid::System* system_;

@@ -6,6 +6,11 @@
 //            strikes, the values are moved along the flow to the time at which that is so in 31 digits
 //
 // Every number of a text enters as its decimals; what is drawn is the double that it is.
+//
+// A step solves K_i = f(x + h sum_j a_ij K_j), i = 1, ..., 16. First fixed-point iteration in
+// double finds K to 16 digits; then each correction d = r + h J (d A') of the residual r in 31
+// digits adds some 7 digits, with J by differences in double. The last two of the Legendre
+// coefficients of x' on the step say how long a step may be.
 #pragma once
 
 #include <cstdint>
@@ -53,7 +58,7 @@ class State31 {
   void arrive(double to);
 
   /// An event is due: goes to the time at which it is. `by_flow`: the flow has led to it. Where that
-  /// time is not certain, a twin is moved by the last places of a double.
+  /// time is not certain, a perturbed run is moved by the last places of a double.
   void meet(std::size_t event, EventWatch& watch, const Eigen::VectorXd& values,
             const hybrid::EventClocks& clocks, bool by_flow);
   /// The same of a switch whose branch changes along the flow.
@@ -62,11 +67,13 @@ class State31 {
   void jumped(std::size_t event, const Values31& after, const hybrid::EventClocks& clocks);
 
  private:
+  /// x' of one variable, by its text.
   struct Rate {
     std::size_t variable = 0;
     Function31 value;
     bool rests = false;  ///< its component is frozen
   };
+  /// t, since(event) or event.left: a line of slope 1 or -1.
   struct Clock {
     Eigen::Index element = 0;
     model::Dynamics::VariableKind kind{};
@@ -76,17 +83,23 @@ class State31 {
 
   void add_clocks(std::size_t event);
   Values31 start_of(std::uint64_t run, const Eigen::VectorXd& values);
+  /// x' of all elements: 0 of what rests, 1 or -1 of clocks.
   void rates(const Values31& x, Values31& rate);
+  /// Whether the time of the event is certain in 31 digits; then the values are those there.
   bool goes_to(std::size_t event, EventWatch& watch, const Eigen::VectorXd& values,
                const hybrid::EventClocks& clocks, bool by_flow);
+  /// Moves states of a perturbed run by `part` of the last places of a double.
   void move(double part);
   void blur() { move(1); }
   bool solve_in_double();
   double residual(Matrix31& residual);
   void correct(const Matrix31& residual);
+  /// The time of a clock in 31 digits that is nearest to the rounded one.
   DoubleDouble due(std::size_t event, double rounded) const;
   void fill_clocks(const hybrid::EventClocks& clocks);
+  /// Along the flow by a small time, by the midpoint rule: the error is of order by^3.
   void shift(const DoubleDouble& by);
+  /// Newton steps to the root of a guard along the flow, by differences. False where none is near.
   bool shift_to_root(const Guard& guard);
 
   const hybrid::System* system_;

@@ -9,6 +9,8 @@
 namespace gainsmith::simulate {
 
 /// All values at times of one step.
+/// x(t) for t in [from, to]: the start exactly, else the Chebyshev series and the lines of what is
+/// steady.
 class StepValues {
  public:
   /// `start`: the values at step.from, which a jump may have left at a zero crossing.

@@ -6,6 +6,9 @@
 //   value(t) = max(base + rate*(t - time), least)
 //
 // whose base is kept over events that leave it alone, so that no rounding adds up.
+//
+// A symmetric n x n state has n (n + 1)/2 elements of y; its rate enters as (M + M')/2. A frozen
+// component has the rate 0.
 #pragma once
 
 #include <Eigen/Core>
@@ -38,6 +41,7 @@ class VectorField {
 
   /// Of y.
   Eigen::Index size() const { return static_cast<Eigen::Index>(elements_.size()); }
+  /// y of all values, and below the values with y in place.
   Eigen::VectorXd gathered(const Eigen::VectorXd& values) const;
   void spread(const Eigen::VectorXd& y, Eigen::VectorXd& values) const;
   /// y' at (t, y). EvaluationError where it has no value.
@@ -89,13 +93,18 @@ class VectorField {
 
   void add_flow(std::size_t flow);
   void note_inputs(const std::vector<const expr::Program*>& programs);
+  /// Whether all rates are affine in the flowing and steady variables together with this one.
   bool is_affine_in(std::size_t variable, const std::vector<const expr::Program*>& programs) const;
   void add_linear_inputs(std::size_t variable);
   Line& clock(std::size_t variable);
+  /// The rate with fixed branches; where it has no value, with free ones.
   static const numbers::Matrix& text_of(Entry& entry, const Eigen::VectorXd& values);
   const numbers::Matrix& value_of(Entry& entry, const Eigen::VectorXd& values);
+  /// Starts a new line at t where its rate or its value has changed.
   void set_steady(Entry& entry, double t);
+  /// InputError where the asymmetry is above kMeantEqual of the largest rate so far.
   void require_symmetric(Entry& entry, const numbers::Matrix& rate);
+  /// y' at values_.
   void rates(Eigen::VectorXd& rate);
   void set_lines(hybrid::DenseStep& step) const;
 

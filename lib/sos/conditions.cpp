@@ -13,6 +13,8 @@ namespace gainsmith::sos {
 using Eigen::Index;
 using numbers::RationalMatrix;
 
+// Elimination from the last column on: u come first, so an equation whose last column is one of u
+// is a combination without t and Gram matrices.
 std::vector<Equation> conditions_on_unknowns(const Program& program) {
   std::vector<Equation> result;
   std::map<int, Pivot> pivots;
@@ -34,6 +36,7 @@ std::optional<std::vector<Rational>> decimals_near(const std::vector<double>& u,
   const auto all = numbers::Vector::Map(u.data(), std::ssize(u));
   if (!all.allFinite()) return std::nullopt;
   constexpr int kDigits = 14;
+  // Whole multiples X of 1/unit with A X = b unit, near u unit.
   const Rational unit = power_of_ten(decimals_for(all.lpNorm<Eigen::Infinity>(), kDigits));
   const auto rows = static_cast<Index>(conditions.size());
   RationalMatrix A = RationalMatrix::Zero(rows, std::ssize(u)), b(rows, 1);

@@ -48,6 +48,7 @@ std::optional<Number> value_at(const Terms<Number>& polynomials, const std::vect
 
 /// Steps along the axes, longer after one that leads down and otherwise half as long, until p < 0.
 void descend(const Terms<double>& p, std::vector<double>& x) {
+  // Lengths of steps at which the descent ends.
   constexpr double kShort = 1e-9, kFar = 1e6;
   auto value = value_at(p, x);
   for (double length = 1; value && *value >= 0 && length > kShort && length < kFar;) {
@@ -91,10 +92,12 @@ std::optional<Counterexample> find_counterexample(const Statement& statement) {
   for (std::uint64_t start = 0; start < kStarts; ++start) {
     check_stop();
     RandomStream stream(1, start);
+    // Starts in cubes about 0 whose sides are 0.2 to 20.
     const double size = std::pow(10, 2 * stream.uniform() - 1);
     std::vector<double> x(n + (rows > 1 ? rows : 0));
     for (double& at : x) at = size * (2 * stream.uniform() - 1);
     descend(near, x);
+    // The shortest decimals at which p < 0 holds in fractions.
     for (const int decimals : {0, 1, 2, 4, 8}) {
       std::vector<Rational> point;
       for (const double at : x) point.push_back(rounded_to(Rational(at), decimals));

@@ -24,7 +24,7 @@ std::optional<std::vector<Rational>> decimals_of(const Program& program, const P
   return result;
 }
 
-/// Of a solution that lies a little above a minimum.
+/// The tolerance of the solver for a solution that lies a little above a minimum.
 constexpr double kTight = 1e-12;
 
 class Deciding {
@@ -34,6 +34,8 @@ class Deciding {
     result_.program = std::move(program);
   }
 
+  /// With a level: one solve in double. Else the program as it is, and then on the face of the last
+  /// point, until an identity is shown, solutions are excluded or no smaller face is found.
   Decision take() {
     if (level_) {
       sdp::Options narrow = options_;
@@ -42,6 +44,7 @@ class Deciding {
       if (const auto point = solve(true, narrow)) is_shown(*point);
       return std::move(result_);
     }
+    // Programs that are solved: the whole one, and faces of faces.
     constexpr int kMostFaces = 5;
     for (int face = 0; face < kMostFaces; ++face) {
       const auto point = solve(face == 0, options_);
@@ -56,7 +59,8 @@ class Deciding {
   }
 
  private:
-  /// A point of the program as it is; `is_whole`: on no face, so that moments exclude all solutions.
+  /// A point of the program as it is; `is_whole`: on no face, so that moments exclude all
+  /// solutions.
   std::optional<Point> solve(bool is_whole, const sdp::Options& options) {
     std::vector<Equation> equations = equations_of(result_.program);
     if (level_) equations.push_back(*level_);
@@ -88,6 +92,7 @@ class Deciding {
     return point_of(result_.program, eliminated, posed, result_.solution);
   }
 
+  /// Is there an identity near the point, with decimals for u? Keeps it.
   bool is_shown(const Point& point) {
     const auto u = decimals_of(result_.program, point);
     if (!u) return false;
@@ -98,7 +103,10 @@ class Deciding {
     return true;
   }
 
+  /// The face of a point in 31 digits, which shows kernels of longer fractions. Not of programs
+  /// with many equations, where that would take long.
   std::optional<Program> restricted_in_more_digits() {
+    // With more of them 31 digits take too long.
     constexpr int kMostEquations = 400;
     sdp::Options wide = options_;
     wide.precision = "quad";

@@ -17,7 +17,8 @@ namespace {
 
 using Wide = numbers::MatrixOf<DoubleDouble>;
 
-/// Rows that span the rest, and those that follow from them: Q_dd = N Q_ii N', Q_di = N Q_ii.
+/// Rows i of Q that span the rest, and those d that follow from them: Q_di = N Q_ii and
+/// Q_dd = N Q_ii N', so that (-N, I) Q = 0 over the columns (i, d).
 struct Dependence {
   std::vector<Index> independent, dependent;
   Wide N;
@@ -29,9 +30,11 @@ double largest_of(const Wide& Q) {
   return largest;
 }
 
-/// By Gauss and Jordan's elimination with the largest pivots of the diagonal, in the units of that of
-/// Q; `of_all`: the largest element of all Gram matrices, beside which Q may be 0.
+/// By Gauss and Jordan's elimination with the largest pivots of the diagonal, in the units of that
+/// of Q; `of_all`: the largest element of all Gram matrices, beside which Q may be 0.
 Dependence dependence_of(const Wide& Q, double of_all) {
+  // A pivot of this part of its diagonal element is 0; so are a diagonal element beside the largest
+  // of Q, and a Q beside the largest of all.
   constexpr double kNothing = 1e-5, kNoRow = 1e-6, kNoMatrix = 1e-7;
   Dependence result;
   result.dependent.resize(static_cast<std::size_t>(Q.rows()));
@@ -73,8 +76,8 @@ std::vector<BasisPolynomial> combined(const std::vector<BasisPolynomial>& basis,
 }
 
 /// Whole vectors v, short, that are nearly in the kernel: v_i + sum_d N_di v_d = 0 for each
-/// independent row i, by a reduced basis of the vectors (v, K times what is left of that). As many as
-/// rows are dependent, which are the first columns; none where others are as short.
+/// independent row i, by a reduced basis of the vectors (v, K times what is left of that). As many
+/// as rows are dependent, which are the first columns; none where others are as short.
 std::optional<RationalMatrix> whole_kernel(const Dependence& rows, const std::vector<double>& scale,
                                            int digits) {
   const std::size_t r = rows.independent.size(), k = rows.dependent.size(), n = r + k;
@@ -96,6 +99,7 @@ std::optional<RationalMatrix> whole_kernel(const Dependence& rows, const std::ve
     return std::inner_product(v.begin(), v.end(), v.begin(), Integer(0));
   };
   std::ranges::stable_sort(basis, {}, square);
+  // Kernel vectors have to be so many times shorter than the next vector of the reduced basis.
   constexpr int kShorter = 10;
   if (r > 0 && square(basis[k - 1]) * (kShorter * kShorter) > square(basis[k])) return std::nullopt;
   RationalMatrix result(static_cast<Index>(k), static_cast<Index>(n));
@@ -134,6 +138,7 @@ std::optional<Program> restricted_to_faces(const Program& program, const Point& 
   for (const auto& Q : point.balanced) rows.push_back(dependence_of(Q, of_all));
   if (std::ranges::all_of(rows, [](const auto& one) { return one.dependent.empty(); }))
     return std::nullopt;
+  // K = 10^digits: small ones first, which admit short vectors alone.
   for (const int digits : {4, 7, 11, 16, 21}) {
     Program result = program;
     bool is_found = true;

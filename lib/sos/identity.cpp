@@ -28,6 +28,7 @@ bool is_shown_definite(const RationalMatrix& Q) {
   enclosed.resize(Q.rows(), Q.cols());
   for (Index i = 0; i < Q.size(); ++i) enclosed.set(i, numbers::ball_of(Q(i)));
   const numbers::Sign sign = numbers::definite(enclosed).sign;
+  // Rows up to which elimination in fractions settles what enclosures leave open.
   constexpr Index kSmall = 30;
   if (sign == numbers::Sign::open && Q.rows() <= kSmall) return numbers::is_rational_definite(Q);
   return sign == numbers::Sign::positive;
@@ -52,8 +53,9 @@ bool keeps_constants(const Program& program, const Gram& gram) {
   return numbers::rational_solution(basis, constants).has_value();
 }
 
+/// The columns of a program in fractions: rounded, then moved until all equations hold.
 class Rounding {
-  static constexpr int kDigits = 13;
+  static constexpr int kDigits = 13;  ///< that values are rounded to
 
  public:
   Rounding(const Program& program, const Point& point, const std::vector<Rational>& u)
@@ -108,6 +110,7 @@ class Rounding {
     decimals_[static_cast<std::size_t>(column)] = decimals;
   }
 
+  /// An element of a Gram matrix that no other equation has.
   bool is_own(int column) const {
     return columns_.is_element(column) && uses_[static_cast<std::size_t>(column)] == 1;
   }
@@ -134,6 +137,7 @@ class Rounding {
         sum += abs(c);
       }
     if (own.empty()) return;
+    // Decimals beyond those of the element itself.
     constexpr int kMore = 3;
     const Rational share = rest / sum;
     for (const auto& [column, c] : own) {
@@ -147,8 +151,8 @@ class Rounding {
   }
 
   /// z += W A' lambda with A W A' lambda = what is left, A over t and the elements of Gram matrices
-  /// that these equations have: the least change, off-diagonal elements counting twice. Whether they
-  /// have a solution.
+  /// that these equations have: the least change, off-diagonal elements counting twice. Whether
+  /// they have a solution.
   bool solve(const std::vector<std::size_t>& bound) {
     if (bound.empty()) return true;
     const auto weight = [&](int column) -> Rational {
@@ -180,8 +184,8 @@ class Rounding {
   const Columns columns_;
   const std::vector<Equation> equations_;
   std::vector<Rational> values_;
-  std::vector<int> uses_;
-  std::vector<int> decimals_;
+  std::vector<int> uses_;      ///< in how many equations a column is
+  std::vector<int> decimals_;  ///< that a column was rounded to
 };
 
 }  // namespace

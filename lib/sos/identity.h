@@ -1,4 +1,8 @@
 // From a point in floating point to an identity in fractions (Peyrl and Parrilo 2008).
+//
+// The Gram matrices of a point with Q >= t I, t > 0, are rounded to fractions, and moved a little
+// so that all equations hold exactly. Moved by less than t in norm they are positive definite,
+// which is then shown for each of them.
 #pragma once
 
 #include <optional>
@@ -22,11 +26,12 @@ struct Identity {
 std::optional<Identity> identity_near(const Program& program, const Point& point,
                                       const std::vector<Rational>& u);
 
-/// Equations that u alone must satisfy so that the others have a solution: where bases are those of a
-/// face, the values at its zeros, say.
+/// Equations that u alone must satisfy so that the others have a solution: where bases are those of
+/// a face, the values at its zeros, say.
 std::vector<Equation> conditions_on_unknowns(const Program& program);
 
-/// Decimals near u that satisfy the conditions; none where only other fractions do.
+/// Decimals near u, 14 digits of the largest, that satisfy the conditions exactly; none where only
+/// other fractions do, or u is not finite.
 std::optional<std::vector<Rational>> decimals_near(const std::vector<double>& u,
                                                    const std::vector<Equation>& conditions);
 

@@ -36,6 +36,7 @@ std::vector<RationalMatrix> matrices(const Program& program, const Eliminated& e
   return result;
 }
 
+/// Whether it is shown for all, of singular ones only up to kSmall rows.
 bool are_semidefinite(const std::vector<RationalMatrix>& X) {
   constexpr Eigen::Index kSmall = 30;
   return std::ranges::all_of(X, [](const RationalMatrix& one) {
@@ -45,6 +46,7 @@ bool are_semidefinite(const std::vector<RationalMatrix>& X) {
   });
 }
 
+/// max |x_i|.
 double size_of(const std::vector<double>& x) {
   return numbers::Vector::Map(x.data(), std::ssize(x)).lpNorm<Eigen::Infinity>();
 }
@@ -59,6 +61,7 @@ Moments rounded(const std::vector<double>& x, int digits) {
   return result;
 }
 
+/// c'y.
 Rational value_of(const Eliminated& eliminated, const Semidefinite& posed, const Moments& y) {
   Rational sum = 0;
   for (std::size_t i = 0; i < y.size(); ++i)
@@ -66,8 +69,8 @@ Rational value_of(const Eliminated& eliminated, const Semidefinite& posed, const
   return sum;
 }
 
-/// Whether X_j is not 0 at a constant of a strict inequality: M - c I is a sum of squares for a c > 0,
-/// of which the moments are c tr X over the constants at least.
+/// Whether X_j is not 0 at a constant of a strict inequality: M - c I is a sum of squares for a c >
+/// 0, of which the moments are c tr X over the constants at least.
 bool is_above_zero(const Program& program, const std::vector<RationalMatrix>& X) {
   for (std::size_t j = 0; j < X.size(); ++j) {
     const Gram& gram = program.grams[j];
@@ -95,6 +98,7 @@ std::map<Key, Rational> of_monomials(const std::vector<Equation>& equations,
 
 std::optional<Moments> excluding_moments(const Program& program, const Eliminated& eliminated,
                                          const Semidefinite& posed, const std::vector<double>& x) {
+  // Few digits first: short fractions are quick to check and to print.
   for (const int digits : {3, 6, 12, 18}) {
     Moments y = rounded(x, digits);
     const Rational value = value_of(eliminated, posed, y);
@@ -109,7 +113,9 @@ std::optional<Rational> lower_bound(const Program& program, const Eliminated& el
                                     const Semidefinite& posed, const Equation& objective,
                                     const std::vector<double>& x,
                                     const std::vector<double>& inside) {
+  // Of the largest multiplier, that all of them keep.
   constexpr int kDigits = 18;
+  // Shares of `inside` from none on: the first that is shown moves the bound least.
   const double unit = std::max(size_of(x), 1.0) / size_of(inside);
   for (const double share : {0.0, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5}) {
     std::vector<double> both = x;

@@ -12,6 +12,7 @@ namespace gainsmith::sos {
 
 namespace {
 
+/// The largest degree in x.
 int degree_of(const auto& polynomials) {
   int degree = 0;
   for (const Polynomial& p : polynomials) degree = std::max(degree, p.degree());
@@ -40,8 +41,10 @@ class Units {
           std::max(largest, std::abs(nearest_double(c)) * std::exp2(-exponent_of(term.monomial)));
     return largest;
   }
-  /// For a monomial times a polynomial of that size.
+  /// For a monomial times a polynomial of that size: Q_ab m_a m_b g of a solution is of the size of
+  /// p where Q_ab is of that of scale_a scale_b.
   double scale_of(const Monomial& monomial, double size) const {
+    // Scales are from 2^-200 to 2^200, whatever the coefficients.
     constexpr double kMost = 200;
     const double exponent =
         exponent_of(monomial) + (exponents_(0) - (size > 0 ? std::log2(size) : 0)) / 2;
@@ -49,6 +52,7 @@ class Units {
   }
 
  private:
+  /// sum_i e_i s_i: -log2 of the monomial where the variables are near 1 in these units.
   double exponent_of(const Monomial& monomial) const {
     double sum = 0;
     for (std::size_t i = 0; i < monomial.variables(); ++i)
@@ -96,6 +100,7 @@ void pose(Program& program, std::size_t at, const Units& units) {
   const std::size_t n = variables_of(statement);
   const int degree = degree_of(statement);
   const auto rows = static_cast<int>(statement.matrix.rows());
+  // Monomials; more are refused.
   constexpr double kMost = 20000;
   if (polynomial::count_of_monomials(n, degree) > kMost)
     throw std::length_error("too many monomials");
@@ -162,6 +167,7 @@ std::vector<Equation> equations_of(const Program& program) {
     for (int c = 0; c < M.cols(); ++c)
       for (int r = 0; r <= c; ++r)
         for (const auto& [term, coefficient] : M(r, c).terms()) {
+          // Of v'Mv: v_r v_c, r < c, has M_rc and M_cr. Terms in u go to the left side.
           const Rational value = coefficient * (r == c ? 1 : 2);
           Equation& sum = sums[{s, r, c, term.monomial}];
           if (term.unknown == 0)
@@ -170,6 +176,7 @@ std::vector<Equation> equations_of(const Program& program) {
             sum.terms[columns.unknown(term.unknown)] -= value;
         }
   }
+  // z'Qz = sum_a Q_aa z_a^2 + 2 sum_{a<b} Q_ab z_a z_b, times g.
   for (std::size_t g = 0; g < program.grams.size(); ++g) {
     const Gram& gram = program.grams[g];
     for (int b = 0; b < gram.size(); ++b) {

@@ -7,6 +7,19 @@
 // the z_j being vectors of monomials in x, times elements of v. The two sides are equal coefficient
 // by coefficient: each monomial gives an equation that is linear in u, the Q_j and the t_l. An
 // inequality without variables has z_0 = v and Q_0 = M.
+//
+// A yes of this room is such an identity in fractions with Q_j > 0. A no is an equation that
+// nothing satisfies, or multipliers of the equations in fractions. The solver's numbers are guesses
+// for both, and nothing rests on them. A no excludes sums of squares of these degrees alone; the
+// inequality may hold.
+//   program                  statements, Gram matrices, the equations
+//   reduce                   what the equations say without a solver
+//   solve                    the semidefinite program, and back
+//   identity, conditions     from a point in floating point to an identity in fractions
+//   face                     the face on which singular Gram matrices lie
+//   moments                  multipliers that exclude solutions, or bound an objective
+//   decide                   the order of all these
+//   counterexample           points at which an inequality is false
 #pragma once
 
 #include <compare>
@@ -24,6 +37,7 @@ namespace gainsmith::sos {
 using polynomial::Monomial;
 using polynomial::Polynomial;
 
+/// M(x; u) >= 0, or > 0, on the set of x with g_j(x) >= 0 and h_l(x) = 0.
 struct Statement {
   std::string name;                       ///< of the comparison
   polynomial::PolynomialMatrix matrix;    ///< M
@@ -67,11 +81,12 @@ struct FreeTerm {
   Monomial monomial;
 };
 
+/// The unknowns of the identities of all statements: u, the t_l and the Q_j.
 struct Program {
   std::vector<Statement> statements;
   int unknowns = 0;  ///< the number of u
   std::vector<Gram> grams;
-  std::vector<FreeTerm> free;
+  std::vector<FreeTerm> free;  ///< the coefficients of all t_l
 };
 
 /// The coefficient of m(x) v_row v_column, row <= column, of a statement.
@@ -90,7 +105,9 @@ class Columns {
  public:
   explicit Columns(const Program& program);
 
+  /// The column of u_k, k from 1.
   int unknown(int k) const { return k - 1; }
+  /// The column of coefficient k of Program::free, from 0.
   int free(std::size_t k) const { return unknowns_ + static_cast<int>(k); }
   /// row <= column.
   int element(std::size_t gram, int row, int column) const {
@@ -110,7 +127,7 @@ class Columns {
 
  private:
   int unknowns_;
-  std::vector<int> first_;
+  std::vector<int> first_;  ///< the first element of each Gram matrix, with an end
 };
 
 /// sum of terms[column] times unknown = value.

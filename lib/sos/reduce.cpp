@@ -10,6 +10,7 @@ namespace gainsmith::sos {
 
 namespace {
 
+/// Passes over all equations until one pass learns nothing.
 class Reduction {
  public:
   explicit Reduction(Program& program)
@@ -41,6 +42,7 @@ class Reduction {
     return dead_[gram][static_cast<std::size_t>(row)];
   }
 
+  /// Removes elements of rows that are 0, and puts in the values of u and t that are known.
   void drop_known(Equation& equation) {
     std::erase_if(equation.terms, [&](const auto& term) {
       if (columns_.is_element(term.first)) {
@@ -149,6 +151,8 @@ std::optional<Equation> Eliminated::without_free(Equation sum) const {
   return sum;
 }
 
+// Gauss's elimination of the columns of u and t in fractions. What is left are equations of
+// elements of Gram matrices, the form that the solver takes.
 Eliminated eliminate(const Program& program, std::vector<Equation> equations) {
   const Columns columns(program);
   Eliminated result;

@@ -1,8 +1,9 @@
 // What the equations of a program say by themselves, without a solver.
 //
-// Where an equation says that a sum of positive multiples of diagonal elements of Gram matrices is 0,
-// these are 0 in every solution, and so are their rows (facial reduction by plain steps). Where the
-// sum is to be negative, there is no solution. This is what makes bases that are written by hand work.
+// Where an equation says that a sum of positive multiples of diagonal elements of Gram matrices is
+// 0, these are 0 in every solution, and so are their rows (facial reduction, Borwein & Wolkowicz
+// 1981, by plain steps). Where the sum is to be negative, there is no solution. Without
+// multipliers, full bases of monomials become those of half the Newton polytope by these steps.
 #pragma once
 
 #include <map>
@@ -21,7 +22,8 @@ struct Contradiction {
   std::map<int, Key> told{};  ///< unknowns whose values other equations had told
 };
 
-/// Removes the rows that are 0 in every solution.
+/// Removes the rows that are 0 in every solution from the bases; a contradiction where there is no
+/// solution, for a strict inequality also where a constant is no square of its basis.
 std::optional<Contradiction> reduce(Program& program);
 
 /// An equation that says what one of its unknowns is.
@@ -45,6 +47,7 @@ struct Eliminated {
   std::optional<Equation> without_free(Equation sum) const;
 };
 
+/// `equations`: of the program, and others over its columns.
 Eliminated eliminate(const Program& program, std::vector<Equation> equations);
 
 }  // namespace gainsmith::sos

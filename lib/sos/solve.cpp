@@ -17,8 +17,9 @@ namespace {
 /// Behind all columns: the value, and nothing.
 constexpr int kNothing = std::numeric_limits<int>::max(), kValue = kNothing - 1;
 
-/// A column of each equation that the others leave, by their images modulo a prime: one that no other
-/// has, or else the first of what those before it leave.
+/// A column of each equation that the others leave, by their images modulo a prime: one that no
+/// other has, or else the first of what those before it leave. kNothing for an equation that
+/// follows from others, kValue for one that contradicts them.
 std::vector<int> leads_of(const std::vector<Equation>& equations) {
   using numbers::kPrime;
   using Row = std::map<int, std::uint64_t>;
@@ -76,6 +77,7 @@ std::vector<sdp::Entry> entries_of(const Program& program, const Columns& column
   std::vector<sdp::Entry> entries;
   for (const auto& [column, c] : sum) {
     const Columns::Place place = columns.place(column);
+    // An off-diagonal entry stands for two places; Q is in the units of its scales.
     const Rational value = c * sign / (place.row == place.column ? 1 : 2);
     const std::vector<double>& scale = program.grams[place.gram].scale;
     const double unit =
@@ -86,7 +88,7 @@ std::vector<sdp::Entry> entries_of(const Program& program, const Columns& column
   return entries;
 }
 
-/// t = t' - kBelow with t' >= 0.
+/// t = t' - kBelow with t' >= 0, since the solver's Y has no elements below 0.
 constexpr double kBelow = 10;
 
 /// F_i . Z + (tr F_i - c_i) t - c_i s' = 0 with Y = Z + t I, s = s' + t, and the trace.

@@ -29,7 +29,8 @@ struct Semidefinite {
 };
 
 /// Equations that follow from others, by their images modulo a prime, are left out. `objective`:
-/// terms over elements whose sum is to be least. std::overflow_error where a number is beyond double.
+/// terms over elements whose sum is to be least. std::overflow_error where a number is beyond
+/// double.
 Semidefinite semidefinite_program(const Program& program, const Eliminated& eliminated,
                                   const std::optional<Equation>& objective = std::nullopt);
 
@@ -43,11 +44,11 @@ struct Point {
 /// Whether equations that follow from others say the same, by their images modulo a prime.
 bool agree(const Eliminated& eliminated);
 
-/// None where s, or Y, is 0.
+/// Y/s, and u and t from the pivots in reverse order, in double. None where s is 0 (below 1e-9).
 std::optional<Point> point_of(const Program& program, const Eliminated& eliminated,
                               const Semidefinite& posed, const sdp::Solution& solution);
 
-/// Of a program without an objective.
+/// t of a program without an objective, in the units of Gram::scale.
 double margin_of(const sdp::Solution& solution);
 
 }  // namespace gainsmith::sos

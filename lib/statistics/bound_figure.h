@@ -1,4 +1,4 @@
-// Internal to verify: a figure of a design with the values of a setup.
+// A figure of a design with the values of a setup, and an estimate of its error.
 #pragma once
 
 #include <cmath>
@@ -34,6 +34,7 @@ class BoundFigure {
   BoundFigure& operator=(const BoundFigure&) = delete;
 
   std::optional<double> of(const hybrid::Trajectory& run) { return (*number_)(run); }
+  /// With its error; not known where the two runs have parted or disagree on which events happen.
   Estimate of(const claims::TwinRun& runs);
   /// Of the last run, of `nees` and `nis`.
   const claims::Squares& squares() const { return number_->squares(); }

@@ -29,6 +29,7 @@ class ExactSum {
   bool operator==(const ExactSum& other) const;
 
  private:
+  /// The same sum with all digits but the last in [0, 2^32).
   static Digits settled(Digits digits);
 
   Digits digits_{};              ///< the sum is that of digits_[k] 2^(32 k - 1074)

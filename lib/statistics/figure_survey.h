@@ -1,9 +1,13 @@
 // Figures over the runs of a campaign: what each of them is in all, in bounded memory.
 //
-// Each run is made by the careful simulator, to the accuracy of expected figures, with its twin
-// (claims/twin_runs.h): a number that it does not know counts as such. The survey of
+// Each run is made by the careful simulator, to the accuracy of expected figures, beside a second
+// run (claims/twin_runs.h). A number that this pair does not know counts as such. The survey of
 // some runs is the sum of the surveys of its parts, in any order and grouping to the same bits: of
 // blocks on threads as of campaigns on several machines.
+//
+// The room: figure_survey and bound_figure (figures with errors), value_sketch and quantiles (order
+// statistics), exact_sum and consistency (NEES and NIS), sample_bounds (probability of a
+// violation), run_set and run_blocks (which runs, and sums over them).
 #pragma once
 
 #include <cstdint>

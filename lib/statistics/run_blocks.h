@@ -1,4 +1,4 @@
-// Internal to verify: sums over many runs, in blocks on threads, in memory that does not grow.
+// Sums over many runs, in blocks on threads, in memory that does not grow.
 #pragma once
 
 #include <algorithm>

@@ -77,6 +77,7 @@ class ValueSketch {
   };
 
   void merge(std::vector<Bucket> more, int level);
+  /// To a higher level: buckets with the same floor(at / 2^(level - level_)) become one.
   void coarsen(int level);
   Enclosure values_of(const Bucket& bucket) const;
 

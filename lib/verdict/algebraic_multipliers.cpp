@@ -25,6 +25,7 @@ constexpr Index kLargest = 12;          // rows of a matrix whose eigenvalues ar
 constexpr std::array<std::array<bool, 3>, 4> kWeights = {
     {{true, false, false}, {true, true, false}, {true, false, true}, {true, true, true}}};
 
+/// A B in fractions.
 RationalMatrix product(const RationalMatrix& A, const RationalMatrix& B) {
   return numbers::rational_product(A, B);
 }
@@ -51,6 +52,8 @@ numbers::ComplexVector vector_at(const std::complex<double>& l, const RationalMa
 /// One choice of Z_k; none for a block that has no multiplier.
 using Vectors = std::vector<std::optional<RationalMatrix>>;
 
+/// All certificates that one eigenvalue may give, in the order matrix A, start b, factor p of the
+/// minimal polynomial of b, shape of the vectors Z, root. The first that excludes is returned.
 class Search {
  public:
   Search(const lmi::Inequalities& of, const lmi::Lmi& lmi) : of_(of), lmi_(lmi) {}
@@ -130,14 +133,18 @@ class Search {
     return result;
   }
 
+  /// Isolated once for each p.
   const std::vector<Root>& roots_of(const Polynomial& p) {
     const auto found = roots_.find(p);
     return found != roots_.end() ? found->second : roots_.emplace(p, roots(p)).first->second;
   }
 
-  /// Whether weights c_k may exist, in double: f_k with elements z_k* B_ki z_k that depend on each
-  /// other.
+  /// Whether weights c_k >= 0 may exist, in double. f_k has the elements z_k* B_ki z_k,
+  /// i = 1 ... m, and length 1; sum_k c_k f_k = 0 needs a singular Gram matrix f'f. If its kernel
+  /// is one-dimensional, its vector c has no two signs. This costs far less than the kernel in
+  /// fractions below.
   bool may_exclude(const Vectors& Z, const Root& root) const {
+    // Relative: what counts as 0 of f_k and of an eigenvalue; the share of the other sign in c.
     constexpr double kRounding = 1e-8, kSign = 1e-3;
     const std::complex<double> l = rounded(root);
     numbers::Matrix f = numbers::Matrix::Zero(lmi_.unknowns, std::ssize(Z));
@@ -176,6 +183,7 @@ class Search {
   }
 
   /// Multipliers with r_i = 0, and their constant part.
+  /// The constant part sum_k c_k Z_k'B_k0 Z_k, d x d, is an element of the ring: -v.
   struct Weighted {
     std::vector<AlgebraicMultiplier> multipliers;
     RationalMatrix constant;
@@ -191,6 +199,9 @@ class Search {
     return result;
   }
 
+  /// All weights of the kinds in kWeights with sum_k c_k z_k* B_ki z_k = 0, i = 1 ... m. Each
+  /// equation has d x d elements in the ring Q[l, m]/(p(l), p(m)), linear in the coefficients of
+  /// the c_k. The columns of the rational kernel are candidates, each with both signs.
   std::vector<Weighted> weights_for(const Vectors& Z, const Polynomial& p) {
     std::vector<Weighted> found;
     const auto of = forms(Z);
@@ -241,6 +252,7 @@ class Search {
   }
 
   /// c_k >= 0, and the constant part is < 0, or 0 with c_k > 0 for a strict inequality.
+  /// Decided by the enclosures of l + m and |l|^2 at the root.
   bool excludes(const Weighted& found, const Root& root) {
     bool strict = false;
     const Root::Bounded real = root.twice_real(), square = root.squared_modulus();

@@ -21,6 +21,7 @@
 
 namespace gainsmith::verdict {
 
+/// Y = c z z* of one block, c = W_00 + W_01 (l + m) + W_11 l m and z = Z e: n_k x n_k, of rank 1.
 struct AlgebraicMultiplier {
   std::size_t block = 0;
   numerics::RationalMatrix Z;  ///< n_k x d
@@ -34,6 +35,8 @@ numerics::RationalMatrix weight(const Rational& c);
 /// Its real part in double, n_k x n_k: B_ki are real.
 numbers::Matrix rounded(const AlgebraicMultiplier& multiplier, const Root& root);
 
+/// Multipliers that exclude every solution at the root `root` of p. The equations hold in the ring;
+/// the signs c_k >= 0 and the constant part < 0 (or 0 beside a strict block) hold at this root.
 struct AlgebraicCertificate {
   std::string matrix;  ///< whose eigenvalue it is: "A", "A'", "a matrix of decrease"
   Polynomial p;
@@ -43,6 +46,7 @@ struct AlgebraicCertificate {
 
 /// One that excludes every solution; the eigenvalues of all constant matrices of the inequalities
 /// are tried. None where no eigenvalue decides.
+/// Matrices of more than 12 rows are not tried.
 std::optional<AlgebraicCertificate> algebraic_certificate(const lmi::Inequalities& of,
                                                           const lmi::Lmi& lmi);
 

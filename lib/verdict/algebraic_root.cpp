@@ -35,6 +35,7 @@ Polynomial monic(Polynomial p) {
   return p;
 }
 
+/// The monic greatest common divisor, by Euclid's algorithm in fractions.
 Polynomial common_divisor(Polynomial a, Polynomial b) {
   a = monic(std::move(a));
   b = monic(std::move(b));
@@ -52,10 +53,12 @@ Polynomial derivative(const Polynomial& p) {
   return result;
 }
 
+/// p(-x), which has the roots -l.
 Polynomial in_minus_x(Polynomial p) {
   for (std::size_t k = 1; k < p.size(); k += 2) p[k] = -p[k];
   return p;
 }
+/// x^d p(1/x), which has the roots 1/l.
 Polynomial reversed(Polynomial p) {
   std::reverse(p.begin(), p.end());
   return p;
@@ -64,6 +67,7 @@ Polynomial reversed(Polynomial p) {
 struct Complex {
   Rational re, im;
 };
+/// p(at), by Horner's rule.
 Complex value(const Polynomial& p, const Complex& at) {
   Complex sum;
   for (std::size_t k = p.size(); k-- > 0;)
@@ -77,15 +81,19 @@ Rational power(const Rational& x, Index exponent) {
   return result;
 }
 
+/// At least |z|.
 Rational parts_of(const Complex& z) { return abs(z.re) + abs(z.im); }
 
-/// In units of 2^-250.
+/// To the nearest multiple of 2^-250, some 75 digits, so that fractions do not grow from step to
+/// step.
 Rational rounded(const Rational& x) {
   static const Rational unit = power(2, 250);
   return Rational(nearest_integer(x * unit)) / unit;
 }
 
-/// Rouche, for h <= 1.
+/// Whether Rouche's theorem shows exactly one root of p in the disk of radius h <= 1 about `at`:
+/// |p| + M h^2/2 < |p'| h at the centre. M = sum_k |c_k| (|at| + 1)^k bounds |p''(x)| on the disk,
+/// c_k the coefficients of p''. Moduli are replaced by bounds that need no square root.
 bool has_one_root(const Polynomial& p, const Complex& at, const Rational& h) {
   const Polynomial slope = derivative(p), curvature = derivative(slope);
   Rational bound = 0, factor = 1;
@@ -97,6 +105,7 @@ bool has_one_root(const Polynomial& p, const Complex& at, const Rational& h) {
   return parts_of(value(p, at)) + bound * h * h / 2 < std::max(abs(d.re), abs(d.im)) * h;
 }
 
+/// Newton's method x - p/p' in rounded fractions; it proves nothing, has_one_root() does.
 Complex newton(const Polynomial& p, Complex at) {
   constexpr int kSteps = 8;  // from 16 digits to 75
   const Polynomial slope = derivative(p);
@@ -110,6 +119,7 @@ Complex newton(const Polynomial& p, Complex at) {
   return at;
 }
 
+/// The roots in double, as eigenvalues of the companion matrix.
 numbers::ComplexVector guesses(const Polynomial& p) {
   if (p.size() < 2) return {};
   return numbers::eigenvalues(

@@ -9,12 +9,15 @@
 
 namespace gainsmith::verdict {
 
+/// p_0 ... p_d with p_d = 1.
 using Polynomial = std::vector<Rational>;
 
 /// p without its multiple roots.
+/// p / gcd(p, p').
 Polynomial square_free(const Polynomial& p);
 
-/// C with l e = C e for e = (1, l, ..., l^(d-1))' at every root l of p, d x d.
+/// The companion matrix C, d x d, with ones above the diagonal and -p_0 ... -p_(d-1) in the last
+/// row: l e = C e for e = (1, l, ..., l^(d-1))' at every root l of p.
 numerics::RationalMatrix companion(const Polynomial& p);
 
 /// Factors of a square-free p on which a stability limit may hang, and p itself: x - a for each
@@ -32,7 +35,9 @@ struct Root {
   struct Bounded {
     Rational x, error;
   };
+  /// l + conj(l).
   Bounded twice_real() const;
+  /// |l|^2 = l conj(l); 1 without an error on the circle.
   Bounded squared_modulus() const;
 };
 

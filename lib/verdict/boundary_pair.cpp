@@ -20,6 +20,7 @@ using numbers::Matrix;
 using numbers::Vector;
 using WideBlock = ExactBlock<Decimal100>;
 
+/// The largest |element|, in double.
 double largest(const Wide& matrix) {
   double result = 0;
   for (Index e = 0; e < matrix.size(); ++e) result = std::max(result, size_of(matrix(e)));
@@ -59,6 +60,7 @@ void add_residuals(const WideBlock& block, const Wide& Y, std::vector<Decimal100
   }
 }
 
+/// The damping d of (2) beside coefficients near 1, and sizes of relative residuals.
 constexpr double kLeastDamping = 1e-9;  // refinement undoes it
 constexpr double kPairSettled = 1e-90;
 constexpr double kPairEnough = 1e-80;  // where steps lead no further
@@ -86,6 +88,8 @@ struct PairResiduals {
   }
 };
 
+/// (1) in 100 digits; r_i is taken beside its terms, but no less than 1e-3 of the unit. Beside a
+/// violation r_0 has no equation, and that of s is 1 - tr Y = 0.
 PairResiduals pair_residuals(const std::vector<const WideBlock*>& blocks,
                              const BoundaryPair& pair) {
   PairResiduals result;
@@ -119,7 +123,9 @@ struct Ranges {
   Index rank() const { return V.cols(); }
 };
 
-/// None where an eigenvalue of B and the part of Y along it are of one size.
+/// B = Q diag(b) Q', n x n. Column q_j of Q belongs to V where q_j'Y q_j > 100 |b_j|, and to U
+/// where it is below |b_j| / 100; none where it is neither, as strict complementarity then is not
+/// seen. V is turned so that V'Y V = diag(s). None too where a lambda or an s is not positive.
 std::optional<Ranges> ranges_of(const Matrix& B, const Matrix& Y) {
   constexpr double kApart = 100;
   const Index n = B.rows();
@@ -162,6 +168,8 @@ struct BoundaryPart {
   Index first = 0;  ///< of its dS among all
 };
 
+/// The saddle point system (2) of all blocks in double, factored once and used for several steps. H
+/// is m x m; A has a row for each element of the dS_k, rank (rank + 1)/2 a block.
 class System {
  public:
   System(const std::vector<const WideBlock*>& blocks, const BoundaryPair& pair)
@@ -218,6 +226,8 @@ class System {
   /// Of the elements v <= w of a symmetric matrix, with which <M, N> is a sum over them.
   static double root(Index v, Index w) { return v == w ? 1 : std::sqrt(2.0); }
 
+  /// Adds the block's H_ij = 2 sum_(u,v) (s_v / lambda_u) (U'B_i V)_uv (U'B_j V)_uv and fills its
+  /// rows of A with V'B_i V, off-diagonal elements times sqrt(2).
   void add_part(const WideBlock& block, BoundaryPart& part) {
     const auto& [U, V, lambda, s] = part.ranges;
     const Index rank = V.cols();
@@ -245,6 +255,8 @@ class System {
     H_.selfadjointView<Eigen::Lower>().rankUpdate(weighed.transpose());
   }
 
+  /// Cholesky factors of H + d I and of its Schur complement A (H + d I)^-1 A' + d I; false where
+  /// one of them is not positive definite in double.
   bool factor(double damping) {
     H_.triangularView<Eigen::StrictlyUpper>() = H_.transpose();
     const auto m = static_cast<double>(unknowns_), q = static_cast<double>(A_.rows());
@@ -265,8 +277,10 @@ class System {
     return static_cast<bool>(*lower_);
   }
 
-  /// dx and dS with (2), by the damped factors and refinement.
+  /// dx and dS with (2): dS from the Schur complement, then dx = (H + d I)^-1 (A'dS - f).
+  /// Refinement repeats this with the residual of the undamped system while it falls.
   std::pair<Vector, Vector> solve(const Vector& f, const Vector& w) const {
+    // At most so many rounds, each of which must halve the residual.
     constexpr int kMost = 12;
     constexpr double kFalls = 0.5;
     Vector dx = Vector::Zero(unknowns_), dS = Vector::Zero(A_.rows());
@@ -339,7 +353,8 @@ class System {
   std::optional<numbers::Cholesky> upper_, lower_;
 };
 
-/// L with L L' = Y but for what a Cholesky factorisation with pivoting finds not above `least`.
+/// L, n x rank, with L L' = Y but for what a Cholesky factorisation with pivoting finds not above
+/// `least`. In 100 digits; Y has a size near 1, so `least` is absolute.
 Wide factor_above(const Wide& Y, double least) {
   const Index n = Y.rows();
   Wide rest = Y;
@@ -358,6 +373,7 @@ Wide factor_above(const Wide& Y, double least) {
 
 /// V S V' without what steps leave beside the range.
 void cut(Wide& Y) {
+  // Between the 80 digits to which the pair is known and the smallest eigenvalues of S.
   constexpr double kLeast = 1e-60;
   const auto n = static_cast<double>(Y.rows());
   spend(n * n * n * kWideWork);

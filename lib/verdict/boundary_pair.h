@@ -2,7 +2,7 @@
 //
 // The homogenised inequalities B_k(x) = sum_i x_i B_ki >= 0 have a solution x and multipliers
 // Y_k >= 0 with
-//   r_i = sum_k <B_ki, Y_k> = 0        c_k = B_k(x) Y_k + Y_k B_k(x) = 0                         (1)
+//   r_i = sum_k <B_ki, Y_k> = 0        c_k = B_k(x) Y_k + Y_k B_k(x) = 0                        (1)
 // and, as a rule, rank B_k(x) + rank Y_k = n_k (strict complementarity). Y alone is a root of
 // second order of r; the pair is a simple one (Alizadeh, Haeberly & Overton 1998). Newton's step,
 // in the basis [U, V] of B_k(x) = U Lambda U' + (nearly 0) and Y_k = V S V' + (nearly 0), has the

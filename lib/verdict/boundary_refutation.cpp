@@ -37,7 +37,7 @@ BoundaryPair pair_of(const lmi::Lmi& lmi, const lmi::Formulation& formulation,
   return pair;
 }
 
-/// -s I, s the unknown i.
+/// Adds the coefficient -I of s, the unknown i: B(x) becomes B(x) - s I.
 void add_identity(int i, ExactBlock<Decimal100>& block) {
   ExactElements<Decimal100> elements;
   for (int r = 0; r < block.size; ++r) elements.push_back({r, r, Decimal100(-1), 0});
@@ -90,7 +90,9 @@ std::optional<std::vector<Wide>> violation_of(std::vector<ExactBlock<Decimal100>
   return std::move(pair.Y);
 }
 
-/// Adds v/|c| to Y. False where v < 0, or the element was not solved.
+/// Multipliers of the scaled inequalities become those of the homogeneous ones (lmi/scale.h): the
+/// diagonal element of Y at c x_q gets -r_q/c = v/|c| more, so that r_q = 0. False where v < 0, or
+/// the element was not solved.
 bool close(const std::vector<ExactBlock<Decimal100>>& blocks, const lmi::Scale& scale,
            const std::vector<int>& kept, std::vector<Wide>& Y) {
   const auto row = std::find(kept.begin(), kept.end(), scale.row);
@@ -126,6 +128,7 @@ Refutation refute_by_violation(const lmi::Inequalities& of, const lmi::Lmi& lmi,
                                const sdp::Solution& solution) {
   lmi::Formulation stated;
   stated.balance = formulation.balance;
+  // The balance of the scaled inequalities, with unit 1 for the unknown that was fixed.
   stated.balance.unknowns.insert(stated.balance.unknowns.begin() + scale.unknown - 1, 0);
   stated.free_variables = formulation.free_variables;
   const auto blocks = exact_blocks<Decimal100>(of, lmi, stated);

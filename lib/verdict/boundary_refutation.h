@@ -8,6 +8,8 @@ namespace gainsmith::verdict {
 
 /// What multipliers near those of an interior solution say in 100 digits, made with the solution
 /// beside them so that they have no residual (boundary_pair.h). The solution may be one in double.
+/// The functions of this file need the pair (x, Y) in 100 digits by boundary_pair.h, and return a
+/// Refutation that says nothing (an error of 1) where it does not settle.
 Refutation refute_on_boundary(const lmi::Inequalities& of, const lmi::Lmi& lmi,
                               const lmi::Formulation& formulation, const sdp::Solution& solution);
 

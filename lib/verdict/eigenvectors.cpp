@@ -21,6 +21,7 @@ using numbers::RationalValues;
 /// have: no eigenvalue of it decides.
 std::vector<std::optional<RationalMatrix>> constants_of(const expr::Program& program,
                                                         const RationalValues& known) {
+  // Of numerators and denominators.
   constexpr std::size_t kMostBits = 200;
   std::vector<std::optional<RationalMatrix>> values;
   std::vector<bool> is_data;
@@ -71,7 +72,8 @@ RationalMatrix joined(const std::vector<RationalMatrix>& columns) {
   return result;
 }
 
-/// V e with p of least degree.
+/// The Krylov vectors b, A b, A^2 b, ... until they depend on each other: p is the minimal
+/// polynomial of b, and V_k = sum over j > k of p_j A^(j-k-1) b.
 Eigenvector eigenvector(const RationalMatrix& A, const RationalMatrix& b) {
   std::vector<RationalMatrix> powers = {b};
   RationalMatrix kernel;
@@ -89,7 +91,8 @@ Eigenvector eigenvector(const RationalMatrix& A, const RationalMatrix& b) {
   return result;
 }
 
-/// e of the degree of p by that of a factor: l^d is no new power there.
+/// V e in powers up to those of a factor of degree f, n x f: l^k e_f = C^k e_f with the factor's
+/// companion matrix C, so l^k is the first row of C^k times e_f.
 RationalMatrix reduced(const RationalMatrix& V, const Polynomial& factor) {
   const RationalMatrix C = companion(factor);
   RationalMatrix power = RationalMatrix::Constant(1, C.cols(), Rational(0));
@@ -102,6 +105,7 @@ RationalMatrix reduced(const RationalMatrix& V, const Polynomial& factor) {
   return result;
 }
 
+/// A basis of the kernel of the observability matrix (C; C A; ...; C A^(n-1)), n columns at most.
 RationalMatrix unobserved(const RationalMatrix& A, const RationalMatrix& C) {
   constexpr double kWork = 5e-7;  // seconds of an operation in the fractions of powers
   const auto n = static_cast<double>(A.rows());

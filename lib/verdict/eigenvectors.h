@@ -26,11 +26,13 @@ struct Eigenvector {
 
 /// Vectors b to begin with: bases of what each of `others` with fitting columns, or its transpose,
 /// does not observe, and the unit vectors.
+/// A is n x n; each b is n x 1, none twice.
 std::vector<numerics::RationalMatrix> starts_of(const numerics::RationalMatrix& A,
                                                 const std::vector<NamedMatrix>& others);
 
 /// With the p of least degree such that p(A) b = 0, (l - A) w(l) = p(l) b for
 /// w(l) = (p(l) - p(A))/(l - A) b; also for factors of p that a limit may hang on.
+/// Thus V has the columns V_k = sum_(j>k) p_j A^(j-k-1) b, n x d, k = 0 ... d - 1.
 std::vector<Eigenvector> eigenvectors_from(const numerics::RationalMatrix& A,
                                            const numerics::RationalMatrix& b);
 

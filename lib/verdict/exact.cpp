@@ -15,7 +15,9 @@ namespace {
 using numbers::Enclosed;
 using numbers::EnclosedValues;
 
-/// (B + B')/2 in the units of a balance, at the rows `kept`.
+/// (B + B')/2 in the units of a balance, at the rows `kept`. `place` is the new number of each row,
+/// -1 of one that is left out. Units are powers of two, so they add no error; equal pairs of
+/// elements are taken as they are, which rounds nothing.
 template <class S, class Factor>
 ExactElements<S> symmetric_part(const ExactElements<S>& elements, const std::vector<int>& place,
                                 const Factor& factor) {
@@ -62,6 +64,8 @@ template <class S>
 ExactBlocks<S>::ExactBlocks(const lmi::Inequalities& of, const lmi::Balance& balance)
     : of_(of), balance_(balance), values_(enclosed_values<S>(of.instance)) {}
 
+/// The values of data, parameters and the block's variables: those of the file where the point is
+/// one of its numbers (stated_point.h), else the printed decimals.
 template <class S>
 EnclosedValues<S> ExactBlocks<S>::values_at(const lmi::Block& block) const {
   EnclosedValues<S> values = values_;
@@ -83,6 +87,7 @@ EnclosedValues<S> ExactBlocks<S>::values_at(const lmi::Block& block) const {
   return values;
 }
 
+/// One evaluation of the text over exact affine forms gives the coefficients of all unknowns.
 template <class S>
 std::vector<std::pair<int, ExactElements<S>>> ExactBlocks<S>::terms(const expr::Program& program,
                                                                     const EnclosedValues<S>& values,
@@ -138,6 +143,7 @@ std::vector<numbers::Ball<S>> ExactBlocks<S>::objective() const {
   return costs;
 }
 
+/// The coefficients in double without an error bound: the block is what was solved.
 template <class S>
 ExactBlock<S> ExactBlocks<S>::as_solved(const lmi::Block& block, std::size_t at,
                                         const std::vector<int>& kept) const {

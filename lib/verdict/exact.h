@@ -20,17 +20,20 @@ namespace gainsmith::verdict {
 /// the same.
 template <class S>
 struct ExactBlock {
-  int size = 0;
+  int size = 0;  ///< the rows that are kept
   std::vector<std::pair<int, ExactElements<S>>> terms;
 };
 
 /// B_ki as a dense matrix.
+/// size x size, midpoints and radii.
 template <class S>
 numbers::Enclosed<S> dense(const ExactElements<S>& elements, int size);
 
 /// Evaluates the inequality of a block with `where` as an exact affine form. EvaluationError when
 /// an operation has no result there. A block without `where`, which is no point of the domain, has
 /// the coefficients that it has in double.
+/// S is DoubleDouble (31 digits) or Decimal100. Holds the inequalities by reference: they outlive
+/// it.
 template <class S>
 class ExactBlocks {
  public:

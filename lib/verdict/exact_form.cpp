@@ -34,6 +34,7 @@ void settle(ExactElements<S>& elements) {
   elements.resize(kept);
 }
 
+/// Elements that are 0 with a radius of 0 are left out.
 template <class S>
 ExactElements<S> elements_of(const Enclosed<S>& matrix) {
   ExactElements<S> result;
@@ -73,7 +74,11 @@ class KnownFactor {
   bool is_zero(Eigen::Index i, Eigen::Index j) const {
     return sizes_(i, j) == 0 && matrix_.rad(i, j) == 0;
   }
-  /// e times element (i, j); `size` is the magnitude of e.mid.
+  /// e times element (i, j); `size` is the magnitude of e.mid. With a = e and b the element, the
+  /// radius is
+  ///     |a| rad_b + rad_a (|b| + rad_b) + 2 u |a| |b|,
+  /// rounded upward. Wide balls (rad above the midpoint) and products that may underflow take the
+  /// general rule.
   Ball<S> times(const ExactElement<S>& e, double size, Eigen::Index i, Eigen::Index j) const {
     const double rad = matrix_.rad(i, j), own = sizes_(i, j);
     constexpr double least = 1e-140;  // products of what is larger do not underflow
@@ -89,6 +94,7 @@ class KnownFactor {
   numbers::Matrix sizes_;
 };
 
+/// a + b or a - b, coefficient by coefficient.
 template <class S>
 void add_forms(const ExactForm<S>& a, const ExactForm<S>& b, bool subtract, ExactForm<S>& out) {
   out = {a.shape, false, {}, {}};
@@ -113,6 +119,8 @@ ExactForm<S> constant_of(Enclosed<S> number) {
   return {shape, true, std::move(number), {}};
 }
 
+/// The operations with at least one operand that is not constant. What is not affine, as the
+/// product of two forms, is an EvaluationError.
 template <class S>
 struct ExactRules {
   using Op = expr::Op;

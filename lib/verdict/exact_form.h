@@ -29,9 +29,10 @@ struct ExactElement {
 template <class S>
 using ExactElements = std::vector<ExactElement<S>>;
 
+/// Of shape.rows x shape.cols elements. A constant is kept dense in `number`, and `terms` is empty.
 template <class S>
 struct ExactForm {
-  expr::Shape shape;
+  expr::Shape shape;  ///< that of M(x)
   bool constant = true;
   numbers::Enclosed<S> number;  ///< of a constant
   /// (i, M_i) of what is not constant, in the order of i; zeros are left out.

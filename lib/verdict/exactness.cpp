@@ -17,7 +17,9 @@ using Eigen::Index;
 using numbers::Matrix;
 using numbers::Vector;
 
-/// L' B L for each term, its lower triangle with sqrt(2) beside the diagonal.
+/// Fills rows `first` ... of G: column i has the lower triangle of L'B_i L, column by column, times
+/// sqrt(2) beside the diagonal. The error is in the norm of Frobenius:
+///     sum over elements b of (gamma |b| + rad_b) |L_row| |L_column|,  gamma = (2 n + 12) u.
 template <class S>
 void add_images(const FactoredBlock<S>& one, Index first, Images& images) {
   const Matrix& L = one.L;
@@ -64,9 +66,10 @@ Images images_of(const std::vector<FactoredBlock<S>>& blocks, Index unknowns) {
 
 template Images images_of(const std::vector<FactoredBlock<DoubleDouble>>&, Index);
 
-/// R by Cholesky factors of Q'Q with a shift above its rounding, Q = G R, until Q'Q is near I (Fukaya
-/// et al., "Shifted Cholesky QR", 2020).
+/// R by Cholesky factors of Q'Q with a shift above its rounding, Q = G R, until Q'Q is near I
+/// (Fukaya et al., "Shifted Cholesky QR", 2020).
 std::optional<Basis> basis_of(const Images& images, Index first) {
+  // |Q'Q - I| in the norm of Frobenius, at which Q is near enough to orthonormal columns.
   constexpr double kNear = 1e-3;
   constexpr int kMostFactors = 5;  // each makes the condition 1e4 times less
   Basis of;
@@ -95,6 +98,7 @@ std::optional<Basis> basis_of(const Images& images, Index first) {
     of.R *= factor.lower_solve(I).transpose();
     Q = of.G * of.R.triangularView<Eigen::Upper>();
   }
+  // sigma_min(Q)^2 >= 1 - |Q'Q - I|; from its root go the errors of the product G R.
   const double singular = 1 - rest.norm() - of.roundings * Q.squaredNorm();
   const Vector error =
       (images.error(of.used).cwiseQuotient(lengths) * (1 + 1e-12)).array() + 4 * kUnitRoundoff;
@@ -106,6 +110,7 @@ std::optional<Basis> basis_of(const Images& images, Index first) {
   return of;
 }
 
+/// theta = (|R'r| + | |R'| error |) / sigma, rounded upward.
 std::optional<Move> move_of(const Basis& by, const ResidualsInDouble& residuals) {
   for (Index i = by.first; i < residuals.r.size(); ++i)
     if (!(by.lengths[i] > 0) && (residuals.error[i] > 0 || residuals.r[i] != 0))
@@ -120,6 +125,7 @@ std::optional<Move> move_of(const Basis& by, const ResidualsInDouble& residuals)
   return Move{(z.norm() + z_error.norm()) / by.sigma * (1 + 1e-9), by.R * z};
 }
 
+/// With v > 0 the column g_0 has the element v in the last row, and r_0 becomes 0: y_0 = v.
 template <class S>
 bool is_exact_in_double(const std::vector<FactoredBlock<S>>& blocks,
                         const ResidualsInDouble& residuals, bool constant) {

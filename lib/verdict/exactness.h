@@ -18,15 +18,18 @@ namespace gainsmith::verdict {
 template <class S>
 struct FactoredBlock {
   const ExactBlock<S>* block = nullptr;
-  numbers::Matrix L;
+  numbers::Matrix L;  ///< n_k x rank
 };
 
 /// g_i, and a bound of its error in the norm of Frobenius.
 struct Images {
+  /// (1 + sum_k r_k (r_k + 1)/2) x (m + 1), r_k the columns of L_k; off-diagonal elements times
+  /// sqrt(2), so that g_i'g_j is the sum over k of <L'B_ki L, L'B_kj L>.
   numbers::Matrix G;
   numbers::Vector error;
 };
-/// The columns g_0 ... g_m of `unknowns` = m + 1, a block after the other, below them a row of zeros.
+/// The columns g_0 ... g_m of `unknowns` = m + 1, a block after the other, below them a row of
+/// zeros.
 template <class S>
 Images images_of(const std::vector<FactoredBlock<S>>& blocks, Eigen::Index unknowns);
 
@@ -40,13 +43,15 @@ struct ResidualsInDouble {
 struct Basis {
   std::vector<Eigen::Index> used;
   numbers::Vector lengths;  ///< of all g_i; 0: the unknown does not occur
+  /// G with the columns of unknowns in `used`, each divided by its length; R upper triangular.
   numbers::Matrix G, R;
   Eigen::Index first = 1;  ///< the first unknown that counts
   double sigma = 1;        ///< at most the smallest singular value of G R
+  /// A bound of what rounding changes of a product with G or R, relative to its terms.
   double roundings = 0;
 };
-/// Of g_first ... g_m; none where what is known of one does not tell whether it is 0, or they depend
-/// on each other.
+/// Of g_first ... g_m; none where what is known of one does not tell whether it is 0, or they
+/// depend on each other.
 std::optional<Basis> basis_of(const Images& images, Eigen::Index first);
 
 /// theta^2 >= r' H^-1 r: with R near H^-1/2, theta = |R' r| / sigma, sigma the smallest singular

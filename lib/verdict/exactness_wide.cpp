@@ -1,4 +1,9 @@
-// r' H^-1 r < 1 with H in 31 or 100 digits.
+// r' H^-1 r < 1 with H in 31 or 100 digits, for multipliers Y_k that double cannot factor.
+//
+// With the Cholesky factor H = L L' and R = L^-1 (R H R' near I):
+//   r' H^-1 r <= |R r|^2 / (1 - |I - R H R'|_inf),
+// The norm includes the error bound of H and the rounding. The test asks for |R r|^2 < 0.5 and for
+// a norm below 0.01.
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -74,6 +79,7 @@ struct Gram {
 template <class S>
 bool is_exact_in_wide(const std::vector<WeighedBlock<S>>& blocks, const VectorOf<S>& residuals,
                       const numbers::Vector& residual_error, bool constant) {
+  // Seconds of work (base/stop.h).
   constexpr double kMostWork = 0.5;  // what is left open here the other certificates decide
   const auto unknowns = static_cast<double>(residuals.size());
   if (2 * unknowns * unknowns * unknowns * work_of<S>() > kMostWork) return false;

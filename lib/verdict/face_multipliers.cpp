@@ -23,7 +23,9 @@ Rational power_of_two(int exponent) {
 
 double magnitude_of(const DoubleDouble& x) { return std::abs(x.hi()); }
 
-/// The rows with pivots of at least `least`, the largest first.
+/// The rows with pivots of at least `least`, the largest first, of the elimination
+/// Y - y_p y_p'/Y_pp. Their number is the rank of Y up to `least`; they are returned in rising
+/// order.
 std::vector<int> pivots_of(Quad Y, double least) {
   std::vector<int> pivots;
   for (Eigen::Index k = 0; k < Y.rows(); ++k) {
@@ -57,7 +59,9 @@ Quad right_quotient(Quad A, Quad B) {
   return B;
 }
 
-/// V in the units of the data; none where an element is no short fraction within `relative`.
+/// V = Y(:, P) Y(P, P)^-1, n x |P|, in the units of the data; it has the identity in the rows P.
+/// None where an element is no short fraction within `relative`; elements below sqrt(relative) are
+/// 0.
 std::optional<RationalMatrix> basis_of(const Quad& Y, const std::vector<int>& units,
                                        const std::vector<int>& pivots, double relative) {
   const auto n = static_cast<int>(Y.rows());
@@ -83,6 +87,7 @@ std::optional<RationalMatrix> basis_of(const Quad& Y, const std::vector<int>& un
   return V;
 }
 
+/// S = Y(P, P) in the units of the data, |P| x |P|, as exact fractions of the doubles.
 RationalMatrix start_of(const Quad& Y, const std::vector<int>& units,
                         const std::vector<int>& pivots) {
   const auto n = static_cast<Eigen::Index>(pivots.size());
@@ -137,6 +142,7 @@ class Correction {
 
   /// In double: whether the residuals are so small that a correction may do.
   bool is_near() const {
+    // Of the sum W_i of absolute terms.
     constexpr double kFar = 0.01;
     const double v = nearest_double(v_);
     std::vector<double> r(static_cast<std::size_t>(unknowns_) + 1, 0.0);
@@ -159,6 +165,8 @@ class Correction {
     return true;
   }
 
+  /// S_k and v with r_i = 0 exactly: H y = r in fractions, S_k -= sum_j y_j S_k G_kj S_k,
+  /// v -= y_0 v^2. H and r count i = 0 ... m. False where the equations have no solution.
   bool correct() {
     const Eigen::Index m = unknowns_ + 1;
     RationalMatrix r = RationalMatrix::Constant(m, 1, Rational(0));
@@ -198,6 +206,7 @@ class Correction {
 /// The rows of each block that count.
 using Pattern = std::vector<std::vector<int>>;
 
+/// One try: the ranks of `pattern`, this v, fractions within `relative`.
 ExactMultipliers made_exact(const Faces& faces, const FoundMultipliers& found,
                             const Pattern& pattern, const Rational& v, double relative) {
   ExactMultipliers result;
@@ -219,6 +228,7 @@ ExactMultipliers made_exact(const Faces& faces, const FoundMultipliers& found,
 }  // namespace
 
 ExactMultipliers exact_multipliers(const Faces& faces, const FoundMultipliers& found) {
+  // Shares of the sum of all traces and v, below which a pivot is 0; then lengths of fractions.
   constexpr double kShares[] = {1e-6, 1e-9, 1e-4, 1e-12, 1e-16, 1e-2};
   constexpr double kRelative[] = {1e-14, 1e-10, 1e-6};
   double whole = std::max(0.0, found.v);

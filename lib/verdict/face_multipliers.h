@@ -21,10 +21,11 @@ namespace gainsmith::verdict {
 /// What a solver found for the blocks that are left, each with the rows that stay, in units in
 /// which they are balanced.
 struct FoundMultipliers {
+  /// One for each block of `faces`, in its order.
   std::vector<numbers::MatrixOf<DoubleDouble>> Y;
   std::vector<std::vector<int>> rows;  ///< log2 of the unit of each row: Y is S^-1 times the
                                        ///< multiplier in the units of the data times S^-1
-  double v = 0;
+  double v = 0;                        ///< multiplier of the constant parts
 };
 
 /// Of the blocks with Y_k != 0.
@@ -33,6 +34,9 @@ struct ExactMultipliers : FaceMultipliers {
   Say say = Say::nothing;
 };
 
+/// Several ranks and several lengths of fractions are tried; the first that is exact is returned.
+/// Where none is, `say` is nothing and the rest empty. `excludes`: v > 0 or a strict block counts;
+/// `restricts`: v = 0, only blocks with >= count.
 ExactMultipliers exact_multipliers(const Faces& faces, const FoundMultipliers& found);
 
 /// The ranges of projectors onto kernels of the blocks with >=, in fractions within `relative`;

@@ -161,6 +161,8 @@ bool Faces::find_pair() {
   return false;
 }
 
+/// For 1 x 1 blocks a(x) = a_0 + f(x) and b(x) = b_0 - f(x)/c the sum a + c b = a_0 + c b_0
+/// decides: < 0 excludes, 0 leaves equality (or excludes beside a strict one), > 0 says nothing.
 bool Faces::pairs(std::size_t k, std::size_t l) {
   const RationalBlock& a = blocks_[k];
   const RationalBlock& b = blocks_[l];
@@ -195,6 +197,7 @@ bool Faces::pairs(std::size_t k, std::size_t l) {
   return true;
 }
 
+/// The equations B_k(x) V = 0, one for each element of n_k x rank, linear in (1, y).
 void Faces::restrict_to(const FaceMultipliers& by) {
   const std::vector<FaceOfBlock>& faces = by.faces;
   record(by);
@@ -255,6 +258,7 @@ void Faces::drop_rows(std::size_t block, const std::vector<int>& rows) {
 bool Faces::impose(const RationalMatrix& equations) {
   const Eigen::Index d = unknowns();
   // The constants last; pivots from the right, so that the first unknowns stay free.
+  // Gauss-Jordan elimination in fractions gives y_j = a_j + sum of the y that stay.
   RationalMatrix turned(equations.rows(), d + 1);
   for (Eigen::Index c = 0; c < d; ++c) turned.col(c) = equations.col(d - c);
   turned.col(d) = equations.col(0);
@@ -304,6 +308,7 @@ bool Faces::impose(const RationalMatrix& equations) {
   return true;
 }
 
+/// Unknowns whose columns, the upper triangles of all B_i, depend on those before: their y are 0.
 void Faces::drop_dependent() {
   const Eigen::Index d = unknowns();
   Eigen::Index elements = 0;

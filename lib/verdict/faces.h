@@ -38,9 +38,12 @@ struct FaceMultipliers {
   std::vector<numbers::RationalMatrix> S;  ///< one for each of them
 };
 
+/// The blocks on the affine space x = x_0 + N y after the steps so far. Always: blocks()[k] as a
+/// function of y is B_k(x_0 + N y) on the rows that stay.
 class Faces {
  public:
   /// `names` of the blocks, for why().
+  /// Before any step: y = x, N = I, all rows stay.
   Faces(std::vector<RationalBlock> blocks, std::vector<std::string> names, int unknowns);
 
   /// Steps whose multipliers are read off the blocks: of a pair of blocks B and -c B, c > 0, Y =
@@ -50,7 +53,8 @@ class Faces {
 
   /// What the next step is, for why().
   void note(std::string step) { steps_.push_back(std::move(step)); }
-  /// The step of exact multipliers with v = 0, none of a strict block. Without S it is only guessed.
+  /// The step of exact multipliers with v = 0, none of a strict block. Without S it is only
+  /// guessed.
   void restrict_to(const FaceMultipliers& by);
 
   /// Sets those y to 0 on which, with the others, no block depends: solutions stay solutions.
@@ -62,9 +66,9 @@ class Faces {
   void exclude_numbers();
 
   bool excluded() const { return excluded_; }
-  /// The multipliers of all steps, the columns of V in all rows of the blocks as they were given. The
-  /// sums of a step are 0 modulo the equations B_k(x) V = 0 of the steps before. The last step has
-  /// v > 0 or a strict block, or leaves equations without a solution.
+  /// The multipliers of all steps, the columns of V in all rows of the blocks as they were given.
+  /// The sums of a step are 0 modulo the equations B_k(x) V = 0 of the steps before. The last step
+  /// has v > 0 or a strict block, or leaves equations without a solution.
   const std::vector<FaceMultipliers>& chain() const { return chain_; }
   /// "corner: element (2, 2) is 0 for all unknowns"; the steps so far, the last one first.
   std::string why() const;
@@ -88,10 +92,12 @@ class Faces {
 
   /// x_0 + N y.
   std::vector<Rational> point(const std::vector<Rational>& y) const;
+  /// x_0, m elements; N, m x unknowns().
   const std::vector<Rational>& origin() const { return origin_; }
   const numbers::RationalMatrix& directions() const { return directions_; }
 
  private:
+  /// Whether a step of its kind was made, or excludes.
   bool find_pair();
   bool find_zero();
   bool pairs(std::size_t k, std::size_t l);
@@ -100,7 +106,9 @@ class Faces {
   void keep(const numbers::RationalMatrix& equations);
   /// equations . (1, y) = 0; false when no y satisfies them.
   bool impose(const numbers::RationalMatrix& equations);
+  /// `rows` count from 0 in the rows that stay.
   void drop_rows(std::size_t block, const std::vector<int>& rows);
+  /// Adds a step to chain(), with V in all rows of the blocks as given.
   void record(FaceMultipliers by);
 
   std::vector<RationalBlock> blocks_;

@@ -34,8 +34,9 @@ lmi::Sparse columns_of(const std::vector<ExactBlock<S>>& blocks, int unknowns) {
   return result;
 }
 
-/// The kernel of M'M in reduced echelon form, its rows 1 at their largest element; none where it
-/// is 0. M'M has a diagonal of 1.
+/// The kernel of the Gram matrix M'M, m x m with a diagonal of 1: its basis as rows in reduced
+/// echelon form, 1 at their largest element. None where it is 0. Eigenvalues below 1e-12 count as
+/// 0: singular values of M below 1e-6.
 Matrix kernel_of(const Matrix& gram) {
   constexpr double kZero = 1e-12;
   const Matrix I = Matrix::Identity(gram.rows(), gram.cols());
@@ -55,6 +56,7 @@ Matrix kernel_of(const Matrix& gram) {
 
 /// d in short fractions, times what makes them whole; none where double does not hold that.
 std::optional<std::vector<double>> whole_numbers_near(const Vector& d) {
+  // Of a fraction: its relative error, and its largest numerator or denominator.
   constexpr double kRelative = 1e-9, kLongest = 1e6;
   std::vector<Rational> fractions;
   Integer whole = 1;

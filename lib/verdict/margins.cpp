@@ -16,7 +16,7 @@ namespace gainsmith::verdict {
 
 namespace {
 
-/// The smallest eigenvalue met so far, and where.
+/// The smallest margin (lmi/correlation.h) met so far, and the label of its point.
 struct Worst {
   double value = std::numeric_limits<double>::infinity();
   std::string point;
@@ -30,7 +30,9 @@ struct Worst {
   }
 };
 
-/// Rounding of B(x), relative to its diagonal (margins.h).
+/// A bound of the rounding of B(x), relative to its diagonal: (t + n) eps |D^-1/2 T D^-1/2|_inf
+/// with T = sum_i |x_i| |B_i| elementwise, t terms, D = diag(B(x)). Where a diagonal element is not
+/// positive, the largest element of its row takes its place.
 double rounding_of(const lmi::Block& block, const numbers::Matrix& value,
                    const std::vector<double>& x) {
   numbers::Matrix terms = numbers::Matrix::Zero(block.size, block.size);
@@ -93,6 +95,8 @@ class Checker {
 
  private:
   /// The next inequality: its blocks are the next ones of the same name.
+  /// Its margin is the smallest over the imposed points and over the minima that a search finds.
+  /// The search is left out where the check of the decimals comes first and holds.
   void add(std::size_t inequality, const expr::Program& difference, std::size_t comparison,
            double wished) {
     const model::Design::Comparison& stated =

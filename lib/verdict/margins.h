@@ -52,7 +52,7 @@ Margins compute_margins(const lmi::Inequalities& inequalities, const lmi::Lmi& l
                         const lmi::Balance& balance, double wished, const std::vector<double>& x,
                         const CheckOptions& options = {});
 
-/// Whether all of them hold, and nothing is open.
+/// Whether all margins hold, and nothing is open.
 bool all_hold(const Margins& margins);
 
 }  // namespace gainsmith::verdict

@@ -37,6 +37,7 @@ struct Equations {
   RationalMatrix b;
 };
 
+/// A x = b, a row for each equation with an unknown that moves; the others are numbers in b.
 Equations equations_of(const Faces& faces) {
   const RationalMatrix& N = faces.directions();
   const auto moves = [&](int i) {
@@ -79,6 +80,7 @@ Equations equations_of(const Faces& faces) {
 std::optional<std::vector<double>> printable_point(const Faces& faces,
                                                    const std::vector<Rational>& y,
                                                    const std::vector<double>& units, int digits) {
+  // Unknowns that stay are rounded; the others follow from the equations in whole numbers, near x.
   std::vector<Rational> x = faces.point(y);
   const Equations equations = equations_of(faces);
   std::vector<int> decimals;

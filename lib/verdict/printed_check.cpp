@@ -49,7 +49,8 @@ forall::Domain stated_domain(const lmi::Statement& statement, const EnclosedValu
   return domain;
 }
 
-/// From more decimals than the digits have.
+/// A fraction as a ball: it is written in decimal with twice as many digits as the widest type has,
+/// and read into S. The radius 2 u |mid| covers both roundings.
 template <class S>
 numbers::Ball<S> enclosed_fraction(const Rational& value) {
   constexpr int kDigits = 2 * kWideDigits;
@@ -62,6 +63,7 @@ numbers::Ball<S> enclosed_fraction(const Rational& value) {
   return {mid, 2 * numbers::magnitude(mid) * numbers::unit_roundoff<S>()};
 }
 
+/// Whether the degree of the result in `name` is at most 1.
 bool is_affine_in(const expr::Program& program, const std::string& name) {
   const auto degrees = numbers::degrees(program, [&](const std::string& it) { return it == name; });
   return degrees[static_cast<std::size_t>(program.result)] <= 1;
@@ -69,6 +71,7 @@ bool is_affine_in(const expr::Program& program, const std::string& name) {
 
 }  // namespace
 
+/// The radius is u |mid| unless S holds the decimal exactly.
 template <class S>
 Enclosed<S> enclosed_decimal(double value) {
   const std::string text = model::printed(value);
@@ -148,6 +151,8 @@ DomainProof PrintedCheck::check(std::size_t inequality, std::size_t comparison) 
   const lmi::Statement& statement = of_.statements[inequality];
   DomainProof proof = check_in(statement, comparison, in_double_);
   // A domain that is too long for its waves is so in all digits.
+  // The order is double, 31 digits, 100 digits, fractions; the next is asked only where one is
+  // open.
   if (proof.pieces >= most_pieces_) return proof;
   if (proof.status == DomainProof::Status::open) proof = check_in(statement, comparison, in_31_);
   if (proof.status == DomainProof::Status::open) proof = check_in(statement, comparison, in_100_);
@@ -160,6 +165,8 @@ DomainProof PrintedCheck::check(std::size_t inequality, std::size_t comparison) 
   return proof;
 }
 
+/// A function that is affine in each variable takes its extremes over a box at the corners, so each
+/// combination of ends, vertices and elements is tested, in fractions.
 std::optional<bool> PrintedCheck::check_in_fractions(const lmi::Statement& statement,
                                                      std::size_t comparison) const {
   const auto& domain = statement.domain;

@@ -35,6 +35,7 @@ class PrintedCheck {
                const std::vector<Rational>* solution = nullptr);
 
   /// One comparison of one inequality. What has no value somewhere is open.
+  /// Throws nothing for what cannot be evaluated: the status is `open` with the reason.
   forall::DomainProof check(std::size_t inequality, std::size_t comparison);
 
  private:
@@ -44,6 +45,7 @@ class PrintedCheck {
   /// it has none, or where they do not decide.
   std::optional<bool> check_in_fractions(const lmi::Statement& statement,
                                          std::size_t comparison) const;
+  /// The check in S; `known` keeps the values for the next inequality.
   template <class S>
   forall::DomainProof check_in(const lmi::Statement& statement, std::size_t comparison,
                                std::optional<numbers::EnclosedValues<S>>& known);

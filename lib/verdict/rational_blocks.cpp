@@ -40,6 +40,8 @@ void add_term(int i, RationalMatrix matrix, RationalBlock& result) {
 }
 
 /// EvaluationError where something has no fraction.
+/// B_0 = B(0) and B_i = B(e_i) - B(0), each the symmetric part of the text's value: m + 1
+/// evaluations in fractions.
 RationalBlock evaluated(const lmi::Inequalities& of, const lmi::Block& block,
                         RationalValues values) {
   const lmi::Statement& statement = of.statements[block.inequality];
@@ -75,6 +77,7 @@ RationalBlock evaluated(const lmi::Inequalities& of, const lmi::Block& block,
   return result;
 }
 
+/// The coefficients in double as fractions, where the text has none: `exact` is false.
 RationalBlock rounded(const lmi::Block& block) {
   RationalBlock result{block.size, block.strict, false, {}};
   for (const auto& [i, matrix] : block.terms) {

@@ -17,14 +17,14 @@ namespace gainsmith::verdict {
 namespace {
 
 using numbers::MatrixOf;
-/// The sums over all blocks.
+/// The sums over all blocks of terms in B_ki and Y_k, i = 0 ... m, with bounds of their errors.
 template <class S>
 struct Sums {
   VectorOf<S> r;          ///< r_0 = sum <B_k0, Y_k> = -v
   Eigen::VectorXd error;  ///< of r
   Eigen::VectorXd noise;  ///< of `error` and r, what comes of coefficients that are only rounding
-  Eigen::VectorXd W;
-  double strict = 0;  ///< tr of the Y_k of strict blocks
+  Eigen::VectorXd W;      ///< W_i = sum_k <|B_ki|, |Y_k|>
+  double strict = 0;      ///< tr of the Y_k of strict blocks
   double whole = 0;
   std::vector<bool> present;  ///< whether a term of r is not 0
   double smallest = 1;        ///< of the elements that are certainly not 0, beside their block
@@ -123,6 +123,7 @@ std::optional<MatrixOf<S>> positive(const MatrixOf<S>& Y) {
 /// Elements of nothing but rounding, and rows of such, become 0: an r_i of theirs alone is as large
 /// as its W_i. What that takes from Y >= 0 is lifted again (positive()).
 void clear_rounding(MatrixOf<Decimal100>& Y) {
+  // Relative: of sqrt(Y_ii Y_jj), and of tr Y.
   constexpr double kElement = 1e-78;
   constexpr double kRow = 1e-85;
   const Eigen::Index n = Y.rows();
@@ -147,6 +148,7 @@ struct Weighed {
   bool strict = true;
 };
 
+/// The multipliers of 31 digits in S.
 template <class S>
 std::vector<MatrixOf<S>> converted(const Multipliers& Y) {
   std::vector<MatrixOf<S>> result;
@@ -155,7 +157,8 @@ std::vector<MatrixOf<S>> converted(const Multipliers& Y) {
   return result;
 }
 
-/// L with Y = L L' but for what is left after pivots above a small share of the largest one.
+/// L, n x rank, with Y = L L' but for what is left after pivots above `small` times the largest
+/// one: a Cholesky factorisation with complete pivoting, in double.
 numbers::Matrix factor_of(numbers::Matrix Y, double small) {
   const Eigen::Index n = Y.rows();
   numbers::Matrix L(n, n);
@@ -170,6 +173,7 @@ numbers::Matrix factor_of(numbers::Matrix Y, double small) {
 }
 
 /// Whether a certificate without any residual is near the multipliers (exactness.h).
+/// With constant parts v > 0 must be certain; without them a strict block must have a multiplier.
 template <class S>
 bool is_exact(const std::vector<Weighed<S>>& blocks, const Sums<S>& sums, Eigen::Index m,
               Exactness exactness) {
@@ -210,6 +214,8 @@ bool is_exact(const std::vector<Weighed<S>>& blocks, const Sums<S>& sums, Eigen:
 }
 
 /// What the blocks with tr(Y_k) >= least say; the others have the multiplier 0.
+/// The backward error is max over i of (|r_i| + error_i - noise_i) / W_i, at least the unit
+/// roundoff. For i = 0 only r_0 > 0, that is v < 0, counts.
 template <class S>
 Refutation refute_by(const std::vector<Weighed<S>>& blocks, double least, Eigen::Index m,
                      Exactness exactness) {
@@ -263,6 +269,7 @@ Refutation refute(const lmi::Lmi& lmi, const std::vector<ExactBlock<S>>& blocks,
   if constexpr (std::is_same_v<S, Decimal100>)
     for (MatrixOf<S>& y : Y) clear_rounding(y);
   // Blocks that a certificate does not need have multipliers that tend to 0 but are not.
+  // Shares of the sum of all traces: blocks with smaller multipliers are left out, one try each.
   constexpr double kShares[] = {0, 1e-24, 1e-16, 1e-12, 1e-8, 1e-4};
   Refutation best;
   best.digits = std::is_same_v<S, DoubleDouble> ? kQuadDigits : kWideDigits;

@@ -26,6 +26,7 @@
 
 namespace gainsmith::verdict {
 
+/// What multipliers say of the inequalities. Without multipliers it says nothing: an error of 1.
 struct Refutation {
   bool exact = false;         ///< no solution, shown
   double backward_error = 1;  ///< rounded upward
@@ -38,14 +39,15 @@ enum class Exactness { in_double, in_wide };
 
 /// What Y says over S, or those of its Y_k that are not small: those of blocks that a certificate
 /// does not need are only nearly 0, and any Y >= 0 may be tried. Nothing (an error of 1) when the
-/// Y_k are not positive semidefinite, or when only blocks with >= have multipliers and v is 0. It is
-/// about the inequalities where every block represents a point of its domain.
+/// Y_k are not positive semidefinite, or when only blocks with >= have multipliers and v is 0. It
+/// is about the inequalities where every block represents a point of its domain.
 template <class S>
 Refutation refute(const lmi::Inequalities& of, const lmi::Lmi& lmi,
                   const lmi::Formulation& formulation, const Multipliers& Y,
                   Exactness exactness = Exactness::in_wide);
 
 /// The blocks of the Lmi in the balance of a formulation, on the rows that were solved.
+/// One for each block, its kept rows only.
 template <class S>
 std::vector<ExactBlock<S>> exact_blocks(const lmi::Inequalities& of, const lmi::Lmi& lmi,
                                         const lmi::Formulation& formulation);

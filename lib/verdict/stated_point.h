@@ -9,6 +9,7 @@
 
 namespace gainsmith::verdict {
 
+/// The two ends of an interval.
 enum class End { low, high };
 
 /// The text that the block's value of its v-th variable represents; none at a point between. An end

@@ -29,7 +29,8 @@ struct Factored {
   std::vector<Quad> Y;
 };
 
-/// Y_k with `lift` of its mean eigenvalue more; none where that is not positive definite.
+/// Y_k + lift tr(Y_k)/n I and its Cholesky factor in double; none where that is not positive
+/// definite. Multipliers with a trace of 0 are left out.
 std::optional<Factored> factors_of(const BlockList& blocks, const Multipliers& Y, double lift) {
   Factored result;
   for (std::size_t k = 0; k < blocks.size(); ++k) {
@@ -82,7 +83,8 @@ bool leaves_positive(const Factored& of, double theta) {
   return true;
 }
 
-/// Y_k + dY_k, dY = L W L'.
+/// Y_k + dY_k, dY_k = L_k W_k L_k' with W_k = sum_j (H^-1 r)_j L_k'B_kj L_k: the elements of G
+/// times the steps, those off the diagonal by sqrt(2).
 void correct(const Basis& by, const Vector& steps, Factored& of) {
   if (by.used.empty()) return;
   const Vector moved = by.G * steps;
@@ -116,7 +118,10 @@ struct ShownBound {
   Factored by;
 };
 
+/// The best of up to three bounds (weak_duality.h), each after one more correction Y + dY:
+///     c_0 - sum_k <B_k0, Y_k> - theta |g_0|,  rounded downward.
 std::optional<ShownBound> bound_at(Factored of, const Costs& costs) {
+  // Each correction leaves the residuals that double makes of dY; a loss of 1e-15 is rounding.
   constexpr int kCorrections = 3;
   constexpr double kNoLoss = 1e-15;
   const Images images = images_of(of.blocks, std::ssize(costs));

@@ -1,12 +1,12 @@
 // Lower bounds of an objective, shown by weak duality.
 //
-// Y_k with residuals r_i = c_i - sum_k <B_ki, Y_k>, i >= 1, and L_k with L_k L_k' near Y_k. With the
-// g_i and H of exactness.h, of L_k L_k', and r' H^-1 r = theta^2,
+// Y_k with residuals r_i = c_i - sum_k <B_ki, Y_k>, i >= 1, and L_k with L_k L_k' near Y_k. With
+// the g_i and H of exactness.h, of L_k L_k', and r' H^-1 r = theta^2,
 //   dY_k = sum_j (H^-1 r)_j L_k L_k' B_kj L_k L_k'
 // leaves no residual. Where Y_k >= theta L_k L_k', Y + dY >= 0, so that for all x with B_k(x) >= 0
 //   c_0 + c'x >= c_0 - sum_k <B_k0, Y_k + dY_k> >= c_0 - sum_k <B_k0, Y_k> - theta |g_0|
-// whatever the size of x. With any R near H^-1/2, theta <= |R'r| / sigma, sigma the smallest singular
-// value of the matrix of the g_i times R; all rounded outward.
+// whatever the size of x. With any R near H^-1/2, theta <= |R'r| / sigma, sigma the smallest
+// singular value of the matrix of the g_i times R; all rounded outward.
 #pragma once
 
 #include <optional>
@@ -24,6 +24,7 @@ namespace gainsmith::verdict {
 using Costs = std::vector<numbers::Ball<DoubleDouble>>;
 
 /// Those of the objective of the inequalities, by the decimals of the file.
+/// Size m + 1, in the units of the data. There must be an objective.
 Costs exact_objective(const lmi::Inequalities& of);
 
 /// The same in the coordinates y of a face, x = x_0 + N y.

@@ -1,4 +1,4 @@
-// Internal to lmi: factorisations in more digits than double.
+// Internal to this folder: factorisations in more digits than double.
 #pragma once
 
 #include <cmath>
@@ -18,8 +18,10 @@ using numbers::MatrixOf;
 /// A matrix of 100 digits.
 using Wide = MatrixOf<Decimal100>;
 
+/// |x| in double; what is below its range is 0.
 inline double size_of(const Decimal100& x) { return std::abs(as<double>(x)); }
 
+/// Every element rounded to S.
 template <class S>
 MatrixOf<S> narrow(const Wide& matrix) {
   return matrix.unaryExpr([](const Decimal100& x) { return as<S>(x); });
@@ -34,7 +36,7 @@ constexpr double work_of() {
   return std::is_same_v<S, DoubleDouble> ? kQuadWork : kWideWork;
 }
 
-/// L with M = L L'; none when M is not positive definite in S.
+/// Lower triangular L with M = L L'; none when M is not positive definite in S. n^3/6 operations.
 template <class S>
 std::optional<MatrixOf<S>> cholesky(const MatrixOf<S>& M) {
   const auto n = static_cast<double>(M.rows());
@@ -45,7 +47,7 @@ std::optional<MatrixOf<S>> cholesky(const MatrixOf<S>& M) {
   return L;
 }
 
-/// L^-1.
+/// L^-1 of a lower triangular L, n x n, column by column.
 template <class S>
 MatrixOf<S> lower_inverse(const MatrixOf<S>& L) {
   const Eigen::Index n = L.rows();

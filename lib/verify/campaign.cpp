@@ -70,6 +70,7 @@ class Collector {
     Tally tally;
   };
 
+  /// Adds to the part; saves it when that is due.
   void take(statistics::RunRange range, const Tally& tally) {
     part_.runs.add(range);
     verify::add(tally, part_.tally);
@@ -77,6 +78,7 @@ class Collector {
     if (pace_.is_due()) save();
   }
 
+  /// Writes what has been added since the last time.
   void save() {
     if (!save_) return;
     pace_.save(save_);
@@ -148,6 +150,7 @@ void judge_runs(statistics::RunRange range, PackJudge& judge, Collector& collect
   collector.add({from, next}, sum);
 }
 
+/// InputError when no claim is stated.
 void require_a_claim(const Place& place, const std::vector<claims::Claim>& claims) {
   if (claims.empty())
     throw InputError(place, "the method makes no claims, so there is nothing to verify");
@@ -158,11 +161,13 @@ void require_a_claim(const Place& place, const std::vector<claims::Claim>& claim
                               "' needs");
 }
 
+/// What the report needs of the setup, so that parts are concluded without it.
 CampaignFacts facts_of(const Setup& setup, const CampaignOptions& options) {
   const model::RunTexts& texts = setup.events->texts;
   CampaignFacts facts;
   facts.different = hybrid::different_runs(setup.events->system, setup.events->scenario);
   facts.asked = options.runs.value_or(texts.campaign.runs);
+  // A run that repeats another one says nothing.
   if (facts.different) facts.asked = std::min(facts.asked, *facts.different);
   facts.seed = options.seed.value_or(texts.campaign.seed);
   if (facts.asked == 0) throw InputError(texts.campaign.place, "a campaign needs at least one run");
@@ -267,6 +272,8 @@ void Campaign::make_range(statistics::RunRange range, const Packs* packs, const 
   check_stop();
 }
 
+/// The first kFirstRuns runs decide whether packs make the rest. Where work comes between, or the
+/// first violation ends the campaign, ranges double from kFirstRuns on.
 void Campaign::make_runs(statistics::RunRange range, CampaignPart& part, const Save& save) const {
   const std::vector<statistics::RunRange> missing = part.runs.missing_in(range);
   if (missing.empty() || part.ended()) return;

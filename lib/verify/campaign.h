@@ -1,6 +1,17 @@
 // Monte-Carlo: many runs against the claims of a gain file.
 //
 // Verify shares no code with the synthesis: it knows the gains, the method's text and the plant.
+//
+// Run k draws from its own streams (hybrid/scenario.h). With K violations in N runs the
+// Clopper-Pearson bound limits the probability of a violation (statistics/sample_bounds.h). A held
+// campaign is evidence for its sampling laws, and no proof.
+//
+//   setup, coordinate_states, error_states   dynamics in coordinates without cancellation
+//   judge, pack_judge        the verdict on one run, by the careful run or by packs
+//   campaign, campaign_part, tally, conclude   many runs, their sum, and the report
+//   worst, draw_cube, periodic_lengths   the search for a run that violates
+//   growing                  which eigenvalue makes a claim fail
+//   replay, expected_run, run_measure   single runs: tables, expected figures, a cost to minimise
 #pragma once
 
 #include <array>
@@ -116,7 +127,10 @@ class Campaign {
   void repeat_worst(CampaignPart& part) const;
 
  private:
+  /// Whether packs have decided at least half of the first runs.
   bool packs_go_on(const PackJudge& first) const;
+  /// Makes the runs of a range in blocks of `size` on threads. `prepared`: a judge that has these
+  /// runs already, or nullptr. Stopped after a stop.
   void make_range(statistics::RunRange range, const Packs* packs, const PackJudge* prepared,
                   std::uint64_t size, Collector& collector) const;
 

@@ -17,6 +17,7 @@
 
 namespace gainsmith::verify {
 
+/// What is known of a claim without any run.
 struct ClaimFacts {
   std::string name;
   model::ClaimKind kind = model::ClaimKind::nonincreasing;
@@ -59,6 +60,7 @@ struct Repeat {
   bool operator==(const Repeat&) const = default;
 };
 
+/// The sum of some runs. Parts with other runs add up to the same bits in any order (tally.h).
 struct CampaignPart {
   CampaignFacts facts;
   statistics::RunSet runs;

@@ -42,6 +42,8 @@ void take_careful(const CampaignPart& part, Tally& tally) {
   }
 }
 
+/// One report a claim, in the order of the method; those of claims that are not stated hold no
+/// runs.
 std::vector<CheckReport> report_checks(const CampaignPart& part, const Tally& tally) {
   std::vector<CheckReport> reports;
   std::size_t next = 0;
@@ -114,6 +116,7 @@ std::optional<bool> confirm_worst(const CampaignPart& part, Report& report) {
   return std::binary_search(report.confirmed.begin(), report.confirmed.end(), report.worst_run);
 }
 
+/// The counts of the tally, and the events that happened in no run.
 void take_counts(const CampaignPart& part, const Tally& tally, Report& report) {
   report.violations = tally.violations;
   report.undecided = tally.undecided;
@@ -137,12 +140,15 @@ void take_counts(const CampaignPart& part, const Tally& tally, Report& report) {
 /// much of the probability as runs whose number was fixed (Bernoulli trials up to the first success).
 double probability_bound(const Report& report) {
   const std::uint64_t last = report.ended ? 1 : 0;
+  // An undecided run counts as a violation, which keeps the bound valid.
   return statistics::violation_probability_bound(report.violations + report.undecided - last,
                                                  report.runs - last, report.confidence);
 }
 
 }  // namespace
 
+/// Verdict: violated when the worst run violates again; held when no run is violated or undecided
+/// and all were made; otherwise undecided.
 Report conclude(const CampaignPart& part) {
   const CampaignFacts& facts = part.facts;
   Report report;

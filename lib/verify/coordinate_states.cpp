@@ -46,6 +46,7 @@ bool rests(const linear::Coordinates& coordinates, std::size_t i) {
 
 }  // namespace
 
+/// Flow and jumps become those of the coordinates; claims read their functions.
 model::RunTexts with_coordinates(model::RunTexts texts, const linear::Coordinates& coordinates,
                                  const std::vector<claims::Claim>& claims) {
   Dynamics& dynamics = texts.dynamics;

@@ -3,6 +3,9 @@
 // Of linear sampled dynamics (linear/coordinates.h) errors of observers are states, and so is
 // expm(-A*s)*e where it is constant along flows. Then rounding of what grows is no error of a claim,
 // and states that no claim depends on rest: a run does not end because one of them diverges.
+//
+// The flow is that of the coordinates, x' = A x + b; the jump has one map a component. What is
+// drawn stays in its place.
 #pragma once
 
 #include <vector>

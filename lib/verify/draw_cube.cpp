@@ -16,6 +16,7 @@ using hybrid::GivenRun;
 using model::Dynamics;
 using numbers::Matrix;
 
+/// floor(number u), at most number - 1.
 std::size_t index_in(std::size_t number, double u) {
   return std::min(number - 1, static_cast<std::size_t>(u * static_cast<double>(number)));
 }
@@ -23,6 +24,7 @@ std::size_t index_in(std::size_t number, double u) {
 /// The cube [-1, 1]^n onto the unit ball, along rays.
 Eigen::VectorXd ball_point(const Eigen::VectorXd& w) {
   const double length = w.norm();
+  // |w|_max/|w| maps the face |w|_max = 1 to the sphere.
   return length == 0 ? w : Eigen::VectorXd(w * (w.cwiseAbs().maxCoeff() / length));
 }
 
@@ -83,6 +85,7 @@ std::vector<double> DrawCube::with_lengths(std::vector<double> u, std::size_t ev
   return u;
 }
 
+/// Draw k of the other cube is its draw k modulo its period; what it has not is 1/2.
 std::vector<double> DrawCube::unrolled(const DrawCube& other, const std::vector<double>& u) const {
   std::map<Name, double> values;
   for (std::size_t i = 0; i < other.names_.size(); ++i) values[other.names_[i]] = u[i];

@@ -29,6 +29,7 @@ class DrawCube {
 
   /// d; 0: nothing is drawn.
   std::size_t size() const { return names_.size(); }
+  /// The draws at u; elements outside [0, 1] are moved to its ends.
   hybrid::GivenRun at(const std::vector<double>& u) const;
   /// The same with numbers of so many digits, within their ranges; all digits in an ellipsoid and
   /// around a center.
@@ -55,6 +56,7 @@ class DrawCube {
     double between(double low, double high, const Name& name) const;
   };
 
+  /// All draws in a fixed order; `take` is asked for each coordinate once, in that order.
   hybrid::GivenRun walk(const Take& take) const;
   /// Around a center, with a name for each element.
   template <class NameOf>
@@ -64,6 +66,7 @@ class DrawCube {
   void walk_event(std::size_t event, const Take& take, hybrid::GivenRun& run) const;
   void walk_noise(std::size_t noise, const Take& take, hybrid::GivenRun& run) const;
   std::size_t count(double every) const;
+  /// How many lengths or losses an event has: by the mean of its range of lengths.
   std::size_t count_of_event(std::size_t event) const;
 
   const hybrid::System* system_;

@@ -21,6 +21,7 @@ bool uses(const Program& program, const std::string& name) {
   return has_named(program.inputs, name);
 }
 
+/// What a reaction assigns to a variable; nullptr: nothing.
 Dynamics::Assignment* assignment_of(Dynamics::Reaction& reaction, std::size_t variable) {
   for (Dynamics::Pass& pass : reaction.passes)
     for (Dynamics::Assignment& one : pass.map)
@@ -91,6 +92,7 @@ class ErrorStates {
   Dynamics dynamics_;
 };
 
+/// b = a - d where the text reads b, with equal terms cancelled.
 void ErrorStates::rewrite(Program& program) {
   const bool reads = std::any_of(differences_.begin(), differences_.end(),
                                  [&](const auto& one) { return uses(program, one.minus); });
@@ -160,6 +162,7 @@ Dynamics::Assignment& ErrorStates::map_of(std::size_t event, std::size_t variabl
   return found->passes.front().map.back();
 }
 
+/// A difference whose d' or d+ reads a.
 std::optional<std::size_t> ErrorStates::first_bound() const {
   for (std::size_t k = 0; k < places_.size(); ++k) {
     const auto is_bound = [&](const Dynamics::Assignment& one) {

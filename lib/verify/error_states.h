@@ -5,6 +5,10 @@
 // for states a, b whose difference occurs in a claim. It is done where d moves by itself: where a
 // drops out of d' and of all d+ (linear/differences.h). Then rounding of a, which may grow, is no
 // error of d.
+//
+// Differences that do not move by themselves are dropped one by one, and the rest is tried again.
+// No differences are made of modes, symmetric states, frozen components, loops or several maps at
+// one event, nor of an a whose jumps may be lost.
 #pragma once
 
 #include <optional>

@@ -20,6 +20,7 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
+/// The number with the digits that its error leaves, or why there is none.
 std::string said(const statistics::Estimate& found, double end) {
   if (!found.known()) return "a number that is not known: " + found.why;
   return found.value ? brief(*found.value, 9, found.error)

@@ -1,4 +1,8 @@
 // Figures that are expected of the first run of dynamics with events.
+//
+// A figure f is known as f +- error. It is different when |f - wanted| - allowed > error. It is as
+// expected when |f - wanted| - allowed <= -error, but for the rounding of decimals. Otherwise it is
+// undecided.
 #pragma once
 
 #include <cstddef>

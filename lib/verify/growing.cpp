@@ -63,11 +63,13 @@ bool is_seen(const claims::RunSetup& setup, const claims::Claim& claim, const nu
   const Eigen::Index n = M.rows();
   numbers::Matrix whole(2 * n, 2 * n);
   const numbers::Matrix I = numbers::Matrix::Identity(n, n), real = M - lambda.real() * I;
+  // The real form of M - lambda I; its null vector is [Re v; Im v].
   whole << real, lambda.imag() * I, -lambda.imag() * I, real;
   const numbers::Vector v = numbers::full_svd(whole).V.col(2 * n - 1);
   hybrid::PointFunction value(claim.value, setup.system.layout, setup.system.constants);
   const auto at = [&](const Eigen::VectorXd& x) { return value(x, 0)(0, 0); };
   for (const double k : {1.0, 2.0}) {
+    // Two points without symmetries: from k to 3 - k^2.
     const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(n, k, 3 - k * k);
     for (const numbers::Vector& part : {v.head(n).eval(), v.tail(n).eval()})
       if (std::abs(at(x + part) - at(x)) > 1e-6 * std::abs(at(x))) return true;
@@ -93,6 +95,7 @@ std::string growing_mode(const claims::RunSetup& setup, const claims::Claim& cla
     if (!clock || clock->low != clock->high || clock->high > setup.scenario.horizon / 2 ||
         J.size() != M.size())
       return "";
+    // From just after a jump to just after the next one.
     M = J * numbers::exponential(clock->high * M);
   }
   if (M.size() == 0 || !M.allFinite()) return "";

@@ -14,6 +14,7 @@ using claims::ClaimCheck;
 using claims::Termination;
 using claims::Track;
 
+/// violated before undecided before held.
 claims::Judgement worst_of(const std::vector<claims::Finding>& findings) {
   const auto any = [&](claims::Judgement judgement) {
     return std::ranges::count(findings, judgement, &claims::Finding::judgement) > 0;

@@ -1,4 +1,8 @@
 // The verdict on one run by the careful run, which is repeated more accurately where it does not decide.
+//
+//   1. two runs to kAccuracyOfMany and a hundredth of it        (claims/run_tracks.h)
+//   2. undecided, or not to the horizon: to kAccuracyOfOne, another perturbed run
+//   3. still undecided, or violated within kDoubtful errors: in 31 digits, else to a third accuracy
 #pragma once
 
 #include <cstdint>
@@ -10,6 +14,7 @@
 
 namespace gainsmith::verify {
 
+/// The judgement is the worst of the findings; of a run that breaks off it is violated.
 struct RunVerdict {
   claims::Judgement judgement = claims::Judgement::held;
   std::vector<claims::Finding> findings;  ///< of the claims that are stated, in order
@@ -46,8 +51,11 @@ class Judge {
 
  private:
   const claims::Track& noted(const claims::Track& track);
+  /// Step 2.
   RunVerdict sharper(std::uint64_t seed, std::uint64_t run);
+  /// Step 3, of the claims that step 2 leaves open.
   void decide(std::uint64_t seed, std::uint64_t run, bool in_31_digits, RunVerdict& verdict);
+  /// Judges undecided claims again that are known to hold.
   void take_held(const std::vector<bool>& holds, RunVerdict& verdict) const;
 
   std::size_t event_count_;

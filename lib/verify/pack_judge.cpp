@@ -68,6 +68,7 @@ void PackJudge::begin_as(const PackJudge& prepared) {
 
 bool PackJudge::is_repeated(std::uint64_t run) const {
   if (run % kSampled != 0) return false;
+  // Of proved errors the square numbers alone.
   const std::uint64_t number = run / kSampled;
   const auto root = static_cast<std::uint64_t>(std::sqrt(static_cast<double>(number)));
   return !linear_ || root * root == number;

@@ -40,6 +40,7 @@ std::unique_ptr<const linear::LinearSystem> make_linear_packs(const Setup& setup
 /// For so many runs; few of no linear dynamics are careful. The setup must outlive it.
 Packs make_packs(const Setup& setup, std::uint64_t runs);
 
+/// Verdicts in blocks: begin(), then the runs of the block in any order.
 class PackJudge {
  public:
   /// nullptr: all runs are careful. One for each thread; both must outlive it.
@@ -58,6 +59,7 @@ class PackJudge {
   RunVerdict careful(std::uint64_t seed, std::uint64_t run, const std::vector<bool>& holds = {});
 
  private:
+  /// Whether the careful run repeats this one, whatever packs say.
   bool is_repeated(std::uint64_t run) const;
 
   const Setup* setup_;

@@ -42,6 +42,7 @@ class Return {
 /// Lengths that a search begins with, both ends among them: an eighth of a turn apart at most,
 /// unless that are too many.
 std::vector<double> grid(double low, double high, double frequency) {
+  // Radians over the range, in turns; 8 points a turn, 9 to 33 in all.
   const double turns = (high - low) * frequency / (2 * std::numbers::pi);
   const auto count = static_cast<std::size_t>(std::clamp(1 + std::ceil(8 * turns), 9.0, 33.0));
   std::vector<double> lengths(count);

@@ -9,6 +9,10 @@
 // (numerics/matrix_products.h); then the lengths of the best are moved within [low, high] (NLopt).
 // A spectral radius above 1 shows that the period makes errors grow; the sampling law that repeats
 // it is unstable. That none was found shows nothing.
+//
+// The growth a jump is rho(product)^(1/m) over m lengths; its supremum over all products is the
+// joint spectral radius of the matrices (Rota & Strang 1960), of which each product is a lower
+// bound.
 #pragma once
 
 #include <optional>

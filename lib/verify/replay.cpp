@@ -51,6 +51,8 @@ struct Source {
   std::optional<std::size_t> at;          ///< the event at which alone it exists
 };
 
+/// The columns of a run: t, j, variables, signals and stated claims. Signals and claims of all rows
+/// are evaluated together.
 class EventTable {
  public:
   explicit EventTable(const claims::RunSetup& setup) : setup_(setup) {
@@ -72,6 +74,7 @@ class EventTable {
     together_.emplace(hybrid::stacked(programs_, setup.layout, setup.system.constants));
   }
 
+  /// One row a moment (claims::visit), and the columns with their names.
   void fill(double step, Replay& replay) {
     replay.columns = {{"t", "t", "", Column::Kind::time}, {"j", "j", "", Column::Kind::jumps}};
     for (const Source& source : sources_)

@@ -40,6 +40,7 @@ std::unique_ptr<const LinearSetup> make_linear_setup(const model::Instance& inst
 
 }  // namespace
 
+/// Coordinates of linear dynamics first; of others errors as states.
 std::unique_ptr<const Setup> make_setup(const model::Instance& instance, const model::Gains& gains,
                                         const std::vector<hybrid::GivenRun>* given) {
   auto setup = std::make_unique<Setup>();

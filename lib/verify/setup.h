@@ -1,4 +1,7 @@
 // Everything that the runs of a campaign share, made once and then only read.
+//
+// Of linear sampled dynamics the coordinates are those of linear/coordinates.h. Of other dynamics
+// errors of observers become states where they move by themselves (error_states.h).
 #pragma once
 
 #include <memory>

@@ -10,6 +10,7 @@ namespace {
 
 using claims::Termination;
 
+/// violated 2, undecided 1, held 0.
 int rank_of(claims::Judgement judgement) {
   return judgement == claims::Judgement::violated    ? 2
          : judgement == claims::Judgement::undecided ? 1
@@ -36,6 +37,7 @@ bool is_worse(const ClaimTally& a, const ClaimTally& b) {
   return a.run < b.run;
 }
 
+/// Sums of counts, the larger floor, the worse run.
 void add_claim(const ClaimTally& more, ClaimTally& sum) {
   sum.violations += more.violations;
   sum.undecided += more.undecided;
@@ -62,6 +64,7 @@ void merge_sorted(const std::vector<std::uint64_t>& more, std::vector<std::uint6
 
 }  // namespace
 
+/// The first undecided claim, if any.
 UndecidedRun undecided_run(std::uint64_t run, Termination termination, const std::string& message,
                            const std::vector<claims::Finding>& findings) {
   UndecidedRun undecided{run, termination, message, 0, {}};
@@ -72,6 +75,7 @@ UndecidedRun undecided_run(std::uint64_t run, Termination termination, const std
   return undecided;
 }
 
+/// Counts of 0 or 1, and the run as the worst of itself.
 Tally tally_of(std::uint64_t run, const RunVerdict& verdict) {
   Tally tally;
   tally.runs = 1;

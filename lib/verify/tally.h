@@ -66,6 +66,7 @@ struct UnfinishedRun {
   bool operator==(const UnfinishedRun&) const = default;
 };
 
+/// Counts are those of runs; `worst` and the first ones are of all runs added.
 struct Tally {
   std::uint64_t runs = 0;  ///< 0: all that follows is empty
   std::uint64_t violations = 0;

@@ -73,11 +73,13 @@ class Runs {
   std::uint64_t made() const { return made_; }
 
  private:
+  /// One computation of a run.
   struct Made {
     std::vector<claims::Finding> findings;
     bool lost = false;  ///< the run ends early for certain
   };
 
+  /// By a linear pack where that decides, else by one run of the campaign and its track.
   Made make() {
     if (linear_) {
       const packs::PackVerdict verdict = linear_->run(seed_, number_, number_ + 1).front();
@@ -101,6 +103,7 @@ class Runs {
   std::uint64_t made_ = 0;
 };
 
+/// The search over all claims: cubes with periods first, then draw by draw.
 class Search {
  public:
   Search(const model::Instance& instance, const model::Gains& gains, const WorstOptions& options)
@@ -143,6 +146,7 @@ class Search {
  private:
   static constexpr std::size_t kPeriods = 3;
 
+  /// Period 0: all draws up to the horizon.
   DrawCube cube(std::size_t period) const {
     return {setup_->events->system, setup_->events->scenario, period};
   }
@@ -174,6 +178,7 @@ class Search {
     add(runs);
   }
 
+  /// In the order of the tasks, so that the number of threads does not matter.
   void add(const std::vector<std::optional<Runs>>& runs) {
     for (const auto& one : runs) {
       if (!one) continue;
@@ -196,6 +201,7 @@ class Search {
     });
   }
 
+  /// Half of the runs all over the cube (CRS2), half near the best point (simplex, BOBYQA).
   void search_cube(std::size_t number, std::size_t claim, int runs, std::uint64_t seed, Runs& own) {
     const DrawCube& cube = cubes_[number];
     const auto function = [&](const Point& u) { return -own(cube, number, u, claim); };
@@ -309,6 +315,7 @@ class Search {
     return finding_of(claim, judge);
   }
 
+  /// By the careful run, with what linear packs prove.
   claims::Finding finding_of(std::size_t claim, Judge& judge) const {
     return verdict_on_run(judge, linear_.get(), options_.seed, claim).findings[claim];
   }
@@ -334,6 +341,7 @@ double margin_of(const claims::Finding& finding, model::ClaimKind kind) {
   const double value = above ? finding.bound : finding.value;
   const double bound = above ? finding.value : finding.bound;
   double margin = finding.score;
+  // log(value/bound) without an overflow of the quotient.
   if (bound > 0 && value > 0) margin = std::log(value) - std::log(bound);
   if (std::isnan(margin)) return kLargestMargin;
   return std::clamp(margin, -kLargestMargin, kLargestMargin);
