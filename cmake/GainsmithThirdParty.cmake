@@ -29,7 +29,7 @@ if(NOT GAINSMITH_STATIC)
   target_link_libraries(gainsmith_cvode INTERFACE "${GAINSMITH_NVECTOR_LIBRARY}")
 endif()
 
-# The memory allocator of the release programs (docs/decisions/0039-allocator.md); other builds keep that of
+# The memory allocator of the release programs (docs/decisions/0057-one-program.md); other builds keep that of
 # the C library, which the sanitizers replace.
 if(GAINSMITH_STATIC)
   find_library(GAINSMITH_JEMALLOC_ARCHIVE jemalloc_pic REQUIRED)

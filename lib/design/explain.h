@@ -44,7 +44,7 @@ struct Relaxation {
 /// may go.
 struct Reach {
   std::string name;
-  double value = 0;     ///< the problem's
+  double value = 0;  ///< the problem's
   /// `feasible` is then the largest feasible value of that side of the range; otherwise the
   /// smallest.
   bool at_most = true;  ///< go down to `feasible`; otherwise up

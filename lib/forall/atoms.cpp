@@ -114,8 +114,8 @@ std::optional<double> place_of(const Atom& atom, double value, double begin, dou
     if (atom.rate != 0) places.push_back(-atom.power / atom.rate);
   } else if (atom.power == 0) {
     // a cos(bt) - b sin(bt) = 0, or a sin(bt) + b cos(bt) = 0.
-    const double phase = atom.sine ? std::atan2(-atom.frequency, atom.rate)
-                                   : std::atan2(atom.rate, atom.frequency);
+    const double phase =
+        atom.sine ? std::atan2(-atom.frequency, atom.rate) : std::atan2(atom.rate, atom.frequency);
     const double half = std::acos(-1.0) / atom.frequency;
     const double first = std::ceil((begin - phase / atom.frequency) / half);
     for (int k = 0; k < kMostExtrema; ++k) {

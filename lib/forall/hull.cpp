@@ -62,9 +62,9 @@ Corners interval_corners(const Variable& variable, std::vector<Factor> factors, 
     if (corners.values.size() > kMostVertices) refuse_vertices(place);
   }
   for (const std::vector<double>& values : corners.values) {
-    const auto found = corners.exact ? place_of(corners.factors[0].atom, values[0], variable.low,
-                                                variable.high)
-                                     : std::nullopt;
+    const auto found =
+        corners.exact ? place_of(corners.factors[0].atom, values[0], variable.low, variable.high)
+                      : std::nullopt;
     std::optional<numbers::Matrix>& at = corners.places.emplace_back();
     if (found) at = numbers::Matrix::Constant(1, 1, *found);
   }
@@ -114,7 +114,8 @@ std::vector<Vertex> all_vertices(const std::vector<Corners>& corners,
       vertex.label += (vertex.label.empty() || label.empty() ? "" : ", ") + label;
       const auto& value = corners[v].places[choice[v]];
       if (!value) vertex.point.reset();
-      if (vertex.point) vertex.point->values.insert_or_assign(monomials.variables()[v].name, *value);
+      if (vertex.point)
+        vertex.point->values.insert_or_assign(monomials.variables()[v].name, *value);
     }
     for (int index = 0; index < monomials.size(); ++index) {
       double value = 1;

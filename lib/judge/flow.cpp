@@ -144,8 +144,8 @@ void FlowCheck::check_step(const hybrid::DenseStep& step, const Eigen::VectorXd&
   // An integrator holds the root of the mean square over all n moving elements to the accuracy, so
   // one of them may have sqrt(n) times as much.
   const double of_one = std::sqrt(static_cast<double>(moving_.active.size()));
-  const Eigen::VectorXd allowed = kFactor * of_one * texts_.accuracy(sizes) +
-                                  time_rounding_at(texts_, step.to, step(step.to));
+  const Eigen::VectorXd allowed =
+      kFactor * of_one * texts_.accuracy(sizes) + time_rounding_at(texts_, step.to, step(step.to));
   const Eigen::VectorXd allowed_of_active = allowed(moving_.active);
   const auto again = StepAgain(texts_, moving_, step, x, allowed_of_active)();
   if (!again) {

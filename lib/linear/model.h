@@ -48,7 +48,7 @@ struct LinearClaim {
   std::optional<Wide> flow_cost, jump_cost;  ///< of `cost`
   double factor = 0;                         ///< of `shrinks`, > 0
   double tolerance = 0;                      ///< of `nonincreasing`: a part of the least value
-  bool falls = false;  ///< of `nonincreasing`: shown for all runs (proof.h)
+  bool falls = false;                        ///< of `nonincreasing`: shown for all runs (proof.h)
 };
 
 /// Whether runs compare a claim at jumps.

@@ -67,7 +67,7 @@ struct Campaign {
   std::uint64_t seed = 1;
   std::optional<expr::Expression> horizon;  ///< continuous time
   std::optional<RunAccuracy> accuracy;
-  std::vector<SamplingLaw> sampling;  ///< empty: those of hybrid/law.h
+  std::vector<SamplingLaw> sampling;      ///< empty: those of hybrid/law.h
   std::optional<expr::Expression> first;  ///< first value of the timer; none: uniform in its range
   std::vector<InitialValue>
       initial;  ///< a state that is not listed starts where the method says, or in the box [-1, 1]
@@ -156,10 +156,10 @@ struct Problem {
   Campaign campaign;
   std::string no_campaign;  ///< why there is none; empty: see the method's
   std::optional<Expectation> expect;
-  std::vector<FigureText> compare;  ///< figures shown for all observers side by side
+  std::vector<FigureText> compare;          ///< figures shown for all observers side by side
   std::vector<SystemFigureText> figures{};  ///< pictures of linear systems
-  std::vector<Let> let;             ///< definitions of the problem, beside those of the method
-  std::vector<Named> report;        ///< what is shown beside the method's report
+  std::vector<Let> let;       ///< definitions of the problem, beside those of the method
+  std::vector<Named> report;  ///< what is shown beside the method's report
   std::vector<UncertainText> uncertain;
   std::vector<UnitText> units;
   std::vector<CovarianceText> covariances;

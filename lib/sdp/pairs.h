@@ -20,7 +20,7 @@ constexpr int kLanes = 8;
 
 /// A vector register of the machine, and a b + c in it. The instruction is named: compilers prefer
 /// to fuse element by element where they think that wide registers cost speed. Registers of AVX-512
-/// gain nothing here (docs/decisions/0073-one-program-for-every-machine.md).
+/// gain nothing here (docs/decisions/0057-one-program.md).
 #if defined(__FMA__)
 constexpr int kWidth = 4;
 using Register = double __attribute__((vector_size(32)));

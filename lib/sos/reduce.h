@@ -18,7 +18,7 @@ namespace gainsmith::sos {
 /// An equation that nothing satisfies.
 struct Contradiction {
   Key key;
-  std::string why;  ///< "is -3, and a sum of squares has none below 0 there"
+  std::string why;            ///< "is -3, and a sum of squares has none below 0 there"
   std::map<int, Key> told{};  ///< unknowns whose values other equations had told
 };
 
