@@ -26,7 +26,10 @@ std::optional<StateSpace> value_of(const SystemFigure::System& of, const model::
   try {
     const auto matrix = stated.value(of.matrix);
     if (!matrix) return std::nullopt;
-    if (!matrix->allFinite()) throw InputError(of.place, "'" + of.label + "' is not finite");
+    // Of larger ones products are beyond the range of double.
+    constexpr double kLargest = 1e100;
+    if (!(matrix->array().abs() <= kLargest).all())
+      throw InputError(of.place, "'" + of.label + "' has elements beyond 1e100, or not finite");
     double step = 0;
     if (of.step) {
       const auto value = stated.value(*of.step);

@@ -31,7 +31,8 @@ void add_margins(const DrawnSystem& drawn, std::vector<std::string>& facts, io::
   text += of.stable ? "; the closed loop is stable" : "; the closed loop is not stable";
   facts.push_back(text);
   const auto margin = [](const std::optional<response::Margin>& one) {
-    return one ? io::Json{{"value", one->value}, {"frequency", number_json(one->frequency)}}
+    return one ? io::Json{{"value", number_json(one->value)},
+                          {"frequency", number_json(one->frequency)}}
                : io::Json();
   };
   json["margins"] = {{"gain", margin(of.gain)},
@@ -51,7 +52,7 @@ void add_peak(const DrawnSystem& drawn, std::vector<std::string>& facts, io::Jso
   else
     text += ", not proved";
   facts.push_back(text);
-  json["peak"] = {{"value", of.value},
+  json["peak"] = {{"value", number_json(of.value)},
                   {"frequency", number_json(of.frequency)},
                   {"low", end(of.low)},
                   {"high", end(of.high)}};
@@ -83,13 +84,13 @@ void add_step(const DrawnSystem& drawn, std::vector<std::string>& facts, io::Jso
       if (!of) continue;
       json["steps"].push_back({{"output", i + 1},
                                {"input", j + 1},
-                               {"final_value", of->final_value},
-                               {"largest", of->largest},
-                               {"largest_at", of->largest_at},
-                               {"overshoot", of->overshoot},
-                               {"undershoot", of->undershoot},
-                               {"rise", of->rise},
-                               {"settling", of->settling}});
+                               {"final_value", number_json(of->final_value)},
+                               {"largest", number_json(of->largest)},
+                               {"largest_at", number_json(of->largest_at)},
+                               {"overshoot", number_json(of->overshoot)},
+                               {"undershoot", number_json(of->undershoot)},
+                               {"rise", number_json(of->rise)},
+                               {"settling", number_json(of->settling)}});
     }
 }
 
@@ -151,7 +152,9 @@ void add_numbers(const DrawnSystem& drawn, SystemPicture kind, SystemResult& res
   if (drawn.margins) {
     if (const auto& gain = drawn.margins->gain) add("gain margin, dB", decibels(gain->value));
     if (const auto& phase = drawn.margins->phase) add("phase margin, degrees", phase->value);
-    if (const auto& delay = drawn.margins->delay) add("delay margin", delay->value);
+    if (const auto& delay = drawn.margins->delay; delay && drawn.margins->stable)
+      add("delay margin", delay->value);
+    add("closed loop stable, 1 or 0", drawn.margins->stable ? 1 : 0);
   }
   if (drawn.peak) add("largest gain", drawn.peak->value);
   if (kind == SystemPicture::poles && drawn.poles.rows() > 0) {

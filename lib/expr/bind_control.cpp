@@ -106,6 +106,10 @@ int Binder::output_matrix(const Expression& expression, const Node& argument, in
   return c;
 }
 
+int Binder::power_of_two(const Emitter& make, int exponent) {
+  return make.number(fmt::format("{:.{}e}", std::ldexp(1.0, exponent), std::abs(exponent)));
+}
+
 Bound Binder::units(const Expression& expression, const Node& node) {
   const int a = square_argument(expression, node, node.text);
   const Node& outputs = *node.children[1];
@@ -116,8 +120,7 @@ Bound Binder::units(const Expression& expression, const Node& node) {
   const Emitter make(*this, expression, node);
   std::vector<int> diagonal;
   for (const int exponent : scope_.known->units(A, C))
-    diagonal.push_back(
-        make.number(fmt::format("{:.{}e}", std::ldexp(1.0, exponent), std::abs(exponent))));
+    diagonal.push_back(power_of_two(make, exponent));
   return {make(Op::diagonal_matrix, {make.blocks(diagonal, 1)})};
 }
 

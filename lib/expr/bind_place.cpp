@@ -34,7 +34,7 @@ Bound Binder::placed(const Expression& expression, const Node& node) {
   const auto solve = [&](int matrix, int right) {
     return make.multiply(
         make(Op::inverse, {matrix}, {},
-             "place: A has one of the wanted poles already, or the pole cannot be moved"),
+             "place: A less a wanted pole, which A has already or which cannot be moved,"),
         right);
   };
   std::optional<Pole> last;
@@ -63,7 +63,7 @@ Bound Binder::placed(const Expression& expression, const Node& node) {
     inputs.push_back(make.zeros({m, 1}));
   }
   const int x = make(Op::inverse, {make.blocks(std::move(columns), n)}, {},
-                     "place: a pole of A cannot be moved by B");
+                     "place: the eigenvectors, since a pole of A cannot be moved by B,");
   return {make.multiply(make.blocks(std::move(inputs), n), x)};
 }
 

@@ -1,13 +1,23 @@
 // Other realizations of a linear system: without hidden states, and sampled.
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "expr/emitter.h"
+#include "expr/number_type.h"
 
 namespace gainsmith::expr {
 
 namespace {
 
 /// What counts as 0 beside the largest singular value, unless minreal gets another tolerance: far
-/// above the rounding of some ten products, and below what data say.
-constexpr const char* kHidden = "1e-9";
+/// above the rounding of some ten products, and below what data say. The smaller ones are for
+/// systems whose poles or gains are farther apart.
+constexpr const char* kHidden[] = {"1e-9", "1e-11", "1e-13"};
+/// By what minreal may change a transfer function, relative.
+constexpr double kUnchanged = 1e-6;
 
 int largest_gain(const Emitter& make, int m) {
   if (make.shape(m).size() == 0) return make.zeros({1, 1});
@@ -56,15 +66,88 @@ int Binder::reachable(const Expression& expression, const Node& node, const Emit
   return basis;
 }
 
+/// In the units of the states in which A, B and C are near 1, with inputs in units of their own.
+Bound Binder::in_near_units(const Expression& expression, const Node& node, const Emitter& make,
+                            const Bound& system) {
+  const SystemParts of = parts_of(make, system);
+  const int n = system.states, m = make.shape(of.b).cols, p = make.shape(of.c).rows;
+  const std::string why = "the system of minreal";
+  const int a = make.blocks({of.a, of.b, make.zeros({m, n}), make.zeros({m, m})}, 2);
+  const int c = make.blocks({of.c, make.zeros({p, m})}, 2);
+  const std::vector<int> exponents = scope_.known->units(known_program(expression, node, a, why),
+                                                         known_program(expression, node, c, why));
+  std::vector<int> units, inverses;
+  for (int k = 0; k < n; ++k)
+    for (const bool inverse : {false, true}) {
+      const int exponent = (inverse ? -1 : 1) * exponents[static_cast<std::size_t>(k)];
+      (inverse ? inverses : units).push_back(power_of_two(make, exponent));
+    }
+  const int to = make(Op::diagonal_matrix, {make.blocks(std::move(units), 1)});
+  const int from = make(Op::diagonal_matrix, {make.blocks(std::move(inverses), 1)});
+  return {make.blocks({make.multiply(from, make.multiply(of.a, to)), make.multiply(from, of.b),
+                       make.multiply(of.c, to), of.d},
+                      2),
+          false, n, -1};
+}
+
+/// Whether two systems have one transfer function, at real points beside the size of A.
+bool Binder::is_same_function(const Expression& expression, const Node& node, const Emitter& make,
+                              const Bound& one, const Bound& other) {
+  const int size = largest_gain(make, parts_of(make, one).a);
+  const auto norm = [&](int at) {
+    return scope_.known->number(
+        known_program(expression, node, make(Op::norm, {at}), "the system of minreal"));
+  };
+  for (const char* share : {"2.7e-12", "1.9e-9", "3.1e-6", "2.3e-3", "0.71"}) {
+    // (s I - A)^-1 and C (s I - A)^-1 B + D
+    const auto value = [&](const Bound& system) {
+      const SystemParts of = parts_of(make, system);
+      const int shift = make.identity(make.scale(make.number(share), size), system.states);
+      const int inverse = make(Op::inverse, {make.subtract(shift, of.a)});
+      return std::pair(inverse, make.add(of.d, make.multiply(of.c, make.multiply(inverse, of.b))));
+    };
+    const auto [inverse, wanted] = value(one);
+    const int difference = make.subtract(wanted, value(other).second);
+    constexpr double kRounding = 1e-13;  // of A, and of the sums of the value
+    try {
+      const SystemParts of = parts_of(make, one);
+      const double states = norm(make.multiply(inverse, of.b));
+      const double outputs = norm(make.multiply(of.c, inverse));
+      const double rounding = outputs * states * norm(of.a) + norm(of.c) * states;
+      if (!(norm(difference) <= kUnchanged * norm(wanted) + kRounding * rounding)) return false;
+    } catch (const EvaluationError&) {  // a pole
+    }
+  }
+  return true;
+}
+
 /// The states that inputs reach and outputs see, in orthonormal coordinates.
 Bound Binder::minimal_realization(const Expression& expression, const Node& node) {
   const Emitter make(*this, expression, node);
   const Bound system = bind_system(expression, *node.children[0]);
-  int tolerance = make.number(kHidden);
+  if (system.states == 0) return system;
+  const Bound scaled = in_near_units(expression, node, make, system);
+  Bound least = system;
   if (node.children.size() == 2) {
     const Node& second = *node.children[1];
-    tolerance = materialise(expression, second, bind(expression, second), {});
+    least = reduced(expression, node, make, scaled,
+                    materialise(expression, second, bind(expression, second), {}));
+  } else {
+    for (const char* hidden : kHidden) {
+      const Bound made = reduced(expression, node, make, scaled, make.number(hidden));
+      if (!is_same_function(expression, node, make, scaled, made)) continue;
+      least = made;
+      break;
+    }
   }
+  if (least.states == system.states) return system;
+  if (least.states == 0) return {parts_of(make, least).d, false, 0, -1};
+  least.step = system.step;
+  return least;
+}
+
+Bound Binder::reduced(const Expression& expression, const Node& node, const Emitter& make,
+                      const Bound& system, int tolerance) {
   const SystemParts whole = parts_of(make, system);
   Bound least = system;
   for (const bool inputs : {true, false}) {
@@ -76,8 +159,6 @@ Bound Binder::minimal_realization(const Expression& expression, const Node& node
                                 largest_gain(make, inputs ? whole.b : whole.c), tolerance);
     if (make.shape(basis).cols < least.states) least = in_basis(make, of, basis);
   }
-  if (least.states == 0) return {parts_of(make, least).d, false, 0, -1};
-  least.step = system.step;
   return least;
 }
 
@@ -99,7 +180,7 @@ Bound Binder::bilinear(const Expression& expression, const Node& node) {
   const int half = make(Op::divide, {t, make.number("2")});
   const int step = make.scale(half, of.a);
   const int inverse = make(Op::inverse, {make.subtract(make.identity(states), step)}, {},
-                           "tustin: 2/T is a pole of the system");
+                           "tustin: I - A*T/2, since 2/T is a pole of the system,");
   const int input = make.multiply(inverse, of.b);
   return {make.blocks({make.multiply(inverse, make.add(make.identity(states), step)),
                        make.scale(t, input), make.multiply(of.c, inverse),

@@ -203,6 +203,8 @@ class Binder {
   // bind_control.cpp
   Bound basis(const Expression& expression, const Node& node, Op op);
   Bound rank(const Expression& expression, const Node& node);
+  /// The decimal of 2^exponent.
+  static int power_of_two(const Emitter& make, int exponent);
   Bound units(const Expression& expression, const Node& node);
   /// Of the instruction `at`, the first argument of f(M, tol).
   int known_rank(const Expression& expression, const Node& node, int at);
@@ -253,6 +255,12 @@ class Binder {
   static Bound in_basis(const Emitter& make, const SystemParts& of, int basis);
   int reachable(const Expression& expression, const Node& node, const Emitter& make,
                 std::pair<int, int> pair, int size, int tolerance);
+  Bound in_near_units(const Expression& expression, const Node& node, const Emitter& make,
+                      const Bound& system);
+  bool is_same_function(const Expression& expression, const Node& node, const Emitter& make,
+                        const Bound& one, const Bound& other);
+  Bound reduced(const Expression& expression, const Node& node, const Emitter& make,
+                const Bound& system, int tolerance);
   Bound minimal_realization(const Expression& expression, const Node& node);
   struct ToSample {
     SystemParts of;

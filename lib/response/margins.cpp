@@ -87,8 +87,10 @@ Margins margins(const StateSpace& loop) {
       nearer(result.gain, -1 / l.real(), w, decibels);
   }
   // Where L is real by symmetry: at rest, at half of the sampling frequency, at infinity.
+  // Beyond kInfinite it has a pole there, but for rounding.
+  constexpr double kInfinite = 1e13;
   const auto meet_real = [&](double l, double w) {
-    if (l < 0 && std::isfinite(l)) nearer(result.gain, -1 / l, w, decibels);
+    if (l < 0 && -l < kInfinite) nearer(result.gain, -1 / l, w, decibels);
   };
   meet_real(at(0).real(), 0);
   if (loop.is_sampled())

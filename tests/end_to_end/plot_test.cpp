@@ -89,6 +89,41 @@ TEST_F(PlotTest, PrintsTheCurves) {
   EXPECT_EQ(document[6]["systems"][0]["poles"].size(), 3U);
 }
 
+/// Steps that end at 0 have no rise time; what has no number is null.
+TEST_F(PlotTest, PrintsStepsThatEndAt0) {
+  const Outcome outcome =
+      gainsmith({"plot",
+                 folder.file("washout.yaml",
+                             "problem: washout\nmethod: {}\nlet: {G: 'tf([1, 0], [1, 1])'}\n"
+                             "figures: {step: {step: G}}\n"),
+                 "--json"});
+  ASSERT_EQ(outcome.exit, 0) << outcome.err;
+  const auto steps = outcome.json()[0]["systems"][0]["steps"][0];
+  EXPECT_NEAR(steps["final_value"].get<double>(), 0, 1e-12);
+  EXPECT_NEAR(steps["largest"].get<double>(), 1, 1e-9);
+}
+
+TEST_F(PlotTest, SaysWhichClosedLoopIsStable) {
+  const std::string problem = folder.file("loop.yaml", kLoop);
+  std::vector<std::string> files;
+  for (const std::string k : {"5", "7"}) {
+    files.push_back(folder.path("k" + k + ".json"));
+    ASSERT_EQ(gainsmith({"synth", problem, "--set", "k=" + k, "-o", files.back()}).exit, 0);
+  }
+  const Outcome outcome = gainsmith({"report", files[0], files[1], "--json"});
+  ASSERT_EQ(outcome.exit, 0) << outcome.err;
+  const auto document = outcome.json();
+  for (const auto& row : document["rows"]) {
+    const std::string what = row["what"];
+    if (has(what, "loop, open loop: closed loop stable")) {
+      EXPECT_EQ(row["values"][0].get<std::string>(), "1");
+      EXPECT_EQ(row["values"][1].get<std::string>(), "0");
+      return;
+    }
+  }
+  FAIL() << outcome.out;
+}
+
 TEST_F(PlotTest, TakesValuesOfTheCommandLine) {
   EXPECT_TRUE(has(plot({"--set", "k=7"}).out, "the closed loop is not stable"));
 }

@@ -144,6 +144,17 @@ TEST_P(Systems, HaveMinimalRealizations) {
   expect_least("L - L", 0);
   expect_least("ss([La, zeros(3, 2); zeros(2, 3), Ha], [Lb; zeros(2, 2)], [Lc, ones(3, 2)], Ld)",
                3);
+  // Of numbers far apart nothing is hidden.
+  for (const auto& [text, least] : {std::pair("tf(1, [1e-9, 1e-3, 1])", 2),
+                                    {"tf(1.6e9, [1, 800, 240000, 3.2e7, 1.6e9])", 4},
+                                    {"tf(1, [1, 1000, 1e5, 1e7, 1e8, 1e9])", 5},
+                                    {"tf(1, [1e-7, 1])*tf(1, [100, 1])", 2},
+                                    {"tf(1e10, [1, 1])*tf(1e-10, [1, 2])", 2},
+                                    {"tf(1e12, [1, 1e3, 1e8, 1e12])", 3},
+                                    {"ss([-1, 0; 0, -2], [1; 1e-10], [1, 1e10], 0)", 2},
+                                    {"tf([1, 1], [1, 0])*tf(1, [1, 1])", 1},
+                                    {"tf([1, 1], [1, 0, 0])*tf(1, [1, 1])", 2}})
+    EXPECT_EQ(states(std::string("minreal(") + text + ")"), least) << text;
   expect_least(
       "ss(U'*[La, zeros(3, 2); ones(2, 3), Ha]*U, U'*[Lb; Hb(:, 1), Hb(:, 2)], [Lc, zeros(3, "
       "2)]*U, Ld)",
@@ -198,7 +209,8 @@ TEST_P(Placement, MovesPoles) {
     M.diagonal().array() += s;
     Complex wanted = 1;
     for (const Complex pole : poles) wanted *= s - pole;
-    EXPECT_LT(std::abs(M.determinant() - wanted), (repeated && m == 1 ? 1e-5 : 1e-7) * (1 + std::abs(wanted)))
+    EXPECT_LT(std::abs(M.determinant() - wanted),
+              (repeated && m == 1 ? 1e-5 : 1e-7) * (1 + std::abs(wanted)))
         << p;
   }
 }

@@ -60,7 +60,7 @@ DynamicsText sampled() {
 /// A clock whose lengths reach 0, one of one length, and a state in a hollow ellipsoid.
 DynamicsText of_corners() {
   DynamicsText text;
-  text.state("x", 2, "-x", "").every("soon", "0", "0.3").every("even", "0.3").first("0.1");
+  text.state("x", 2, "-x", "").every("soon", "0", "0.3").every("even", "0.3").first("0.1", "0.3");
   return text;
 }
 

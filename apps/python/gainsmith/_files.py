@@ -98,6 +98,10 @@ def compare(designs: dict, path=None, *, time: Optional[float] = None) -> dict:
     """
     with tempfile.TemporaryDirectory(prefix="gainsmith-") as folder:
         files = []
+        if not isinstance(designs, dict):
+            raise TypeError("designs is a dict such as {'slow': a, 'fast': b}")
+        if len(designs) < 2:
+            raise TypeError("compare takes two designs at least")
         for name, design in designs.items():
             source = _sources.gains_source(design)
             text = source.text if source.text is not None else _results.read(source.argument)
