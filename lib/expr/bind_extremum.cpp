@@ -9,6 +9,8 @@
 
 namespace gainsmith::expr {
 
+/// The names of the box are inputs of the body, "the variable", "the variable 2", .... Operands are
+/// the ends of all intervals, low and high in turn, then what f reads besides.
 Bound Binder::extremum(const Expression& expression, const Node& node, bool largest) {
   const auto is_box = [](const NodePtr& child) { return child->kind == NodeKind::within; };
   if (is_box(node.children[0]) ||
@@ -78,6 +80,7 @@ void Binder::refuse_moving(const Expression& expression, const Node& node,
                  input.name + "' changes along a run");
 }
 
+/// A search within a search would be evaluated at every point of the outer one.
 void Binder::refuse_inside(const Expression& expression, const Node& node, const Body& body) const {
   if (!body.call.empty())
     fail(expression, node,
