@@ -1,3 +1,5 @@
+// Gains by the rooms below: text to problem (io), bound to numbers (bind), solved and judged
+// (design).
 #include <string>
 #include <utility>
 

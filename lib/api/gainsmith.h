@@ -2,6 +2,10 @@
 //
 // This header needs the standard library alone and is installed as <gainsmith/gainsmith.h>. Several
 // threads may call at once. A wrong input is an Error; std::bad_alloc passes.
+//
+// A program is given by numbers (solve) or by a text that also states data, unknowns, linear matrix
+// inequalities and gains (synthesize). Numbers are double; decimals of texts are read exactly where
+// a verdict rests on them. Results do not depend on the number of threads.
 #pragma once
 
 #include <array>
@@ -45,7 +49,7 @@ struct Matrix {
 //   dual:    maximise F_0 . Y  subject to  F_i . Y = c_i (i = 1..m),  Y >= 0
 
 struct Sdp {
-  /// A symmetric block of X, or a diagonal one.
+  /// A symmetric block of X, size x size, or a diagonal one of `size` elements.
   struct Block {
     int size = 0;
     bool diagonal = false;
@@ -63,6 +67,7 @@ struct Sdp {
   std::vector<Entry> entries;
 };
 
+/// How far, in which arithmetic and on how many threads a program is solved.
 struct SdpOptions {
   double tolerance = 1e-8;         ///< relative gap and DIMACS errors of "optimal"
   std::string precision = "auto";  ///< auto, double, quad, or a number of digits to 100
@@ -72,6 +77,9 @@ struct SdpOptions {
 /// The words of `gainsmith solve`: see docs/sdp.md for what they promise.
 enum class SdpStatus { optimal, primal_infeasible, dual_infeasible, undecided };
 
+/// The best point, or a certificate with a status that says so. The measures are recomputed from
+/// the program: relative_gap = (primal - dual) / (1 + |primal| + |dual|), and the six DIMACS errors
+/// (Mittelmann 2003) in their order.
 struct SdpSolution {
   SdpStatus status = SdpStatus::undecided;
   std::string message;    ///< why, when undecided
@@ -86,6 +94,8 @@ struct SdpSolution {
   std::string precision;  ///< the widest arithmetic that was needed
 };
 
+/// Solves by a primal-dual interior-point method. Error for entries outside of their block, or of a
+/// matrix beyond m, and for options that have no meaning.
 SdpSolution solve(const Sdp& program, const SdpOptions& options = {});
 
 // Gains.
@@ -104,6 +114,8 @@ struct Margin {
   std::string worst_point;  ///< "tau = 0"
 };
 
+/// What a gain file holds. Matrices are by the names of the problem; `objective` is empty where
+/// nothing is minimised.
 struct Gains {
   std::string problem;
   Verdict verdict = Verdict::undecided;

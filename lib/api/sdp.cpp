@@ -1,3 +1,5 @@
+// Semidefinite programs by the solver of the room sdp: its structures copied to those of the
+// library.
 #include <string>
 #include <utility>
 

@@ -11,6 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The number in a file, divided by a second one; infinite for no file, and for "max".
 double limit_in(const fs::path& file) {
   std::ifstream in(file);
   double limit = 0, unit = 1;

@@ -1,3 +1,5 @@
+// Functions of numbers of 31 digits that have no short formula in two doubles: by MPFR, in 50
+// digits.
 #include "base/double_double.h"
 
 #include <boost/multiprecision/mpfr.hpp>
@@ -15,6 +17,7 @@ Guarded wide(const DoubleDouble& a) {
   return isfinite(a) ? Guarded(Guarded(a.hi()) + Guarded(a.lo())) : Guarded(a.hi());
 }
 
+/// hi = a rounded to double, lo = (a - hi) rounded to double.
 DoubleDouble narrow(const Guarded& a) {
   const auto high = static_cast<double>(a);
   if (!std::isfinite(high)) return {high};

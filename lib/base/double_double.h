@@ -30,6 +30,7 @@ class DoubleDouble {
 
   constexpr DoubleDouble operator-() const { return {-hi_, -lo_}; }
 
+  /// (a.hi + b.hi) and (a.lo + b.lo) are each taken without error, then summed by size.
   friend DoubleDouble operator+(const DoubleDouble& a, const DoubleDouble& b) {
     const DoubleDouble s = two_sum(a.hi_, b.hi_);
     const DoubleDouble t = two_sum(a.lo_, b.lo_);
@@ -46,6 +47,7 @@ class DoubleDouble {
     return fast_two_sum(p.hi_, fused_multiply_add(a.lo_, b, p.lo_));
   }
   friend DoubleDouble operator*(double a, const DoubleDouble& b) { return b * a; }
+  /// Long division: three quotients of doubles, each of what the ones before leave.
   friend DoubleDouble operator/(const DoubleDouble& a, const DoubleDouble& b) {
     const double q = a.hi_ / b.hi_;
     const DoubleDouble r = a - b * q;
@@ -69,6 +71,7 @@ class DoubleDouble {
   friend bool operator>=(const DoubleDouble& a, const DoubleDouble& b) { return b <= a; }
   friend bool operator!=(const DoubleDouble& a, const DoubleDouble& b) { return !(a == b); }
 
+  /// One step of Newton's from r = sqrt(a.hi): r + (a - r^2) / (2 r). NaN below 0.
   friend DoubleDouble sqrt(const DoubleDouble& a) {
     if (!(a.hi_ > 0)) return {std::sqrt(a.hi_)};
     const double root = std::sqrt(a.hi_);
@@ -95,15 +98,18 @@ class DoubleDouble {
   friend DoubleDouble atan2(const DoubleDouble& y, const DoubleDouble& x);
 
  private:
+  /// a + b = s + e exactly, for any sizes (Knuth).
   static DoubleDouble two_sum(double a, double b) {
     const double s = a + b;
     const double t = s - a;
     return {s, (a - (s - t)) + (b - t)};
   }
+  /// The same for |a| >= |b| (Dekker 1971).
   static DoubleDouble fast_two_sum(double a, double b) {
     const double s = a + b;
     return {s, b - (s - a)};
   }
+  /// a b = p + e exactly: e = fma(a, b, -p).
   static DoubleDouble two_product(double a, double b) {
     const double p = a * b;
     return {p, fused_multiply_add(a, b, -p)};

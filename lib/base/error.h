@@ -1,4 +1,7 @@
 // Errors that a person can act upon, and the exit codes of the program.
+//
+// What a person can mend is an InputError with its place; a std::logic_error is a fault of the
+// program. Stopping and allowances of work are exceptions of stop.h.
 #pragma once
 
 #include <stdexcept>

@@ -79,6 +79,7 @@ bool is_open_file(std::filesystem::path path) {
   return false;
 }
 
+/// Whether a path is written and read as a stream, and cannot be replaced by renaming.
 bool is_special(const std::filesystem::path& path) {
   if (is_open_file(path)) return true;
   std::error_code ignored;
@@ -87,6 +88,7 @@ bool is_special(const std::filesystem::path& path) {
          std::filesystem::is_socket(status);
 }
 
+/// A pipe or a device gives its bytes once: read_text() keeps them.
 std::string read_bytes(const std::filesystem::path& path) {
   const bool standard_input = path == "-";
   const Descriptor file(standard_input ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC));

@@ -7,8 +7,8 @@
 
 namespace gainsmith {
 
-/// The bytes of a file, or of standard input for "-". A pipe gives what it gave at first. InputError
-/// when it cannot be read (missing, a directory, no permission).
+/// The bytes of a file, or of standard input for "-". A pipe gives what it gave at first.
+/// InputError when it cannot be read (missing, a directory, no permission).
 std::string read_text(const std::filesystem::path& path);
 
 /// Writes `text` beside `path` under a temporary name, flushes it to the disk and renames it over

@@ -1,4 +1,5 @@
 // What 31 digits leave of a number in 100, as doubles: with its two leading ones they add up to it.
+// Ten doubles have 530 bits, enough for its 500.
 #pragma once
 
 #include <array>

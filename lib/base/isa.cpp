@@ -38,6 +38,7 @@ std::string chosen() {
 
 }  // namespace
 
+/// Without a fault for a wrong name in the environment: isa() reports that.
 const bool has_fused_multiply_add = [] {
   const char* name = std::getenv("GAINSMITH_ISA");
   return has_isa("v3") && (name == nullptr || std::string(name) != "v2");

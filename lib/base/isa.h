@@ -10,8 +10,8 @@ namespace gainsmith {
 /// granted.
 bool has_isa(const std::string& name);
 
-/// The best that this machine has, or that GAINSMITH_ISA names. InputError for another name, and for
-/// one that the machine has not.
+/// The best that this machine has, or that GAINSMITH_ISA names. InputError for another name, and
+/// for one that the machine has not.
 const std::string& isa();
 
 /// a b + c, rounded once. std::fma is a call where not every machine has the instruction.

@@ -1,3 +1,6 @@
+// All digits asked for are printed where half a unit of the last one is at least the error: its
+// place is ceil(log10(2 error)) or higher. Fewer end at the first digit of the error, which
+// follows.
 #include "base/known_digits.h"
 
 #include <cmath>

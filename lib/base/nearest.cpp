@@ -17,6 +17,7 @@ int substitution_cost(char a, char b) {
 
 /// The words of four letters or more of a name with hyphens or underscores.
 std::set<std::string> words_of(std::string_view name) {
+  // Shorter words, such as "of", are shared by chance.
   constexpr std::size_t kShortest = 4;
   std::set<std::string> words;
   while (!name.empty()) {
@@ -34,6 +35,9 @@ bool differs_in_case(std::string_view a, std::string_view b) {
                               [](char x, char y) { return substitution_cost(x, y) < 2; });
 }
 
+/// The table of the least costs of the beginnings, |a| + 1 by |b| + 1:
+///   d(i,j) = min{ d(i-1,j) + 2, d(i,j-1) + 2, d(i-1,j-1) + s(a_i, b_j),
+///                 d(i-2,j-2) + 2 if a_{i-1} a_i = b_j b_{j-1} }
 int doubled_edit_distance(std::string_view a, std::string_view b) {
   const std::size_t rows = a.size() + 1;
   const std::size_t columns = b.size() + 1;

@@ -22,8 +22,8 @@ std::optional<std::string> nearest(std::string_view word,
                                    const std::vector<std::string>& candidates);
 
 /// The candidates that share the most words with `word`, one at least: 'sampled-data' and
-/// 'sampled-data-hybrid'. A word has four letters or more; hyphens and underscores part words. A word
-/// is shared that begins with one of a candidate: 'hinfsyn' with 'hinf'.
+/// 'sampled-data-hybrid'. A word has four letters or more; hyphens and underscores part words. A
+/// word is shared that begins with one of a candidate: 'hinfsyn' with 'hinf'.
 std::vector<std::string> relatives(std::string_view word,
                                    const std::vector<std::string>& candidates);
 

@@ -20,8 +20,8 @@ std::string general(double value, int digits) {
   return {buffer.data(), end.ptr};
 }
 
-/// An exponent beyond 1000, of a number that is not 0. No double has it; a fraction of that size takes all memory, and
-/// where 100 digits have their smallest number this would be 0 there too.
+/// An exponent beyond 1000, of a number that is not 0. No double has it. A fraction of that size
+/// takes all memory, and where 100 digits have their smallest number this would be 0 there too.
 bool has_vast_exponent(std::string_view text) {
   constexpr int kMostExponent = 1000;
   const std::size_t e = text.find_first_of("eE");

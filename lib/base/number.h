@@ -22,8 +22,9 @@ std::string brief_below(double value, int digits = 6);
 std::string brief_above(double value, int digits = 6);
 
 /// The double nearest to a whole decimal text (sign allowed; no spaces, nothing after it; an
-/// exponent may follow "e" or "E"). Empty when the text is no finite decimal number, is beyond the range
-/// of double, or is not 0 and has an exponent beyond 1000. What is below the range is rounded to zero.
+/// exponent may follow "e" or "E"). Empty when the text is no finite decimal number, is beyond the
+/// range of double, or is not 0 and has an exponent beyond 1000. What is below the range is rounded
+/// to zero.
 std::optional<double> parse_decimal(std::string_view text);
 
 }  // namespace gainsmith

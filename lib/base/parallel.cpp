@@ -1,3 +1,8 @@
+// Threads of parallel_for: one team for each outermost loop, which inner loops share.
+//
+// Every open loop hands out its items by an atomic counter. A free thread enters the outermost loop
+// with items and room. A caller that waits for others helps in loops within its own, and nowhere
+// else.
 #include "base/parallel.h"
 
 #include <mpfr.h>

@@ -44,6 +44,7 @@ std::string rate_text(double rate) {
 }  // namespace
 
 std::optional<double> Progress::rate() const {
+  // A rate of the first seconds says little of the rest.
   constexpr double kEarly = 3;  // seconds
   if (done <= before || of == 0 || seconds < kEarly) return std::nullopt;
   return static_cast<double>(done - before) / seconds;

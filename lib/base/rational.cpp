@@ -1,3 +1,4 @@
+// Fractions: reading, rounding to doubles, and short ones near a number (continued fractions).
 #include "base/rational.h"
 
 #include <charconv>
@@ -14,6 +15,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+/// floor(p / q), also below 0, where the quotient of GMP is rounded towards 0.
 Integer floor_of(const Rational& x) {
   const Integer p = numerator(x);
   const Integer q = denominator(x);
@@ -102,11 +104,16 @@ DoubleDouble nearest_double_double(const Rational& x) {
 
 namespace {
 
+/// A fraction with the size by which short ones are chosen.
 struct Fraction {
   Rational value;
   Rational length;  ///< |p q|
 };
 
+/// The first convergent p_k / q_k of the continued fraction of x that is within `allowed` of it:
+///   x_0 = x,   a_k = floor(x_k),   x_{k+1} = 1 / (x_k - a_k)
+///   p_k = a_k p_{k-1} + p_{k-2},   q_k = a_k q_{k-1} + q_{k-2}
+/// Convergents are the best approximations of their denominators. A rational x ends with itself.
 Fraction first_end_within(const Rational& x, const Rational& allowed) {
   Integer p0 = 0, q0 = 1, p1 = 1, q1 = 0;
   Rational rest = x;

@@ -1,4 +1,11 @@
-// The real number types that the program computes in: double, 31 and 100 decimal digits.
+// The real number types that the program computes in, and what is exact between them.
+//
+//   double         53 bits, 15 digits
+//   DoubleDouble   106 bits, 31 digits   a sum of two doubles (double_double.h)
+//   Decimal100     500 bits, 150 digits   MPFR; 100 of its digits are relied on
+//
+// Code is written once for all three, as a template that GAINSMITH_FOR_EACH_SCALAR instantiates.
+// Conversions to a wider type are exact. Exact fractions are in rational.h.
 #pragma once
 
 #include <boost/multiprecision/mpfr.hpp>

@@ -12,7 +12,8 @@ class SharedLibrary {
   /// where it is not there.
   SharedLibrary(const std::string& file, const std::string& use);
 
-  /// The C function `name`, whose declaration is `Function`.
+  /// The C function `name`, whose declaration is `Function`. InputError where there is none; a
+  /// wrong declaration is undefined behaviour.
   template <typename Function>
   Function* function(const char* name) const {
     return reinterpret_cast<Function*>(address(name));

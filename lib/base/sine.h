@@ -4,10 +4,12 @@
 
 namespace gainsmith {
 
-/// sin(x) to some units in the last place of 1, for |x| <= 1e6. Without branches: T is a double, or a
-/// vector of them.
+/// sin(x) to some units in the last place of 1, for |x| <= 1e6. Without branches: T is a double, or
+/// a vector of them. With k the whole number nearest to x / (pi/2), r = x - k pi/2 has |r| <= pi/4
+/// (reduction of Cody and Waite); sin(r) and cos(r) are the polynomials of fdlibm.
 template <class T>
 [[gnu::always_inline]] inline T sine(T x) {
+  // To add and subtract 1.5 2^52 rounds to a whole number.
   constexpr double round = 0x1.8p52;
   const T k = (x * 6.36619772367581382433e-01 + round) - round;
   // pi/2 in parts of 33 bits (fdlibm): the products are exact.

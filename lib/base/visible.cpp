@@ -14,6 +14,7 @@ std::size_t control_length(std::string_view text) {
   };
   if (within(0, 0, 0x1F) || within(0, 0x7F, 0x7F)) return 1;
   if (within(0, 0xC2, 0xC2) && within(1, 0x80, 0x9F)) return 2;
+  // U+200E, 200F, 2028 to 202E; U+2066 to 2069.
   const bool marks = within(1, 0x80, 0x80) && (within(2, 0x8E, 0x8F) || within(2, 0xA8, 0xAE));
   const bool isolates = within(1, 0x81, 0x81) && within(2, 0xA6, 0xA9);
   return within(0, 0xE2, 0xE2) && (marks || isolates) ? 3 : 0;

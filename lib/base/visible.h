@@ -6,8 +6,8 @@
 
 namespace gainsmith {
 
-/// The byte of the first one, other than those of `allowed`; npos: there is none. C0 and C1 controls,
-/// DEL, ends of lines and paragraphs, marks of direction.
+/// The byte of the first one, other than those of `allowed`; npos: there is none. C0 and C1
+/// controls, DEL, ends of lines and paragraphs, marks of direction.
 std::size_t control_character(std::string_view utf8, std::string_view allowed = {});
 
 /// The text with each byte of them as "\x1b".

@@ -1,3 +1,4 @@
+// The order of binding, and the values that it depends on.
 #include "bind/bind.h"
 
 #include <filesystem>
@@ -24,6 +25,7 @@ double Recorder::number(const expr::Program& program) const {
   return numbers::evaluate(program, values)(0, 0);
 }
 
+/// A rank of the same matrix and tolerance is computed once.
 int Recorder::rank(const expr::Program& matrix, const expr::Program* tolerance) const {
   for (const model::Design::Rank& known : ranks)
     if (is_same(known.matrix, matrix) && known.tolerance.has_value() == (tolerance != nullptr) &&
@@ -34,11 +36,13 @@ int Recorder::rank(const expr::Program& matrix, const expr::Program* tolerance) 
   return found;
 }
 
+/// Each call notes what it found, with the programs that it was found for.
 std::vector<int> Recorder::units(const expr::Program& A, const expr::Program& C) const {
   units_found.push_back({A, C, numbers::KnownDoubles(values).units(A, C)});
   return units_found.back().exponents;
 }
 
+/// The matrices are noted with their values: other values may have another gain.
 std::vector<double> Recorder::output_gain(const expr::Program& A, const expr::Program& B,
                                           const expr::Program& C, bool discrete) const {
   for (const expr::Program* matrix : {&A, &B, &C})
@@ -75,6 +79,8 @@ Binding::Binding(std::shared_ptr<const model::Problem> problem, const model::Ove
 
 namespace {
 
+/// Data come first, as all shapes follow from them. Claims and figures come after the dynamics
+/// whose signals they read. Variables of events that nothing reads are dropped at last.
 model::Instance bound(Binding binding) {
   expr::count_design();
   bind_data(binding);
@@ -118,6 +124,7 @@ const std::vector<std::string>& unread_names(const model::Design& design) {
   return design.names->unread;
 }
 
+/// All texts anew, without the checks of ranges.
 model::Instance bind_again(const model::Design& design, const model::Overrides& overrides) {
   return bound({design.source, overrides, Checks::none});
 }

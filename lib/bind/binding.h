@@ -1,4 +1,7 @@
 // Internal to bind: one binding, and what is made of it so far.
+//
+// The parts are bound one after the other, each with the names that those before it made. Scopes
+// grow: known < design < running < results.
 #pragma once
 
 #include <map>
@@ -14,6 +17,7 @@
 namespace gainsmith::bind {
 
 /// What each part of a design may use (design.h).
+/// Each scope is a copy of the one before it with more names.
 struct Names {
   expr::Scope known;                ///< data, parameters, definitions
   expr::Scope design;               ///< and unknowns
@@ -30,6 +34,7 @@ struct Recorder : expr::KnownValues {
   mutable std::vector<model::Design::Units> units_found;
   mutable std::vector<model::Design::Plant> plants;
 
+  /// Each evaluates over `values`.
   double number(const expr::Program& program) const override;
   int rank(const expr::Program& matrix, const expr::Program* tolerance) const override;
   std::vector<int> units(const expr::Program& A, const expr::Program& C) const override;
@@ -41,9 +46,9 @@ struct Recorder : expr::KnownValues {
 /// the campaign lies within its ranges.
 enum class Checks { all, none };
 
-/// One binding: of what, and what is made of it so far. The parts (data.h, inequalities.h, gains.h,
-/// simulation.h, search.h, claims.h, campaign.h) are bound in this order; each reads what those
-/// before it made.
+/// One binding: of what, and what is made of it so far. The parts (data.h, observer_families.h,
+/// inequalities.h, gains.h, simulation.h, search.h, claims.h, campaign.h) are bound one after the
+/// other; each reads what those before it made.
 struct Binding {
   Binding(std::shared_ptr<const model::Problem> problem, const model::Overrides& overrides,
           Checks checks);
@@ -51,11 +56,13 @@ struct Binding {
   const model::Problem& problem() const { return *source; }
   const model::Method& method() const { return *source->method; }
 
+  /// What is bound; bind_observer_families() replaces it by one with plain observers.
   std::shared_ptr<const model::Problem> source;
   model::Overrides overrides;
   Checks checks;
   std::shared_ptr<model::Design> design;
   std::shared_ptr<Names> names;
+  /// It is the known values of all scopes.
   std::shared_ptr<Recorder> recorder;
   std::map<std::string, expr::Expression> data_texts;  ///< of data and parameters, by name
   std::unique_ptr<DynamicsNames> dynamics_names;       ///< from bind_components() on

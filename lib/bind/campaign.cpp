@@ -21,6 +21,7 @@ std::optional<numbers::Matrix> known_value(const Binding& binding, const model::
   return numbers::evaluate(formula.program, binding.recorder->values);
 }
 
+/// The value of a formula over data alone; none where it uses gains or nothing is to be checked.
 std::optional<double> known_scalar(const Binding& binding, const model::Formula& formula) {
   const auto value = known_value(binding, formula);
   return value ? std::optional((*value)(0, 0)) : std::nullopt;
@@ -40,6 +41,7 @@ void check_within(const Binding& binding, const model::Formula& formula, const m
                                       ", " + brief(*most) + "]");
 }
 
+/// Low ends are not above high ends, element by element.
 void check_box(const Binding& binding, const model::Design::Start& start,
                const model::InitialValue& initial) {
   const auto low = known_value(binding, start.values[0]);
@@ -50,12 +52,14 @@ void check_box(const Binding& binding, const model::Design::Start& start,
                      "the box of " + initial.state + " has its low end above its high end");
 }
 
+/// The fault, with the nearest name of a state.
 InputError no_state(const Binding& binding, const std::string& name, const Place& place) {
   return {place, "there is no state '" + name + "'" +
                      suggestion(name, names_of_all(binding.design->states))};
 }
 
-/// Center, matrix and level.
+/// {x: (x - c)'Q(x - c) <= level}, or the shell between two levels: c n x 1, Q n x n, level 1 x 1
+/// or 1 x 2.
 std::vector<model::Formula> ellipsoid(const Binding& binding, const model::InitialValue& initial,
                                       expr::Shape state) {
   const expr::Scope& scope = binding.names->running;
@@ -73,6 +77,8 @@ std::vector<model::Formula> ellipsoid(const Binding& binding, const model::Initi
           value(initial.values[1], scope, expr::Shape{state.rows, state.rows}), std::move(level)};
 }
 
+/// One rule for the start of one state. Shapes are those of the state, or numbers for all of its
+/// elements in a box.
 model::Design::Start start(const Binding& binding, const model::InitialValue& initial) {
   const expr::Scope& scope = binding.names->running;
   model::Design::Start bound{
@@ -126,6 +132,7 @@ const model::Dynamics::Event* timer_event(const Binding& binding) {
   return timer;
 }
 
+/// Relative and absolute accuracy of runs, the latter also of single states.
 void bind_accuracy(Binding& binding, const model::RunAccuracy& accuracy) {
   model::Design::RunAccuracy bound{accuracy.relative, accuracy.absolute, {}};
   for (const model::RunAccuracy::OfState& one : accuracy.states) {
@@ -186,6 +193,7 @@ void bind_starts(Binding& binding) {
 
 }  // namespace
 
+/// Values over data alone are checked here; those with gains are checked when a run begins.
 void bind_campaign(Binding& binding) {
   const model::Campaign& campaign = binding.problem().campaign;
   const expr::Scope& scope = binding.names->running;

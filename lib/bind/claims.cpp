@@ -22,6 +22,7 @@ std::vector<expr::Expression*> texts_of(model::Claim& claim) {
   return texts;
 }
 
+/// The claim with the numbers of a member in all of its texts.
 model::Claim instantiated(const Binding& binding, model::Claim claim, const Member& member) {
   for (expr::Expression* text : texts_of(claim))
     *text = instantiate(*text, member, binding.names->running);
@@ -62,6 +63,8 @@ model::Formula constant_of_claim(const Binding& binding, const expr::Expression&
   return bound;
 }
 
+/// A claim that rests on an estimate says so in its name. `over`: the event after whose jumps it is
+/// made.
 void add_claim(Binding& binding, const model::Claim& claim, const std::string& title,
                std::optional<std::size_t> over) {
   const expr::Scope& scope = binding.names->running;

@@ -1,3 +1,6 @@
+// Each function has an exact representation by linear matrix inequalities (Boyd and Vandenberghe,
+// Convex Optimization, 2004): norm(M) <= g by a Schur complement, lambda_max(M) <= g by M <= g I,
+// the rest element by element on diagonals.
 #include "bind/convex.h"
 
 #include "bind/trees.h"
@@ -7,6 +10,7 @@ using expr::Node;
 using expr::NodeKind;
 using expr::NodePtr;
 
+/// By the name of the function alone; whether it has unknowns is asked elsewhere.
 std::optional<Curvature> curvature_of(const Node& node) {
   if (node.kind != NodeKind::call || node.children.empty()) return std::nullopt;
   const std::string& name = node.text;
@@ -16,6 +20,7 @@ std::optional<Curvature> curvature_of(const Node& node) {
   return std::nullopt;
 }
 
+/// M of shape p x q gives the block [g I_p, M; M', g I_q].
 std::vector<NodePtr> comparisons_of(const Node& call, const NodePtr& bound,
                                     const std::vector<expr::Shape>& arguments, bool bound_is_number,
                                     bool strict) {

@@ -18,6 +18,7 @@
 namespace gainsmith::bind {
 
 /// Whether the call is one of those functions, and from which side it is bounded.
+/// Convex functions are bounded from above, concave ones from below.
 enum class Curvature { convex, concave };
 std::optional<Curvature> curvature_of(const expr::Node& node);
 

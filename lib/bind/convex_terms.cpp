@@ -1,3 +1,7 @@
+// Disciplined convex programs (Grant, Boyd and Ye 2006), in a small form: a sum of affine terms,
+// convex functions on the smaller side and concave ones on the larger side. Each such function f of
+// unknowns is replaced by an unknown t with f <= t (f >= t of a concave one). The new problem is
+// equivalent, since t may be as small as f.
 #include "bind/convex_terms.h"
 
 #include <algorithm>
@@ -22,12 +26,14 @@ using expr::NodeKind;
 using expr::NodePtr;
 using expr::Relation;
 
+/// A copy of a node with other children.
 NodePtr with_children(const Node& node, std::vector<NodePtr> children) {
   auto changed = std::make_shared<Node>(node);
   changed->children = std::move(children);
   return changed;
 }
 
+/// Functions of one matrix, whose value is a number.
 bool is_of_matrices(const Node& call) {
   return call.text == "norm" || call.text.starts_with("lambda");
 }
@@ -37,6 +43,7 @@ bool is_of_one_vector(const Node& call) {
   return call.text.starts_with("m") && call.children.size() == 1;
 }
 
+/// The shape with the most elements.
 expr::Shape largest(const std::vector<expr::Shape>& shapes) {
   return *std::max_element(shapes.begin(), shapes.end(),
                            [](expr::Shape a, expr::Shape b) { return a.size() < b.size(); });
@@ -68,11 +75,13 @@ NodePtr sum_of(std::span<const NodePtr> terms, const Node& at) {
   return sum;
 }
 
+/// A number that is written out and has a digit other than 0.
 bool is_positive_number(const Node& node) {
   return node.kind == NodeKind::number && node.text.find_first_of("123456789") != std::string::npos;
 }
 
 /// False where no name leads to unknowns.
+/// By names alone; quick, and true too often.
 bool may_read_unknowns(const Binding& binding, const expr::Expression& part,
                        const expr::Scope& scope) {
   const auto names = names_in(part);
@@ -97,6 +106,7 @@ bool reads_unknowns(const Binding& binding, const expr::Expression& part,
 }
 
 /// Whether the text has such functions, perhaps of data.
+/// By names alone, so that most texts need no further work.
 bool names_curved(const Binding& binding, const expr::Expression& part, const expr::Scope& scope) {
   const Node& node = *part.root;
   if (curvature_of(node)) return true;
@@ -118,6 +128,8 @@ struct KnownForm {
 };
 
 /// The quadratic form of unknowns at a node, if it is one.
+/// e'Q e with a column e of unknowns and Q of data. Shapes decide what the text leaves open. A
+/// function of numbers such as sin(x) is no affine column.
 std::optional<KnownForm> form_at(const Binding& binding, const expr::Expression& text,
                                  const NodePtr& node, const expr::Scope& scope) {
   const auto shape = [&](const NodePtr& part) {
@@ -166,6 +178,7 @@ std::optional<Curvature> curvature_at(const Binding& binding, const expr::Expres
   return curvature;
 }
 
+/// Whether such a function of unknowns is anywhere in a tree.
 bool has_curvature(const Binding& binding, const expr::Expression& text, const NodePtr& node,
                    const expr::Scope& scope) {
   return curvature_at(binding, text, node, scope) ||
@@ -212,6 +225,8 @@ std::vector<expr::Shape> shapes_of(const expr::Expression& text, const Node& cal
   return shapes;
 }
 
+/// The comparisons that say that the function at a node is bounded by `bound`. InputError for a
+/// bound of another shape.
 std::vector<expr::Expression> bounds_of(const Binding& binding, const expr::Expression& text,
                                         const NodePtr& node, const NodePtr& bound,
                                         expr::Scope& scope, bool strict) {
@@ -277,6 +292,8 @@ NodePtr with_terms(const Binding& binding, const expr::Expression& text, const N
 }
 
 /// An unknown that bounds the function at `call`, as a node that represents it.
+/// Its name is that of the function with a number, "norm_1"; the design gets it with its
+/// inequality.
 NodePtr bounding_unknown(Binding& binding, const expr::Expression& text, const NodePtr& node,
                          Curvature curvature) {
   expr::Scope& scope = binding.names->design;
@@ -336,6 +353,9 @@ void ask_convexity(Binding& binding, const expr::Expression& text, const NodePtr
 
 /// The text with bounding unknowns for convex functions where it may be large (sign 1), for concave
 /// ones where it may be small (sign -1).
+/// The rules of sign: a sum keeps it, a difference and a minus turn it on their operands, and a
+/// number that is written out and positive keeps it. InputError for any other place of such a
+/// function.
 NodePtr bounded(Binding& binding, const expr::Expression& text, const NodePtr& node, int sign,
                 bool quantified, const expr::Scope& scope) {
   if (!has_curvature(binding, text, node, scope)) return node;
@@ -400,6 +420,7 @@ NodePtr bounded(Binding& binding, const expr::Expression& text, const NodePtr& n
 
 }  // namespace
 
+/// A function that is alone on its side is bounded by the other side itself, without an unknown.
 std::vector<expr::Expression> affine_comparisons(Binding& binding, const expr::Expression& stated,
                                                  expr::Scope& scope, bool quantified) {
   const expr::Expression that{stated.text, with_terms(binding, stated, stated.root, scope)};
@@ -419,8 +440,8 @@ std::vector<expr::Expression> affine_comparisons(Binding& binding, const expr::E
       if (curvature_at(binding, that, side, scope) != wanted ||
           has_curvature(binding, that, other, scope) || is_nested(binding, that, side, scope))
         return false;
-      // Such a requirement may be relaxed, which its block [g, e'*Q; Q*e, Q] >= 0 should not be; and
-      // > would ask for Q > 0.
+      // Such a requirement may be relaxed, which its block [g, e'*Q; Q*e, Q] >= 0 should not be;
+      // and > would ask for Q > 0.
       if (!quantified && form_at(binding, that, side, scope)) return false;
       ask_convexity(binding, that, side, scope);
       for (expr::Expression& bound : bounds_of(binding, that, side, other, scope, strict))
@@ -439,6 +460,7 @@ std::vector<expr::Expression> affine_comparisons(Binding& binding, const expr::E
   return comparisons;
 }
 
+/// Sums over indices are written out before.
 expr::Expression affine_objective(Binding& binding, const expr::Expression& text) {
   const expr::Scope& scope = binding.names->design;
   return {text.text,

@@ -14,7 +14,8 @@ namespace gainsmith::bind {
 std::vector<expr::Expression> affine_comparisons(Binding& binding, const expr::Expression& stated,
                                                  expr::Scope& scope, bool quantified);
 
-/// The objective without them.
+/// The objective without them: it is minimised, so convex terms are bounded from above. InputError
+/// for concave ones.
 expr::Expression affine_objective(Binding& binding, const expr::Expression& text);
 
 }  // namespace gainsmith::bind

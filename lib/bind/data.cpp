@@ -19,6 +19,7 @@ namespace gainsmith::bind {
 
 namespace {
 
+/// The declaration with the sizes that are known, "n x p (n = 3)", for messages.
 std::string declared(const model::Declaration& declaration, const model::Dimensions& dimensions) {
   std::string text = declaration.shape.text;
   // "n*n" is one size.
@@ -64,6 +65,7 @@ struct Given {
 };
 
 /// The datum itself, or the members of a family, each with its element of the list.
+/// A family without a list gets one text, with the numbers of each member in it.
 std::vector<Given> given(Binding& binding, const model::Declaration& datum) {
   const model::Value* found = find_named(binding.problem().data, datum.name);
   const auto value = found ? std::optional(*found) : std::nullopt;
@@ -110,6 +112,7 @@ std::vector<Given> given(Binding& binding, const model::Declaration& datum) {
 }
 
 /// The range in which the problem searches for a scalar.
+/// nullptr: it is not searched.
 const model::ScalarRange* find_searched(const Binding& binding, const std::string& name) {
   if (!binding.problem().search) return nullptr;
   const model::Search& search = *binding.problem().search;
@@ -128,6 +131,7 @@ void start_at_end(const Binding& binding, const model::ScalarRange& searched,
   datum.place = searched.place;
 }
 
+/// Evaluates a datum, gives it its name, and adds it to the list.
 void define(Binding& binding, model::Design::Datum datum, std::vector<model::Design::Datum>& list) {
   numbers::Matrix matrix =
       value_of(*binding.design, datum, binding.overrides, binding.recorder->values);
@@ -165,6 +169,8 @@ std::string found_text(const model::Value& value, expr::Shape shape) {
   return to_string(shape) + (value.source.empty() ? "" : " in " + value.source);
 }
 
+/// The value is compiled over what is known so far. A flat list is turned where a column is
+/// declared. Then its shape teaches dimensions.
 void add_datum(Binding& binding, const Given& given) {
   const model::Declaration& datum = given.declaration;
   model::Dimensions& dimensions = binding.design->dimensions;
@@ -245,6 +251,7 @@ void check_shape(const Binding& binding, const Given& given) {
 }
 
 /// The text of a parameter: the problem's, or the method's default.
+/// nullptr where neither gives one.
 const expr::Expression* text_of(const Binding& binding, const model::Parameter& parameter) {
   if (const model::Value* given = find_named(binding.problem().parameters, parameter.name))
     return &given->value;
@@ -257,6 +264,7 @@ bool comes_first(const Binding& binding, const model::Parameter& parameter) {
   return text != nullptr && names_in(*text).empty();
 }
 
+/// A parameter has a value, a default, or a range in which it is searched.
 void add_parameter(Binding& binding, const model::Parameter& parameter) {
   model::Design::Datum bound;
   bound.first = comes_first(binding, parameter);
@@ -278,6 +286,7 @@ void add_parameter(Binding& binding, const model::Parameter& parameter) {
   define(binding, std::move(bound), binding.design->parameters);
 }
 
+/// nullptr: the method has no definition of this name.
 const model::Let* find_let(const model::Method& method, const std::string& name) {
   const auto found = std::ranges::find_if(
       method.let, [&](const model::Let& let) { return let.signature.name == name; });
@@ -312,6 +321,7 @@ void add_problem_definitions(Binding& binding) {
   }
 }
 
+/// Definitions are texts, bound wherever they are used.
 void add_definitions(Binding& binding) {
   auto& definitions = binding.names->known.definitions;
   for (const model::Let& let : binding.method().let)
@@ -322,6 +332,8 @@ void add_definitions(Binding& binding) {
     definitions[signal.name] = {{}, signal.value};
 }
 
+/// Each conjunct of it is a chain of comparisons of numbers. The place of its fault is that of a
+/// scalar in it which the problem gives.
 void add_assumption(Binding& binding, const model::Named& assumption) {
   model::Design::Assumption bound;
   bound.name = assumption.name;
@@ -347,6 +359,7 @@ void add_assumption(Binding& binding, const model::Named& assumption) {
   binding.design->assumptions.push_back(std::move(bound));
 }
 
+/// The degree of an unknown function, a whole number from 0 to 30; 0 of a matrix.
 int degree_of(const Binding& binding, const model::UnknownDeclaration& unknown,
               model::Design::Unknown& bound) {
   constexpr int kLargest = 30;
@@ -360,6 +373,7 @@ int degree_of(const Binding& binding, const model::UnknownDeclaration& unknown,
   return static_cast<int>(degree);
 }
 
+/// The shape of a declaration. InputError where a size of it does not follow from data.
 expr::Shape known_shape(const Binding& binding, const model::Declaration& declaration,
                         const char* what) {
   if (const auto shape = resolve(declaration.shape, binding.design->dimensions)) return *shape;
@@ -370,6 +384,8 @@ expr::Shape known_shape(const Binding& binding, const model::Declaration& declar
                        "or diagonal n, with sizes that the data have");
 }
 
+/// A matrix, or a function sum_k X_k b_k(s) of a number with coefficients X_0, ..., X_degree; or a
+/// polynomial in columns (polynomials.h).
 void add_unknown(Binding& binding, const model::UnknownDeclaration& unknown) {
   expr::Scope& scope = binding.names->design;
   model::Design::Unknown bound;
@@ -398,6 +414,7 @@ void add_unknown(Binding& binding, const model::UnknownDeclaration& unknown) {
   binding.design->unknowns.push_back(std::move(bound));
 }
 
+/// Each member of a family is an unknown of its own, "P_2".
 void add_unknowns(Binding& binding) {
   binding.names->design = binding.names->known;
   expr::Scope& scope = binding.names->design;
@@ -421,6 +438,8 @@ void add_unknowns(Binding& binding) {
 
 }  // namespace
 
+/// Parameters that are plain numbers come first, so that data may read them; the others follow the
+/// data.
 void bind_data(Binding& binding) {
   refuse_unknown_names(binding);
   for (const auto& [name, value] : binding.overrides) {

@@ -10,6 +10,7 @@
 
 namespace gainsmith::bind {
 
+/// Suggestions leave out what is given already.
 void refuse_unknown_names(const Binding& binding) {
   const auto data = names_of_all(binding.method().data);
   const auto parameters = names_of_all(binding.method().parameters);
@@ -50,6 +51,7 @@ void refuse_unknown_names(const Binding& binding) {
   refuse(binding.problem().parameters, parameters, data, "parameter", "parameters", "data");
 }
 
+/// Data are evaluated in the order of their declarations.
 void refuse_later_data(const Binding& binding, const model::Value& value) {
   const auto& data = binding.method().data;
   const auto self = std::find_if(data.begin(), data.end(),

@@ -17,6 +17,7 @@ namespace {
 
 using Kind = model::Dynamics::VariableKind;
 
+/// States and modes as they are written, for messages.
 std::vector<std::string> state_names(const model::Component& component) {
   std::vector<std::string> names;
   for (const auto* list : {&component.states, &component.modes})
@@ -67,6 +68,7 @@ void DynamicsBinding::add_component(const model::Component& component) {
   result_.components.push_back(std::move(bound));
 }
 
+/// States and modes; modes are whole numbers that jumps alone change.
 void DynamicsBinding::add_states(const model::Component& component, std::size_t at) {
   for (const auto* list : {&component.states, &component.modes})
     for (const model::Declaration& state : *list) {
@@ -82,6 +84,7 @@ void DynamicsBinding::add_states(const model::Component& component, std::size_t 
     }
 }
 
+/// Outputs are definitions too. One that exists at an event alone is noted with it.
 void DynamicsBinding::add_definitions(const model::Component& component) {
   for (const model::Let& let : component.let)
     scope_->definitions[names_->full(component, let.signature.name)] = {
@@ -165,6 +168,7 @@ void DynamicsBinding::add_varied() {
   }
 }
 
+/// An input that reads a state would be part of the plant: it is refused.
 void DynamicsBinding::add_inputs() {
   for (const model::Named& input : method_->inputs) {
     expr::visit_names(input.value, [&](const expr::Node& node) {
@@ -212,6 +216,7 @@ void DynamicsBinding::add_measured(const model::MeasuredText& text) {
   result_.flow.push_back({at, {rate.take(input), text.place, variable.name}, text.place});
 }
 
+/// The event of a measured quantity has the rows at which it has a value.
 void DynamicsBinding::bind_measured_events() {
   for (std::size_t k = 0; k < method_->measured.size(); ++k) {
     const model::MeasuredText& text = method_->measured[k];
@@ -256,6 +261,7 @@ std::size_t DynamicsBinding::state(const model::Component& component, std::size_
                                     suggestion(entry.name, state_names(component)));
 }
 
+/// x' = formula in the shape of x, over what the component may read.
 void DynamicsBinding::bind_flow(const model::Component& component, std::size_t at) {
   for (const model::Named& entry : component.flow) {
     const std::size_t of = state(component, at, entry, "the flow");
@@ -270,6 +276,8 @@ void DynamicsBinding::bind_flow(const model::Component& component, std::size_t a
   }
 }
 
+/// Components and their names, inputs and events come before any formula, since formulas may name
+/// them in any order.
 model::Dynamics DynamicsBinding::run() {
   std::vector<const model::Component*> parts = {&method_->plant};
   for (const model::Component& observer : method_->observers) parts.push_back(&observer);
@@ -303,12 +311,14 @@ model::Dynamics DynamicsBinding::run() {
   return result_;
 }
 
+/// None for an output that exists at all times.
 std::optional<std::size_t> DynamicsBinding::event_of_output(const std::string& output) const {
   const auto found = output_events_.find(output);
   if (found == output_events_.end()) return std::nullopt;
   return events_.at(*names_->event(nullptr, found->second));
 }
 
+/// States, modes, noise and measured quantities stay in any case.
 void drop_unread(model::Dynamics& dynamics, const std::set<std::string>& read) {
   std::erase_if(dynamics.variables, [&](const model::Dynamics::Variable& variable) {
     const bool asked = variable.kind != Kind::state && variable.kind != Kind::mode &&

@@ -1,4 +1,12 @@
 // Internal to bind: plant, observers and events bound to Dynamics.
+//
+// A hybrid system (Goebel, Sanfelice and Teel 2012): every component has states with x' = f(x)
+// while its flow set holds, and x+ = g(x) at events. Events are due by a clock, at given times or
+// rows of measured data, by a condition, or by a crossing of 0. Observers read outputs of the
+// plant, never its states.
+//
+// The variables of Dynamics are states, modes, noise, measured quantities, and numbers that texts
+// may ask for: the time, counts of jumps, times since and until events.
 #pragma once
 
 #include <map>
@@ -14,6 +22,7 @@
 
 namespace gainsmith::bind {
 
+/// It is used once: run() or varied().
 class DynamicsBinding {
  public:
   /// `scope` has data, parameters, definitions, unknowns and gains; the names of plant, observers
@@ -22,6 +31,7 @@ class DynamicsBinding {
                   const DynamicsNames& names, const std::vector<model::UncertainText>& uncertain,
                   const std::map<std::string, expr::Expression>& data_texts, expr::Scope& scope);
 
+  /// All names first, then the formulas over them. InputError for the first text that does not fit.
   model::Dynamics run();
   /// The uncertain data alone, with their names "plant.k" and those of what uses them.
   model::Dynamics varied() {
@@ -32,43 +42,54 @@ class DynamicsBinding {
   std::optional<std::size_t> event_of_output(const std::string& output) const;
 
  private:
-  // bind_dynamics.cpp: components, states, flows.
+  // dynamics.cpp: components, states, flows.
   void add_component(const model::Component& component);
   void add_states(const model::Component& component, std::size_t at);
   void add_definitions(const model::Component& component);
+  /// Inputs are functions of the time. The time t and the number of jumps j are variables unless a
+  /// method has other things of these names.
   void add_inputs();
   void add_measured(const model::MeasuredText& text);
   void bind_measured_events();
+  /// Uncertain data as noise that is drawn once a run, with what depends on it.
   void add_varied();
   std::string no_datum(const std::string& name) const;
   model::Dynamics::Noise varied_noise(const model::UncertainText& text, expr::Shape shape) const;
   std::vector<expr::Expression> values_of(const model::UncertainText& text,
                                           expr::Shape shape) const;
+  /// The start that a state has by its declaration; a campaign may give another one.
   void bind_starts();
   void bind_flow(const model::Component& component, std::size_t at);
+  /// The variable that an entry of flow or of a jump sets. InputError where it is no state of the
+  /// component.
   std::size_t state(const model::Component& component, std::size_t at, const model::Named& entry,
                     const char* what) const;
   expr::Shape shape_of(const model::Declaration& state) const;
+  /// Whether nothing has this name yet.
   bool is_free(const std::string& name) const;
 
-  // bind_events.cpp: what is due, and what happens then.
+  // events.cpp: what is due, and what happens then.
   void add_events();
   void sort_events();
+  /// count(e), since(e), passes(e) of each event, and what is left to one with a clock.
   void add_moments();
   void bind_event(const model::EventText& text, const model::Component* component, std::size_t at);
   void bind_reaction(const model::ReactionText& text, const model::Component& component,
                      std::size_t at);
   model::Dynamics::Pass pass(const model::PassText& text, const model::Component& component,
                              std::size_t at, std::size_t event) const;
+  /// Conditions under which a component flows, and the modes in which its states are frozen.
   void bind_flow_sets(const model::Component& component, std::size_t at);
   void bind_noise(const model::NoiseText& text);
   void bind_sinusoid(const model::NoiseText& text);
   std::string time_of(const std::string& noise);
   void add_noise(model::Dynamics::Noise noise);
+  /// The index of an event as a component names it; InputError where there is none.
   std::size_t event(const model::Component* component, const std::string& name,
                     const Place& place) const;
   void check_ends(const std::string& event, const model::Formula& low,
                   const model::Formula& high) const;
+  /// InputError for what changes along a run.
   model::Formula constant(const expr::Expression& text, std::optional<expr::Shape> shape) const;
   expr::Condition condition(const expr::Expression& text, const model::Component* reader,
                             std::optional<std::size_t> event, const expr::Scope& scope) const;
@@ -90,6 +111,7 @@ class DynamicsBinding {
 
   model::Formula formula(const expr::Expression& text, const expr::Scope& scope,
                          std::optional<expr::Shape> shape) const;
+  /// Whether it is a variable of the dynamics.
   bool is_moving(const std::string& name) const;
 
   const model::Method* method_;
@@ -101,6 +123,7 @@ class DynamicsBinding {
   model::Dynamics result_;
   std::map<std::string, std::size_t> events_;         ///< by full name
   std::map<std::string, std::string> output_events_;  ///< the event's name as written, by output
+  /// Full names; observers read these, whatever they are made of.
   std::set<std::string> outputs_of_plant_;
   std::vector<const model::EventText*> event_texts_;  ///< of result_.events, in order
 };

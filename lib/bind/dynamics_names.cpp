@@ -45,6 +45,8 @@ std::set<std::string> names_of_method(const model::Method& method) {
 
 }  // namespace
 
+/// Names are sorted by who has them: the method, plant and method both, each observer, or no
+/// observer.
 DynamicsNames::DynamicsNames(const model::Method& method, std::set<std::string> varied)
     : method_(&method), varied_(std::move(varied)), of_method_(names_of_method(method)) {
   for (const std::string& name : names_of(method.plant))
@@ -75,6 +77,7 @@ std::optional<std::string> DynamicsNames::of_part(const std::string& name) const
   return own;
 }
 
+/// Own events first, then those of the method and the plant, then "observer.event".
 std::optional<std::string> DynamicsNames::event(const model::Component* component,
                                                 const std::string& name) const {
   const auto has = [](const std::vector<model::EventText>& events, const std::string& one) {
@@ -93,6 +96,7 @@ std::optional<std::string> DynamicsNames::event(const model::Component* componen
   return std::nullopt;
 }
 
+/// Own events without a prefix, those of other observers with theirs.
 std::vector<std::string> DynamicsNames::event_names(const model::Component* component) const {
   std::vector<std::string> names;
   const auto add = [&](const std::vector<model::EventText>& events, const std::string& prefix) {
@@ -106,6 +110,8 @@ std::vector<std::string> DynamicsNames::event_names(const model::Component* comp
   return names;
 }
 
+/// Own names get the prefix of the component. Names of events stay where they are names of the
+/// plant too.
 expr::Expression DynamicsNames::within(const model::Component& component,
                                        const expr::Expression& text,
                                        const std::vector<std::string>& parameters) const {
@@ -145,12 +151,15 @@ std::set<std::string> DynamicsNames::bare_names(const std::vector<expr::Expressi
   return bare;
 }
 
+/// Whether it is a name of the observer, or a signal that was read for it.
 bool DynamicsNames::has(const std::string& observer, const std::string& name) const {
   const auto signals = readings_.find(observer);
   return own_.at(observer).contains(name) ||
          (signals != readings_.end() && signals->second.contains(name));
 }
 
+/// Bare names get the prefix of the observer; "plant." is dropped where the plant's names have
+/// none.
 Reading DynamicsNames::reading(const std::string& observer, const std::set<std::string>& bare,
                                const std::vector<expr::Expression>& texts) const {
   const auto to = [&](const std::string& name) -> std::optional<std::string> {
@@ -166,8 +175,8 @@ Reading DynamicsNames::reading(const std::string& observer, const std::set<std::
   return result;
 }
 
-/// InputError for a name of the method that some of the observers which are meant have too: the text
-/// would leave the others out.
+/// InputError for a name of the method that some of the observers which are meant have too: the
+/// text would leave the others out.
 void DynamicsNames::refuse_captured(const std::set<std::string>& bare, const Place& place) const {
   std::vector<std::string> meant;
   for (const model::Component& observer : method_->observers)
@@ -188,6 +197,7 @@ void DynamicsNames::refuse_captured(const std::set<std::string>& bare, const Pla
   }
 }
 
+/// An observer is meant where it has all bare names of the texts.
 std::vector<Reading> DynamicsNames::outside(const std::vector<expr::Expression>& texts) const {
   const std::set<std::string> bare = bare_names(texts);
   if (bare.empty()) return {reading("", bare, texts)};
@@ -205,6 +215,7 @@ std::vector<Reading> DynamicsNames::outside(const std::vector<expr::Expression>&
                        method_->observers.front().name + "." + *bare.begin());
 }
 
+/// Names that the observer has get its prefix; others stay.
 Reading DynamicsNames::of_observer(const std::string& observer,
                                    const std::vector<expr::Expression>& texts,
                                    const Place& place) const {
@@ -226,6 +237,7 @@ expr::Expression DynamicsNames::outside(const expr::Expression& text) const {
                                                *bare_names({text}).begin());
 }
 
+/// A signal with bare names of observers is one signal for each of them.
 std::vector<Reading> DynamicsNames::add_signal(const model::Named& signal) {
   std::vector<Reading> readings = outside(std::vector{signal.value});
   for (const Reading& reading : readings)
@@ -236,6 +248,8 @@ std::vector<Reading> DynamicsNames::add_signal(const model::Named& signal) {
   return readings;
 }
 
+/// That of the plant comes first; "observer.x" is one state, a bare x that of each observer which
+/// has it.
 std::vector<std::string> DynamicsNames::states(const std::string& name) const {
   const auto has = [](const model::Component& component, const std::string& one) {
     return has_named(component.states, one) || has_named(component.modes, one);

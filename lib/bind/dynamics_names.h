@@ -30,6 +30,7 @@ struct Reading {
   std::vector<expr::Expression> texts;
 };
 
+/// It renames texts and binds nothing. The method must outlive it.
 class DynamicsNames {
  public:
   /// `varied`: data of which the plant has a value of its own, plant.cf, and definitions that use
@@ -63,7 +64,7 @@ class DynamicsNames {
                                    const std::string& name) const;
   /// All of them as they may be written there, for messages.
   std::vector<std::string> event_names(const model::Component* component) const;
-  /// "e of nominal" of several observers; the name alone of the only one.
+  /// "nominal.e" of several observers; the name alone of the only one.
   std::string title(const std::string& name, const std::string& observer) const;
   /// Adds a signal: later texts may name it. Its readings.
   std::vector<Reading> add_signal(const model::Named& signal);

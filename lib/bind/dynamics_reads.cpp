@@ -3,6 +3,7 @@
 
 namespace gainsmith::bind {
 
+/// Definitions are followed: what they read is read too.
 void DynamicsBinding::check_reads(const Reader& reader, const expr::Expression& text,
                                   const expr::Scope& scope) const {
   std::set<std::string> seen;
@@ -46,6 +47,8 @@ void DynamicsBinding::check_name(const Reader& reader, const expr::Expression& t
   });
 }
 
+/// A flow_map goes back in time: measurements, draws and, within an observer, states of the plant
+/// have no past that could be evaluated there.
 void DynamicsBinding::set_reader(const model::Component* component) {
   using Kind = model::Dynamics::VariableKind;
   const bool by_observer = component != nullptr && component->name != "plant";

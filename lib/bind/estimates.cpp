@@ -15,6 +15,8 @@ void note_estimate(model::Design& design, const std::string& name, const expr::P
   design.estimates[name] = found;
 }
 
+/// A search gives a value at one point. It bounds the maximum from below, and a proof needs a bound
+/// from above.
 void refuse_estimate(const model::Design& design, const expr::Program& program,
                      const std::string& what) {
   if (const expr::Instruction* search = expr::search_in(program))

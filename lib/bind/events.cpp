@@ -20,6 +20,8 @@ using Kind = model::Dynamics::VariableKind;
 
 }  // namespace
 
+/// Those of the method, of the plant, of the observers, in this order but for `order`. InputError
+/// for a name that is given twice.
 void DynamicsBinding::add_events() {
   const auto add = [&](const std::vector<model::EventText>& texts,
                        const model::Component* component, std::optional<std::size_t> at) {
@@ -120,6 +122,7 @@ model::Formula DynamicsBinding::constant(const expr::Expression& text,
   return bound;
 }
 
+/// A condition over what its reader may read. `event`: at which it is read.
 expr::Condition DynamicsBinding::condition(const expr::Expression& text,
                                            const model::Component* reader,
                                            std::optional<std::size_t> event,
@@ -130,6 +133,7 @@ expr::Condition DynamicsBinding::condition(const expr::Expression& text,
 
 namespace {
 
+/// Whether a name that the condition reads is as asked.
 bool any_input(const expr::Condition& condition,
                const std::function<bool(const std::string&)>& is) {
   if (!condition.is_comparison())
@@ -160,6 +164,8 @@ void DynamicsBinding::check_ends(const std::string& event, const model::Formula&
                                   ", " + brief(most) + "]: expected 0 <= low <= high");
 }
 
+/// `when` has a condition, rises, falls and crosses have a number, `every` has the ends of its
+/// length and of its first length, `at` has times. What never changes is refused.
 void DynamicsBinding::bind_event(const model::EventText& text, const model::Component* component,
                                  std::size_t at) {
   const auto read = [&](const expr::Expression& one) {
@@ -206,6 +212,8 @@ void DynamicsBinding::bind_event(const model::EventText& text, const model::Comp
   if (text.only_if) event.only_if = condition(read(*text.only_if), component, at, *scope_);
 }
 
+/// x+ = g(x) for all entries at once. `repeats`: the pass is made again until its condition holds,
+/// at most so often.
 model::Dynamics::Pass DynamicsBinding::pass(const model::PassText& text,
                                             const model::Component& component, std::size_t at,
                                             std::size_t event) const {
@@ -232,6 +240,7 @@ model::Dynamics::Pass DynamicsBinding::pass(const model::PassText& text,
   return bound;
 }
 
+/// What one component does at one event, pass after pass.
 void DynamicsBinding::bind_reaction(const model::ReactionText& text,
                                     const model::Component& component, std::size_t at) {
   model::Dynamics::Reaction bound;
@@ -243,6 +252,8 @@ void DynamicsBinding::bind_reaction(const model::ReactionText& text,
   result_.reactions.push_back(std::move(bound));
 }
 
+/// A frozen component rests while a condition of its modes holds; conditions of states would have
+/// to be watched along flows.
 void DynamicsBinding::bind_flow_sets(const model::Component& component, std::size_t at) {
   model::Dynamics::Component& bound = result_.components[at];
   const auto is_mode = [&](const std::string& name) {
@@ -299,6 +310,8 @@ void DynamicsBinding::bind_sinusoid(const model::NoiseText& text) {
   scope_->definitions[w] = {{}, body};
 }
 
+/// Kinds with a center have a center and a deviation or covariance, others values that must have
+/// one shape. It is drawn at an event, at multiples of `every`, or once a run.
 void DynamicsBinding::bind_noise(const model::NoiseText& text) {
   if (!is_free(text.name))
     throw InputError(text.place, "'" + text.name + "' already names something else");
@@ -323,6 +336,7 @@ void DynamicsBinding::bind_noise(const model::NoiseText& text) {
   add_noise(std::move(bound));
 }
 
+/// A noise is a variable that rests between its draws.
 void DynamicsBinding::add_noise(model::Dynamics::Noise noise) {
   model::Dynamics::Variable variable;
   variable.kind = Kind::noise;

@@ -1,3 +1,5 @@
+// The doubles that a program computes with are not what a person wrote: 0.1 is rounded. A proof is
+// about the decimals, so they are read anew in 100 digits.
 #include "bind/exact_values.h"
 
 #include <algorithm>
@@ -12,6 +14,7 @@ namespace {
 using expr::Op;
 using Wide = numbers::MatrixOf<Decimal100>;
 
+/// Element by element (shortest_decimal).
 Wide shortest_decimals(const numbers::Matrix& matrix) {
   return matrix.unaryExpr([](double value) { return shortest_decimal(value); });
 }
@@ -19,6 +22,7 @@ Wide shortest_decimals(const numbers::Matrix& matrix) {
 /// Relative: a text that gives another number is not what the number is from.
 constexpr double kOfText = 1e-9;
 
+/// Whether the text alone gives the value. Bases that are chosen, as of orth, and calls are not.
 bool is_determined(const expr::Program& program) {
   return !model::chooses_basis(program) &&
          std::none_of(program.code.begin(), program.code.end(),
@@ -45,6 +49,7 @@ std::optional<Wide> from_text(const model::Design::Datum& datum, const numbers::
 
 }  // namespace
 
+/// By std::to_chars, which promises the shortest decimal that reads back as the same double.
 Decimal100 shortest_decimal(double value) {
   std::array<char, 64> text{};
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value);
@@ -52,6 +57,7 @@ Decimal100 shortest_decimal(double value) {
   return parsed ? *parsed : Decimal100(value);
 }
 
+/// Data in their order, each over the wide values of those before it.
 numbers::ValuesOf<Decimal100> exact_values(const model::Instance& instance,
                                            const numbers::Values& constants,
                                            const model::Gains& gains) {

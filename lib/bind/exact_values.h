@@ -1,4 +1,5 @@
-// What a gain file and its problem say, in 100 digits.
+// What a gain file and its problem say, in 100 digits: the constants of proofs, and of runs with
+// more digits than double.
 #pragma once
 
 #include <Eigen/Core>

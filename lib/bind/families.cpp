@@ -11,10 +11,12 @@ std::string Member::name_of(const std::string& family) const {
   return expr::member_name(family, values);
 }
 
+/// Titles are for persons, names for programs.
 std::string Member::title_of(const std::string& family) const {
   return label.empty() ? family : family + " at " + label;
 }
 
+/// Nested loops as a recursion over indices; conditions are asked where all have values.
 std::vector<Member> members(const std::vector<expr::Index>& indices,
                             const std::vector<expr::Expression>& conditions,
                             const expr::Scope& scope) {
@@ -52,6 +54,7 @@ std::vector<Member> members(const std::vector<expr::Index>& indices,
   return found;
 }
 
+/// At most 10,000 members for each index.
 expr::Ranges ranges(const std::vector<expr::Index>& indices, const expr::Scope& scope) {
   constexpr int kMost = 10'000;
   expr::Ranges result;
@@ -67,6 +70,8 @@ expr::Ranges ranges(const std::vector<expr::Index>& indices, const expr::Scope& 
   return result;
 }
 
+/// A flat list gives numbers, a list of rows gives a row for each member, a list of matrices the
+/// matrices.
 std::vector<model::Value> elements_of(const model::Value& value) {
   if (!value.matrices.empty()) return value.matrices;
   std::vector<model::Value> elements;
@@ -92,6 +97,7 @@ std::vector<model::Value> elements_of(const model::Value& value) {
   return elements;
 }
 
+/// 1..N alone: other ranges would have to be solved for N.
 bool learn_count(const std::vector<expr::Index>& indices, std::size_t count,
                  std::map<std::string, int>& dimensions) {
   if (indices.size() != 1) return false;

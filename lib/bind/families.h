@@ -17,6 +17,7 @@
 
 namespace gainsmith::bind {
 
+/// One choice of the indices.
 struct Member {
   std::vector<int> values;             ///< of the indices, in order
   std::map<std::string, int> indices;  ///< the same by name

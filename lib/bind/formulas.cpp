@@ -34,6 +34,8 @@ model::Formula value(const model::Value& value, const expr::Scope& scope,
   return result;
 }
 
+/// The deviation has the shape of the value or is a number; the covariance of a column with n
+/// elements is n x n. The center has the shape of the value or is a number for all elements.
 void check_spread(const std::vector<model::Formula>& values, bool covariance, expr::Shape of,
                   const std::string& what) {
   const expr::Shape center = values[0].program.shape(), spread = values[1].program.shape();

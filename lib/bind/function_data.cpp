@@ -26,6 +26,7 @@ std::string declared(const model::Declaration& datum) {
   return called(datum) + " (" + shapes + ")";
 }
 
+/// nullptr: the problem gives no function of this name.
 const model::Let* given(const model::Problem& problem, const std::string& name) {
   const auto found =
       std::find_if(problem.functions.begin(), problem.functions.end(),
@@ -34,6 +35,7 @@ const model::Let* given(const model::Problem& problem, const std::string& name) 
 }
 
 /// The function as the problem gives it, or as it is by default.
+/// Arguments may be left out from the last on, where the text does not read them.
 expr::Definition definition(const Binding& binding, const model::Declaration& datum) {
   if (const model::Let* let = given(binding.problem(), datum.name)) {
     const std::size_t expected = datum.arguments.size();
@@ -88,6 +90,7 @@ bool is_function(const model::Problem& problem, const model::Declaration& datum)
   return function;
 }
 
+/// The text is compiled once, for its shape and its faults; it is bound anew where it is called.
 void add_function(Binding& binding, const model::Declaration& datum) {
   expr::Definition function = definition(binding, datum);
   model::Dimensions& dimensions = binding.design->dimensions;

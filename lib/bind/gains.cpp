@@ -1,3 +1,5 @@
+// Gains such as inv(P)*Y of unknowns P and Y. Each product with an inverse of an unknown, inv(S)*R
+// or R*inv(S), is kept with its factors as texts and programs, for the bounds of gains.h.
 #include "bind/gains.h"
 
 #include <algorithm>
@@ -44,11 +46,15 @@ NodePtr product_of(const std::vector<NodePtr>& factors) {
 }
 
 /// Finds the products of one formula.
+/// Only texts are searched: inv(...) of a name, or of a call of an unknown function, beside other
+/// factors.
 class Products {
  public:
   Products(const model::Design& design, const model::Gain& gain, const expr::Scope& scope)
       : design_(design), gain_(gain), scope_(scope) {}
 
+  /// Within a product, inv(S) is taken with all factors to its right, or with those to its left
+  /// where it is the last.
   void find(const NodePtr& node, std::vector<model::Design::Product>& found) const {
     std::vector<NodePtr> factors;
     factors_of(node, factors);
@@ -99,16 +105,20 @@ class Products {
     return nullptr;
   }
 
+  /// `left`: the inverse is on the left side.
   model::Design::Product product(const NodePtr& inverted, const std::vector<NodePtr>& factors,
                                  bool left) const {
     return {written(*inverted), factor({inverted}), left, factor(factors),
             factor({left ? factors.front() : factors.back()})};
   }
 
+  /// The source of a node.
   std::string written(const Node& node) const {
     return gain_.value.text->str().substr(node.begin, node.end - node.begin);
   }
 
+  /// Where calls of unknown functions are in the text, byte and length, since their arguments may
+  /// change.
   void add_calls(const Node& node, std::size_t shift,
                  std::vector<std::pair<std::size_t, std::size_t>>& calls) const {
     if (node.kind == NodeKind::call && scope_.functions.contains(node.text))
@@ -127,6 +137,7 @@ expr::Scope gain_scope(expr::Scope scope, const std::string& variable) {
   return scope;
 }
 
+/// One gain: its formula, its shape and its products.
 void add_gain(Binding& binding, const model::Gain& gain, const expr::Scope& names) {
   const expr::Scope scope = gain_scope(names, gain.variable);
   model::Design::Gain bound;
@@ -161,6 +172,7 @@ void bind_gain_bounds(Binding& binding) {
 
 }  // namespace
 
+/// A gain that other gains use is a definition to them, so that its products are found there too.
 void bind_gains(Binding& binding) {
   std::map<std::string, expr::Ranges> families;
   std::vector<model::Gain> gains;
@@ -194,6 +206,7 @@ void bind_gains(Binding& binding) {
   binding.names->results.symbols["objective"] = {};
 }
 
+/// Compiled over the names of runs; it may differ from the formula of the method.
 expr::Program bind_gain_formula(const model::Instance& instance,
                                 const std::vector<model::UnknownMatrix>& unknowns,
                                 const std::string& text, const std::string& variable,

@@ -1,3 +1,11 @@
+// A requirement is a chain of comparisons of symmetric matrices, A < B < C, over domains of its
+// variables:
+//
+//   forall: x in [a, b]    an interval, or a box of columns, element by element
+//   forall: x in {a, b}    a finite set, or the elements of a vector
+//   forall: x in R^n       all real columns: a sum of squares, with `where` as side conditions
+//
+// Each comparison becomes larger side - smaller side > 0 or >= 0. Indices are expanded before.
 #include "bind/inequalities.h"
 
 #include <algorithm>
@@ -98,6 +106,8 @@ model::Forall meant(const Binding& binding, const model::Forall& forall) {
   return {forall.variable, model::Over::set, {expr::parse(text)}, forall.place, true};
 }
 
+/// The variable with its points: both ends of an interval, or the elements of a set, all of one
+/// shape.
 model::Design::Variable variable(const Binding& binding, const model::Forall& forall,
                                  const Member& member) {
   model::Design::Variable bound{forall.variable, forall.over, {}, {}, forall.place};
@@ -127,8 +137,8 @@ model::Design::Variable variable(const Binding& binding, const model::Forall& fo
   return bound;
 }
 
-/// "x in [lo, hi]" with columns: its elements are the variables x_1, x_2, ..., each in its interval,
-/// and x is the column of them. An end may be a number for all elements.
+/// "x in [lo, hi]" with columns: its elements are the variables x_1, x_2, ..., each in its
+/// interval, and x is the column of them. An end may be a number for all elements.
 void add_box(const Binding& binding, const model::Forall& forall, const Member& member,
              int elements, model::Design::Inequality& bound, expr::Scope& scope) {
   std::string column;
@@ -168,6 +178,8 @@ std::optional<int> elements_of_box(const Binding& binding, const model::Forall& 
   return rows == 1 ? std::nullopt : std::optional(rows);
 }
 
+/// A number that is affine after bounding its convex terms; or lambda_max(M, N), the least l with M
+/// <= l N, which is quasiconvex: it is minimised as a generalised eigenvalue.
 void bind_objective(Binding& binding, const expr::Expression& text) {
   const expr::Node& root = *text.root;
   const bool quotient =
@@ -210,6 +222,8 @@ void refuse_unknowns_in(const Binding& binding, const expr::CompiledRelation& re
                            "other (docs/sums-of-squares.md)");
 }
 
+/// None where the requirement is no sum of squares. `where` gives g_i(x) >= 0, `degree` that of
+/// multipliers.
 std::optional<model::Design::Inequality::SumOfSquares> sum_of_squares(
     const Binding& binding, const model::Requirement& requirement, const Member& member,
     const std::vector<model::Design::Variable>& domain, const expr::Scope& scope) {
@@ -235,6 +249,7 @@ std::optional<model::Design::Inequality::SumOfSquares> sum_of_squares(
   return result;
 }
 
+/// One member of a requirement. Variables of `forall` are names of its own scope alone.
 model::Design::Inequality inequality(Binding& binding, const model::Requirement& requirement,
                                      const Member& member) {
   model::Design::Inequality bound;
@@ -273,6 +288,7 @@ model::Design::Inequality inequality(Binding& binding, const model::Requirement&
   return bound;
 }
 
+/// One inequality for each member of the indices that fulfils the conditions.
 void add_inequalities(Binding& binding, const std::vector<model::Requirement>& requirements,
                       std::vector<model::Design::Inequality>& out) {
   for (const model::Requirement& requirement : requirements)
@@ -300,6 +316,7 @@ void set_unknowns_aside(model::Design& design) {
 
 }  // namespace
 
+/// All comparisons of the chains, numbered where there are several.
 void add_comparisons(const std::vector<expr::Expression>& comparisons,
                      model::Design::Inequality& bound, const std::string& stem,
                      const std::string& member, const expr::Scope& scope) {
@@ -315,6 +332,7 @@ void add_comparisons(const std::vector<expr::Expression>& comparisons,
   }
 }
 
+/// Necessary inequalities are kept apart, with the unknowns that they alone use.
 void bind_inequalities(Binding& binding) {
   add_inequalities(binding, binding.method().require, binding.design->inequalities);
   add_inequalities(binding, binding.method().necessary, binding.design->necessary.inequalities);
@@ -326,6 +344,7 @@ void bind_inequalities(Binding& binding) {
                                                   "' has no inequality under 'require'");
 }
 
+/// Unknowns without elements are free of it.
 void refuse_free_unknowns(const model::Design& design) {
   const auto is_bound = [&](const model::Design::Unknown& unknown) {
     if (uses(design.inequalities, unknown)) return true;

@@ -9,6 +9,8 @@
 
 namespace gainsmith::bind {
 
+/// Adds inequalities, those that are necessary for any gains, and the objective to the design.
+/// InputError as of bind(), and for an objective without inequalities.
 void bind_inequalities(Binding& binding);
 
 /// Adds the comparisons to an inequality: "flow", or "flow.1", "flow.2" of several; of a family

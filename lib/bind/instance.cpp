@@ -11,6 +11,7 @@ namespace gainsmith::bind {
 namespace {
 
 /// The values of an instance, in the order of the declarations.
+/// Data, parameters and assumptions, evaluated and checked anew without their texts.
 class Evaluation {
  public:
   Evaluation(const model::Design& design, const model::Overrides& overrides)
@@ -28,6 +29,7 @@ class Evaluation {
   }
 
  private:
+  /// InputError for a name that is no scalar, or a value that is not finite.
   void check_overrides() const {
     for (const auto& [name, value] : overrides_) {
       check_scalar_name(design_, name, {design_.file});
@@ -67,6 +69,8 @@ bool has_same_shapes(const model::Design& design, const numbers::Values& values)
 
 }  // namespace
 
+/// Programs depend on values by ranks, units, degrees and gains that were found while binding.
+/// Where these are as before the programs stay; otherwise the texts are bound anew.
 model::Instance evaluate(const model::DesignPtr& design, const model::Overrides& overrides) {
   try {
     numbers::Values values = Evaluation(*design, overrides).run();

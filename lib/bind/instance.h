@@ -1,4 +1,7 @@
 // A design that is bound with other values.
+//
+// A scan or a search changes scalars many times. Programs are kept as long as shapes and all that
+// binding took from values stay, so that texts are bound anew only where they must.
 #pragma once
 
 #include "model/instance.h"

@@ -14,6 +14,7 @@ namespace gainsmith::bind {
 namespace {
 
 /// Puts the numbers of a member into all texts of an observer.
+/// A copy of an observer with numbers in place of the indices, in every text that it has.
 class Instantiation {
  public:
   Instantiation(const Member& member, const expr::Scope& scope) : member_(member), scope_(scope) {}
@@ -73,6 +74,7 @@ class Instantiation {
 
 }  // namespace
 
+/// The method is copied, as other problems may share it.
 void bind_observer_families(Binding& binding) {
   const std::vector<model::Component>& observers = binding.method().observers;
   if (std::ranges::all_of(observers, [](const auto& one) { return one.indices.empty(); })) return;

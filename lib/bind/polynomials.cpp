@@ -24,6 +24,7 @@ int least_degree(const Binding& binding, const model::UnknownDeclaration& unknow
 }
 
 /// x(1), x(2), ..., or x of one element, of all arguments.
+/// Arguments are columns with a length that is known from data.
 std::vector<std::string> variables_of(const Binding& binding,
                                       const model::UnknownDeclaration& unknown) {
   std::vector<std::string> names;
@@ -41,6 +42,7 @@ std::vector<std::string> variables_of(const Binding& binding,
   return names;
 }
 
+/// "V_2_0_0": the exponents in the order of the variables.
 std::string coefficient_name(const std::string& name, const polynomial::Monomial& monomial,
                              std::size_t variables) {
   std::string result = name;
@@ -50,6 +52,8 @@ std::string coefficient_name(const std::string& name, const polynomial::Monomial
 
 }  // namespace
 
+/// The definition is a text, a sum of coefficients times monomials, so that it is bound like any
+/// other.
 void add_polynomial(Binding& binding, const model::UnknownDeclaration& unknown,
                     const model::Design::Unknown& like) {
   constexpr std::size_t kMostTerms = 5000;

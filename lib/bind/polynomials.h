@@ -8,6 +8,8 @@
 namespace gainsmith::bind {
 
 /// InputError for degrees that are no whole numbers in order, and for more than 5,000 terms.
+/// V(x) = sum_a V_a x^a over all exponents a with least <= |a| <= degree. `like`: shape, degree and
+/// place of each coefficient. V becomes a definition of the design.
 void add_polynomial(Binding& binding, const model::UnknownDeclaration& unknown,
                     const model::Design::Unknown& like);
 

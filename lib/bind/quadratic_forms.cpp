@@ -14,6 +14,7 @@ using expr::NodePtr;
 
 namespace {
 
+/// Whether two trees are written alike.
 bool is_same(const Node& a, const Node& b) {
   return a.kind == b.kind && a.text == b.text && a.columns == b.columns &&
          a.relations == b.relations &&
@@ -21,6 +22,7 @@ bool is_same(const Node& a, const Node& b) {
                     [](const NodePtr& x, const NodePtr& y) { return is_same(*x, *y); });
 }
 
+/// Whether a is written as b'.
 bool is_transpose(const Node& a, const Node& b) {
   return a.kind == NodeKind::transpose && is_same(*a.children.front(), b);
 }
@@ -35,6 +37,8 @@ std::vector<NodePtr> factors_of(const NodePtr& product, bool all) {
   return factors;
 }
 
+/// The last factor e, a factor e' (or e itself) before it, and the product of all others as the
+/// weight.
 std::optional<QuadraticForm> form_of(const std::vector<NodePtr>& factors, const Trees& trees) {
   const NodePtr& last = factors.back();
   const auto mirrored =
@@ -51,6 +55,7 @@ std::optional<QuadraticForm> form_of(const std::vector<NodePtr>& factors, const 
 
 }  // namespace
 
+/// Factors are tried as written first, then with those in parentheses.
 std::optional<QuadraticForm> quadratic_form(const NodePtr& node) {
   const Trees trees(*node);
   const auto turned = [&](const NodePtr& one) { return trees.make(NodeKind::transpose, {one}); };
@@ -72,6 +77,7 @@ std::optional<QuadraticForm> quadratic_form(const NodePtr& node) {
   return form ? form : form_of(factors_of(node, true), trees);
 }
 
+/// The weight counts by its symmetric part, (Q + Q')/2.
 NodePtr comparison_of(const QuadraticForm& form, const NodePtr& bound, int n, bool weight_is_number,
                       bool strict) {
   const Trees trees(*bound);
@@ -87,6 +93,7 @@ NodePtr comparison_of(const QuadraticForm& form, const NodePtr& bound, int n, bo
                        strict);
 }
 
+/// As it is read, -a*b is (-a)*b. The form is found in a*b.
 NodePtr negated_product(const NodePtr& node) {
   if (node->kind != NodeKind::multiply) return nullptr;
   const Trees trees(*node);

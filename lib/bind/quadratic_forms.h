@@ -1,4 +1,5 @@
-// Internal to bind: convex quadratic forms of unknowns as matrix inequalities, by a Schur complement:
+// Internal to bind: convex quadratic forms of unknowns as matrix inequalities, by a Schur
+// complement:
 //
 //   e'*Q*e <= g     [g, e'*Q; Q*e, Q] >= 0     with Q >= 0
 //
@@ -18,7 +19,8 @@ struct QuadraticForm {
 };
 
 /// The form that a node may be, by its text alone: e'*e, w*e'*Q*e, x*x, x^2, norm(v)^2,
-/// sum(v.^2). The first two are numbers, and the third has a number x, only where the shapes say so.
+/// sum(v.^2). The first two are numbers, and the third has a number x, only where the shapes say
+/// so.
 std::optional<QuadraticForm> quadratic_form(const expr::NodePtr& node);
 
 /// [bound, e'*Q; *, Q] >= 0, of n elements, or > 0. `weight_is_number`: Q is a multiple of I.

@@ -28,6 +28,7 @@ model::Figure only(std::vector<model::Figure> readings) {
   return std::move(readings.front());
 }
 
+/// A number over the results of a design, the objective among them.
 model::Formula scalar_figure(const Binding& binding, const expr::Expression& text) {
   model::Formula bound = formula(text, binding.names->results);
   if (!bound.program.shape().is_scalar())
@@ -35,6 +36,7 @@ model::Formula scalar_figure(const Binding& binding, const expr::Expression& tex
   return bound;
 }
 
+/// InputError where there is no such event.
 std::size_t event_of(const Binding& binding, const model::FigureText& text,
                      const std::string& observer) {
   if (const auto found = find_event(binding, text.event, observer)) return *found;
@@ -88,6 +90,7 @@ std::vector<model::Figure> figures(const Binding& binding, const model::FigureTe
 
 }  // namespace
 
+/// The index in Dynamics::events; none where there is none.
 std::optional<std::size_t> find_event(const Binding& binding, const std::string& name,
                                       const std::string& observer) {
   const model::Component* component = nullptr;
@@ -100,6 +103,8 @@ std::optional<std::size_t> find_event(const Binding& binding, const std::string&
   return std::nullopt;
 }
 
+/// Parameters of the method with a range and without a value stay open: they are searched by
+/// default.
 void bind_search(Binding& binding) {
   const auto named = [&](const model::ScalarRange& text) {
     check_scalar_name(*binding.design, text.name, text.place);

@@ -47,6 +47,7 @@ std::vector<Named> everything(const model::Design& design) {
   return all;
 }
 
+/// All that have the name, with their observer or without. InputError where nothing has it.
 std::vector<Named> find(const std::string& name, const std::vector<Named>& among,
                         const std::string& what, const Place& place) {
   std::vector<Named> found;
@@ -64,6 +65,7 @@ std::vector<Named> find(const std::string& name, const std::vector<Named>& among
   return found;
 }
 
+/// One unit is for all elements.
 void check(const model::UnitText& text, const std::vector<Named>& among) {
   const auto found = find(text.name, among, "units: nothing", text.place);
   const bool fits =
@@ -76,6 +78,7 @@ void check(const model::UnitText& text, const std::vector<Named>& among) {
                                      std::to_string(text.units.size()));
 }
 
+/// P of an estimate xh: n x n for n x 1, both of the same observer.
 void check(const model::CovarianceText& text, const std::vector<Named>& among) {
   const std::string what = "covariance: no state or signal";
   const auto estimates = find(text.estimate, among, what, text.place);

@@ -1,4 +1,5 @@
-// Internal to bind: what a problem says of how its quantities are shown.
+// Internal to bind: what a problem says of how its quantities are shown: units of elements, and the
+// covariance that belongs to an estimate.
 #pragma once
 
 #include "bind/binding.h"

@@ -30,6 +30,7 @@ expr::Expression one_where(const expr::Expression& condition) {
 }
 
 /// A text that is this name.
+/// With a text of its own, so that messages can quote it.
 expr::Expression named_alone(const std::string& name, const Place& place) {
   auto node = std::make_shared<expr::Node>();
   node->kind = expr::NodeKind::name;
@@ -54,6 +55,7 @@ expr::Expression unit_rate(bool falls, const Place& place) {
   return {std::make_shared<const expr::Text>(expr::Text::generated(text, place)), root};
 }
 
+/// Each text as a formula, with its name.
 std::vector<model::NamedFormula> named(const std::vector<model::Named>& list,
                                        const expr::Scope& scope) {
   std::vector<model::NamedFormula> bound;
@@ -63,6 +65,8 @@ std::vector<model::NamedFormula> named(const std::vector<model::Named>& list,
 }
 
 /// What rate(v) is made of: the flows of the states, and those of t and of the clocks.
+/// rate(x) is the flow of x, 1 for the time and for times since an event, -1 for times left.
+/// frozen(x) is 1 where the component of x rests.
 void add_rates(Binding& binding) {
   using VariableKind = model::Dynamics::VariableKind;
   expr::Scope& scope = binding.names->running;
@@ -105,6 +109,8 @@ void bind_report(Binding& binding, const expr::Scope& scope) {
 }
 
 /// Plant, observers and events; outputs and signals by the names under which they are shown.
+/// Signals are bound in their order; each may read those before it. One that reads an output of an
+/// event exists at that event alone.
 void bind_dynamics(Binding& binding) {
   expr::Scope& scope = binding.names->running;
   DynamicsBinding dynamics_binding(binding.method(), binding.design->dimensions,
@@ -168,6 +174,7 @@ std::set<std::string> varied(const Binding& binding) {
 
 }  // namespace
 
+/// Definitions are followed, so that a signal of a signal is at the event of the first.
 std::set<std::size_t> events_read(const Binding& binding, const expr::Expression& text,
                                   bool measured) {
   const model::Dynamics& dynamics = *binding.design->dynamics;
@@ -194,6 +201,7 @@ std::set<std::size_t> events_read(const Binding& binding, const expr::Expression
   return events;
 }
 
+/// A measurement has a value at its event alone.
 void check_measured(const Binding& binding, const expr::Expression& text,
                     std::optional<std::size_t> at, const Place& place, const std::string& advice) {
   for (const std::size_t event : events_read(binding, text, true))
@@ -202,18 +210,21 @@ void check_measured(const Binding& binding, const expr::Expression& text,
                                   binding.design->dynamics->events[event].name + "' only" + advice);
 }
 
+/// States are in the order of the plant and the observers.
 std::size_t state_of(const model::Design& design, const std::string& name) {
   std::size_t at = 0;
   while (at < design.states.size() && design.states[at].name != name) ++at;
   return at;
 }
 
+/// Names are sorted first, as uncertain data are of the plant alone.
 void bind_components(Binding& binding) {
   binding.dynamics_names = std::make_unique<DynamicsNames>(binding.method(), varied(binding));
   if (binding.method().has_dynamics) return bind_dynamics(binding);
   bind_report(binding, binding.names->running);
 }
 
+/// Reads are those of flows, jumps, events, figures and claims.
 void finish_dynamics(Binding& binding) {
   if (!binding.design->dynamics) return;
   std::set<std::string> read = {timer_name(binding.method())};

@@ -1,4 +1,6 @@
 // Internal to bind: plant, observers and events, outputs, signals and reports.
+//
+// Signals are named values along a run; a report has values of the design.
 #pragma once
 
 #include <optional>
@@ -9,6 +11,8 @@
 
 namespace gainsmith::bind {
 
+/// Binds the dynamics where the method has them, then the report. Adds states, signals and rates to
+/// the scope running.
 void bind_components(Binding& binding);
 
 /// What no program asks for is left out; all texts are bound.

@@ -33,6 +33,8 @@ model::Function polynomial(const std::string& name, const std::string& variable,
           place};
 }
 
+/// Values of a gain file over an instance: bases first, as other data follow from them, then
+/// functions, unknowns and gains. What the file has replaces what the problem says.
 class Builder {
  public:
   Builder(const model::Instance& instance, const model::Gains& gains)
@@ -99,6 +101,7 @@ class Builder {
     stated_.unknowns = unknown_matrices(design_, functions);
   }
 
+  /// The unknown of this name, which the design has.
   const model::Design::Unknown& unknown(const std::string& name) const {
     return *find_named(design_.unknowns, name);
   }
@@ -121,6 +124,7 @@ class Builder {
     return body;
   }
 
+  /// A matrix of the file, of the shape that is expected, and finite.
   void take(const std::string& name, expr::Shape shape, const numbers::Matrix& value) {
     const expr::Shape found = numbers::shape_of(value);
     if (found != shape)
@@ -131,6 +135,8 @@ class Builder {
     stated_.values.insert_or_assign(name, value);
   }
 
+  /// The value of the file; of a function its polynomial, its formula, or the formula of the
+  /// method.
   void add_gain(const model::Design::Gain& gain) {
     const numbers::Matrix* value = gains_.find(gain.name);
     if (gain.variable.empty()) {
@@ -159,6 +165,7 @@ class Builder {
     stated_.bodies.set(gain.name, {function.variable, std::move(body)});
   }
 
+  /// sum_k C_k s^k with the coefficients of the file.
   void add_polynomial(const model::Design::Gain& gain, const std::string& variable,
                       const std::vector<numbers::Matrix>& coefficients) {
     if (coefficients.empty())
@@ -182,6 +189,7 @@ model::Stated state(const model::Instance& instance, const model::Gains& gains) 
   return Builder(instance, gains).build();
 }
 
+/// Values in 31 digits are rounded from those in 100 digits, when a run asks for them.
 model::RunTexts run_texts(const model::Instance& instance, const model::Gains& gains) {
   model::RunTexts texts = model::run_texts(*instance.design, state(instance, gains));
   texts.in_31_digits = [instance, gains](const numbers::Values& constants) {

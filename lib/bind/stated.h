@@ -1,4 +1,7 @@
 // The texts of a gain file, bound (model/stated.h).
+//
+// A gain file has matrices of unknowns and gains, functions with their coefficients, formulas of
+// gains, parameters, and bases that were chosen.
 #pragma once
 
 #include <string>

@@ -8,6 +8,7 @@ namespace gainsmith::bind {
 
 namespace {
 
+/// A picture shows a system at fixed values: states and noise have none.
 void refuse_moving(const expr::Program& program, const expr::Scope& scope, const Place& place) {
   for (const expr::Input& input : program.inputs)
     if (const auto found = scope.symbols.find(input.name);
@@ -17,6 +18,7 @@ void refuse_moving(const expr::Program& program, const expr::Scope& scope, const
                            "' moves in a run; a linear system is of data, gains and unknowns");
 }
 
+/// One system [A, B; C, D] with its label. InputError where it has no input or no output.
 model::SystemFigure::System system(const model::SystemFigureText::System& text,
                                    model::SystemPicture kind, const expr::Scope& scope) {
   const Place place = text.text.place(*text.text.root);
@@ -62,6 +64,8 @@ model::Range scanned(const model::ScalarRange& text, const Binding& binding) {
 
 }  // namespace
 
+/// A picture varies where a system of it reads uncertain data. It has either a scan or such
+/// variation.
 void bind_system_figures(Binding& binding) {
   if (binding.problem().figures.empty()) return;
   expr::Scope scope = binding.names->running;

@@ -25,6 +25,7 @@ class Trees {
     node->text = std::move(text);
     return node;
   }
+  /// A whole number from 0 on.
   expr::NodePtr number(int value) const {
     return make(expr::NodeKind::number, {}, std::to_string(value));
   }
@@ -35,12 +36,14 @@ class Trees {
   expr::NodePtr times(expr::NodePtr a, expr::NodePtr b) const {
     return make(expr::NodeKind::multiply, {std::move(a), std::move(b)});
   }
+  /// a <= b, or a < b where `strict`.
   expr::NodePtr at_most(expr::NodePtr a, expr::NodePtr b, bool strict) const {
     auto node =
         std::make_shared<expr::Node>(*make(expr::NodeKind::compare, {std::move(a), std::move(b)}));
     node->relations = {strict ? expr::Relation::less : expr::Relation::less_equal};
     return node;
   }
+  /// Two entries in a row.
   expr::NodePtr block(std::vector<expr::NodePtr> entries) const {
     auto node = std::make_shared<expr::Node>(*make(expr::NodeKind::block, std::move(entries)));
     node->columns = 2;

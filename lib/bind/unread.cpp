@@ -1,9 +1,12 @@
+// Names that a person declares and no text reads are likely to be mistakes. They are told, not
+// refused.
 #include <algorithm>
 
 #include "bind/binding.h"
 
 namespace gainsmith::bind {
 
+/// A member P_2 counts as a read of P, and "observer.x" as one of x.
 std::vector<std::string> unread_names(const Binding& binding, const std::set<std::string>& read) {
   const model::Method& method = binding.method();
   std::vector<std::string> sentences;
@@ -12,6 +15,7 @@ std::vector<std::string> unread_names(const Binding& binding, const std::set<std
   std::set<std::string> defaults;
   for (const model::Declaration& one : method.data)
     if (one.fallback) defaults.merge(expr::names_in(*one.fallback));
+  // Also by a member of its family or by a part of a component.
   const auto is_read = [&](const std::string& name) {
     const auto member = read.lower_bound(name + "_");
     const auto is_of_part = [&](const auto& one) { return one.ends_with("." + name); };

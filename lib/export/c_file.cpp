@@ -1,3 +1,9 @@
+// Observers and gains as one header in C99: no memory is allocated, and nothing but <math.h> is
+// needed.
+//
+// The linear flow is Taylor's series of exp(M h) z + h phi_1(M h) c over N equal steps h = dt / N:
+//   d_1 = h (M z + c),   d_{k+1} = h / (k + 1) M d_k,   z(t + h) = z(t) + d_1 + ... + d_K       (1)
+// with N = 1 + floor(|M|_1 dt), so that |M|_1 h <= 1 and the terms fall as 1 / k!.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -74,6 +80,7 @@ std::string unread(const std::vector<std::string>& parameters, const std::string
 /// One observer, under a name of its own.
 class CObserver : public ObserverWriter {
  public:
+  /// Fields have their own scope; parameters share theirs with the variables of the functions.
   CObserver(const Content& content, const Observer& observer, std::string prefix,
             const ElementNames& gains, const Dialect& dialect, Identifiers& names, Remarks& remarks)
       : ObserverWriter(content, observer, dialect, gains, remarks),
@@ -98,6 +105,7 @@ class CObserver : public ObserverWriter {
   std::string type() const { return type_of(dialect_); }
   std::string state_type() const { return prefix_ + "state"; }
 
+  /// The structure of the states: numbers and arrays with at most two dimensions.
   std::string structure() const {
     std::string text = fmt::format("/* The observer {}. */\ntypedef struct {{\n", observer_.name);
     for (std::size_t k = 0; k < fields_.size(); ++k) {
@@ -108,6 +116,7 @@ class CObserver : public ObserverWriter {
     return text + "} " + state_type() + ";\n\n";
   }
 
+  /// The function that sets the states to where they start.
   std::string start() const {
     std::string text = fmt::format(
         "/* Where it starts: 0 where the problem does not say. */\nstatic inline void {}start({} "
@@ -131,6 +140,7 @@ class CObserver : public ObserverWriter {
     return text;
   }
 
+  /// The same for a function of the states and these inputs.
   std::string unread_of(const std::vector<const Variable*>& inputs, const std::string& body) const {
     std::vector<std::string> parameters = {"state"};
     for (const Variable* input : inputs) parameters.push_back(parameters_.at(input->key));
@@ -150,6 +160,7 @@ class CObserver : public ObserverWriter {
     return text;
   }
 
+  /// Writes `rate`, a structure like the states; states that do not flow have the rate 0.
   std::string rate() override {
     const auto programs = programs_of(observer_.rate);
     const auto inputs = inputs_read(programs);
@@ -171,6 +182,7 @@ class CObserver : public ObserverWriter {
         unread_of(inputs, body), body);
   }
 
+  /// A constant table of M, rows first.
   std::string matrix(const std::string& name, const numbers::Matrix& M) const {
     std::string text =
         fmt::format("  static const {} {}[{}][{}] = {{\n", type(), name, M.rows(), M.cols());
@@ -196,6 +208,7 @@ class CObserver : public ObserverWriter {
     return text;
   }
 
+  /// The states from the vector `now`, in which each matrix has its columns below each other.
   std::string put_back() const {
     std::string text;
     int first = 0;
@@ -205,6 +218,7 @@ class CObserver : public ObserverWriter {
     return text;
   }
 
+  /// Formula (1) for any dt >= 0: `term` is d_k, `next` is M d_k, `rest` is c.
   std::string flow() override {
     const auto still = rate_at_rest();
     const auto inputs = inputs_read(still);
@@ -240,6 +254,8 @@ class CObserver : public ObserverWriter {
     return text + put_back() + "}\n\n" + flow_period(made, inputs);
   }
 
+  /// The flow over the period T of the first event that has one: Phi and Psi of step_matrices() are
+  /// tables, so that a step costs one product. Nothing without such an event.
   std::string flow_period(const Code& made, const std::vector<const Variable*>& inputs) const {
     const auto jump = std::find_if(observer_.jumps.begin(), observer_.jumps.end(),
                                    [](const Jump& one) { return one.period.has_value(); });
@@ -253,6 +269,7 @@ class CObserver : public ObserverWriter {
         jump->event, model::printed(*jump->period),
         content_.time_unit.empty() ? "" : " " + content_.time_unit, units_text(inputs), prefix_,
         state_type(), parameters(inputs));
+    // Without a constant part Psi and `rest` are left out.
     const bool moved = !nonzero_elements(made).empty();
     text += matrix("Phi", Phi);
     if (moved) text += matrix("Psi", Psi);
@@ -269,6 +286,8 @@ class CObserver : public ObserverWriter {
     return text + put_back() + "}\n\n";
   }
 
+  /// Each pass computes all its new values before it stores the first one: maps of a pass read the
+  /// states before it. Elements that keep their value are not written.
   std::string jump(const Jump& jump) override {
     std::string body;
     for (const auto& pass : jump.passes) {
@@ -297,6 +316,7 @@ class CObserver : public ObserverWriter {
         unread_of(inputs, body), body);
   }
 
+  /// A function that returns a number, or writes to `out`.
   std::string output(const Output& output) override {
     const Code made = code({output.value});
     const auto inputs = inputs_read({output.value});
@@ -312,6 +332,7 @@ class CObserver : public ObserverWriter {
   Identifiers& taken_;
 };
 
+/// A constant array, rows first; a number or a vector without inner braces.
 std::string constant_text(const std::string& name, const numbers::Matrix& value,
                           const Dialect& dialect) {
   const expr::Shape shape = numbers::shape_of(value);
@@ -342,6 +363,7 @@ std::string function_text(const Content& content, const GainFunction& gain, cons
                   [&](const std::string& body) { return unread({variable}, body); });
 }
 
+/// A comment of several lines, closed once: comment_text() leaves no sign of its end in them.
 std::string commented(const std::vector<std::string>& lines) {
   std::string text;
   for (const std::string& line : lines) text += (text.empty() ? "" : "\n   ") + line;
@@ -353,6 +375,7 @@ std::string commented(const std::vector<std::string>& lines) {
 std::string c_file(Content& content, const std::string& name) {
   const std::string prefix = Identifiers(Language::c)(name) + "_";
   const Dialect dialect{Language::c, content.single, prefix};
+  // Names of gains, maps and outputs avoid those that the file has anyway.
   Identifiers taken(Language::c,
                     {prefix + "state", prefix + "start", prefix + "rate", prefix + "flow",
                      prefix + "flow_period", prefix + "min", prefix + "max", prefix + "mod",

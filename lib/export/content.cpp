@@ -1,3 +1,8 @@
+// Content of an export: which maps of a bound design are functions of one observer's states and of
+// its inputs.
+//
+// A map that reads the state of another component is left out with a note, unless that state enters
+// through an output of the plant: such a signal becomes an input.
 #include "export/content.h"
 
 #include <algorithm>
@@ -30,6 +35,7 @@ std::string signal_name(const std::string& component, const std::string& name) {
                                 : own_name(component, name);
 }
 
+/// Whether a component owns the variable: its states and modes.
 bool is_own(Kind kind) { return kind == Kind::state || kind == Kind::mode; }
 
 /// "rad, rad/s" of the first of the names that has units for such a shape; empty: none has.
@@ -52,6 +58,8 @@ struct LeftOut {
   std::string why;
 };
 
+/// Adds one observer after the other. Signals that depend on the plant alone are `measured_`:
+/// programs that contain them read them by name instead of the plant's states.
 class Collector {
  public:
   Collector(const model::RunTexts& texts, const Units& units, Content& content)
@@ -63,6 +71,7 @@ class Collector {
         measured_.emplace_back(signal.name, signal.value.program);
   }
 
+  /// The observer of a component; none where it has no state.
   void add(std::size_t component) {
     observer_ = {};
     place_.clear();
@@ -94,6 +103,7 @@ class Collector {
     return moves;
   }
 
+  /// Does the work, or undoes what it added to the observer and notes why: maps are all or nothing.
   template <class Work>
   void attempt(const std::string& what, const Work& work, const std::string& consequence) {
     const Observer before = observer_;
@@ -119,6 +129,7 @@ class Collector {
     return unit_text(units_, names, shape);
   }
 
+  /// The states of the component that have elements. A start that needs what is drawn is 0.
   void add_states() {
     for (std::size_t k = 0; k < dynamics_.variables.size(); ++k) {
       const Dynamics::Variable& variable = dynamics_.variables[k];
@@ -161,6 +172,7 @@ class Collector {
     return made;
   }
 
+  /// The rate of each state that flows. States that a mode freezes have no rate by one formula.
   void add_rate() {
     attempt(
         "the flow",
@@ -183,6 +195,8 @@ class Collector {
     return kind != Kind::time && kind != Kind::since && kind != Kind::left;
   }
 
+  /// Formula (1) of content.h applies where every rate is affine in states and inputs together, and
+  /// where no input runs with time. None otherwise.
   std::optional<LinearFlow> linear_flow() const {
     if (observer_.rate.empty()) return std::nullopt;
     const auto moves = [&](const std::string& key) {
@@ -190,6 +204,7 @@ class Collector {
                                           [&](const Variable& one) { return one.key == key; });
     };
     for (const Assigned& one : observer_.rate) {
+      // The degree in states and inputs together: x u is not affine, though it is so in x.
       const auto degrees = numbers::degrees(one.value, moves);
       if (degrees[static_cast<std::size_t>(one.value.result)] >= numbers::kNotAffine)
         return std::nullopt;
@@ -211,6 +226,8 @@ class Collector {
     return rate;
   }
 
+  /// M of x' = M x + c, n x n: column k is rate(e_k) - rate(0) with all inputs 0. The difference is
+  /// exact up to rounding because the rate is affine.
   numbers::Matrix matrix() const {
     numbers::Values at = values_;
     const auto zero = [](expr::Shape shape) {
@@ -218,6 +235,7 @@ class Collector {
     };
     for (const State& state : observer_.states) at[state.key] = zero(state.shape);
     for (const Variable& input : observer_.inputs) at[input.key] = zero(input.shape);
+    // c with the inputs 0, which every column has to lose.
     const numbers::Vector still = rate_at(at);
     numbers::Matrix M(observer_.size(), observer_.size());
     Eigen::Index column = 0;
@@ -230,6 +248,8 @@ class Collector {
     return M;
   }
 
+  /// x+ = g(x, inputs) in passes. A loop with `until` has no fixed number of passes: it is left
+  /// out.
   void add_jump(const Dynamics::Reaction& reaction) {
     const Dynamics::Event& event = dynamics_.events[reaction.event];
     Jump jump{comment_text(own_name(observer_.name, event.name)), {}, period_of(event)};
@@ -243,6 +263,7 @@ class Collector {
     observer_.jumps.push_back(std::move(jump));
   }
 
+  /// The time between two occurrences, where both ends of its range are the same number above 0.
   std::optional<double> period_of(const Dynamics::Event& event) const {
     const auto value = [&](const std::optional<model::Formula>& end) -> std::optional<double> {
       if (!end || !model::has_values(end->program, values_)) return std::nullopt;
@@ -257,6 +278,7 @@ class Collector {
     const Observer before = observer_;
     try {
       expr::Program program = taken(signal.value.program);
+      // An output of inputs alone, or of another component, is none of this observer.
       const bool reads_states =
           std::any_of(program.inputs.begin(), program.inputs.end(),
                       [&](const expr::Input& input) { return is_state(input.name); });

@@ -1,12 +1,22 @@
-// What is exported: the gains of a file, and the observers of its design as maps of their own states and of
-// what they measure.
+// What is exported: the gains of a file, and the observers of its design as maps of their own
+// states and of what they measure.
 //
 //   rate     x' = f(x, inputs)       for the states that flow; the others rest
 //   jump     x+ = g(x, inputs)       at an event, in one or several passes
 //   output   h(x, inputs)            what a text makes of states and inputs alone, such as u: -K*xh
 //
-// An input is an output of the plant, such as y: C*z, an input u(t), or what a file measures. Programs
-// read states and inputs by their `key`.
+// An input is an output of the plant, such as y: C*z, an input u(t), or what a file measures.
+// Programs read states and inputs by their `key`.
+//
+// The state vector of an observer has the elements of its states in their order, the columns of a
+// matrix below each other. Where the rate is affine in the states, it is x' = M x + c(inputs), M of
+// n x n. The flow over a time T with held inputs is then exact:
+//   x(T) = Phi x(0) + Psi c,   Phi = exp(M T),   Psi = integral of exp(M s) ds from 0 to T      (1)
+//
+// scalar_code writes programs as statements on numbers. observer_writer and shared_text hold what
+// the languages share. c_file, matlab_file and python_file write observers; tables writes matrices
+// alone. A map without a formula on numbers is left out, and a note of the content says so. No text
+// depends on the time or on the machine.
 #pragma once
 
 #include <map>
@@ -20,6 +30,7 @@
 
 namespace gainsmith::exports {
 
+/// A state or an input of an observer.
 struct Variable {
   std::string key;   ///< "nominal.xh"
   std::string name;  ///< "xh"
@@ -27,6 +38,7 @@ struct Variable {
   std::string unit;  ///< "rad, rad/s": one, or one for each element; empty: the problem states none
 };
 
+/// A constant gain, or one coefficient of a polynomial gain.
 struct GainMatrix {
   std::string name;
   numbers::Matrix value;
@@ -40,6 +52,7 @@ struct GainFunction {
   std::string text;  ///< its formula in the matrix language
 };
 
+/// A state with its value at the start, of its shape, all numbers.
 struct State : Variable {
   numbers::Matrix start;  ///< zeros where the problem draws it, or says nothing
 };
@@ -58,6 +71,7 @@ struct Jump {
   std::optional<double> period;
 };
 
+/// y = h(x, inputs): an output or signal of which at least one state is read.
 struct Output {
   std::string name;
   expr::Program value;
@@ -70,6 +84,7 @@ struct LinearFlow {
       M;  ///< over all elements of the states in order, columns of each below each other
 };
 
+/// One observer; its programs read nothing but its own states, its inputs and numbers.
 struct Observer {
   std::string name;
   std::vector<State> states;
@@ -90,6 +105,7 @@ inline constexpr const char* kWithoutFlow =
     "; so the exported observer does not do between events what the simulated one does, and the "
     "claims that were verified do not cover it";
 
+/// Everything that the writers of files need. They add to `notes` and change nothing else.
 struct Content {
   std::string problem, method, version;
   std::string statement_hash, file_hash;  ///< SHA-256
@@ -106,14 +122,14 @@ struct Content {
 /// Of names, one or one for each element, as the problem states them.
 using Units = std::map<std::string, std::vector<std::string>>;
 
-/// Of a gain file whose texts are bound: `stated` and, where something moves, `texts`. `file_text` is
-/// hashed.
+/// Of a gain file whose texts are bound: `stated` and, where something moves, `texts`. `file_text`
+/// is hashed.
 Content content_of(const model::Gains& gains, const model::Design& design,
                    const model::Stated& stated, const std::optional<model::RunTexts>& texts,
                    const std::string& file_text, const Units& units);
 
-/// The matrices of `gains` and the coefficients of those that are polynomials, "F_0", "F_1"; formulas
-/// are none of these, and a note says so.
+/// The matrices of `gains` and the coefficients of those that are polynomials, "F_0", "F_1";
+/// formulas are none of these, and a note says so.
 std::vector<GainMatrix> matrices_of(const model::Gains& gains, std::vector<std::string>& notes);
 
 }  // namespace gainsmith::exports

@@ -6,6 +6,7 @@ namespace gainsmith::exports {
 
 namespace {
 
+/// Words between spaces, to be found with them: keywords of C and C++, then names of headers.
 constexpr std::string_view kCWords =
     " auto break case char const continue default do double else enum extern float for goto if "
     "inline int long"

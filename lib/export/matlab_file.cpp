@@ -1,3 +1,8 @@
+// Gains and observers as a function of MATLAB and Octave. States are fields of a structure x,
+// inputs are parameters.
+//
+// The linear flow is one matrix exponential (Van Loan 1978):
+//   [z(dt); 1] = expm(dt [M, c; 0, 0]) [z(0); 1]                                                (1)
 #include <fmt/format.h>
 
 #include <utility>
@@ -12,6 +17,7 @@ namespace {
 
 const Dialect kMatlab{Language::matlab, false, ""};
 
+/// A literal of MATLAB, rows separated by semicolons.
 std::string matrix_text(const numbers::Matrix& value) {
   if (value.size() == 0) return fmt::format("zeros({}, {})", value.rows(), value.cols());
   if (value.size() == 1) return number_text(value(0, 0), kMatlab);
@@ -22,6 +28,7 @@ std::string matrix_text(const numbers::Matrix& value) {
   return text + "]";
 }
 
+/// "name(1, 2)", counted from 1.
 std::vector<std::string> matlab_elements(const std::string& name, expr::Shape shape) {
   return elements_of(shape, [&](int row, int column) {
     return shape.is_scalar() ? name : fmt::format("{}({}, {})", name, row + 1, column + 1);
@@ -79,6 +86,7 @@ class MatlabObserver : public ObserverWriter {
     return text;
   }
 
+  /// A matrix of its elements, which are listed column by column, as MATLAB stores them.
   static std::string matrix(const std::vector<std::string>& elements, expr::Shape shape) {
     if (shape.is_scalar()) return elements[0];
     std::string list;
@@ -87,6 +95,7 @@ class MatlabObserver : public ObserverWriter {
                            : fmt::format("reshape([{}], {}, {})", list, shape.rows, shape.cols);
   }
 
+  /// All states are set to 0 first, so that those that do not flow have a rate too.
   std::string rate() override {
     const auto programs = programs_of(observer_.rate);
     const Code made = code(programs);
@@ -99,6 +108,7 @@ class MatlabObserver : public ObserverWriter {
            function("rate", "r", parameter_names(programs), body);
   }
 
+  /// Formula (1), with z the columns of all states below each other.
   std::string flow() override {
     const auto still = rate_at_rest();
     const Code made = code(still);
@@ -123,6 +133,7 @@ class MatlabObserver : public ObserverWriter {
            function("flow", "x", parameter_names(still) + ", dt", body);
   }
 
+  /// Each pass writes to a copy r of x: all of its maps read the states before the pass.
   std::string jump(const Jump& jump) override {
     std::string body;
     for (const auto& pass : jump.passes) {

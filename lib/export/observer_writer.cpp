@@ -1,3 +1,5 @@
+// What the writers share: the order of maps, parameters for the inputs that a map reads, units, and
+// the constant part of a linear flow.
 #include "export/observer_writer.h"
 
 #include <algorithm>
@@ -86,6 +88,7 @@ std::string ObserverWriter::units_text(const std::vector<const Variable*>& input
 }
 
 std::vector<expr::Program> ObserverWriter::rate_at_rest() const {
+  // f(0, inputs) is c where the rate is affine: x' = M x + c.
   expr::Replacements zero;
   for (const State& state : observer_.states) {
     expr::Composer compose({});

@@ -19,9 +19,12 @@ struct Remarks {
   bool library = false;  ///< of C: <math.h> is needed
   std::vector<std::string> notes;
 
+  /// Adds what this code needs.
   void add(const Code& code);
 };
 
+/// The order of the maps of an observer and what is left out of them; a language adds the texts.
+/// `content` and `observer` must outlive the writer.
 class ObserverWriter {
  protected:
   /// `names`: of what the maps read besides states and inputs, which a writer adds.
@@ -33,16 +36,19 @@ class ObserverWriter {
         names_(std::move(names)),
         remarks_(remarks) {}
 
-  /// The text of a map; nothing, and a note with the consequence, where it has no formula on numbers.
+  /// The text of a map; nothing, and a note with the consequence, where it has no formula on
+  /// numbers.
   std::string attempt(const std::string& what, const std::function<std::string()>& map,
                       const std::string& consequence = "");
   /// Its flow, its exact flow, its maps and its outputs, by attempt().
   std::string maps();
+  /// Each gives the text of one map; NoCode where an operation has no formula on numbers.
   virtual std::string rate() = 0;
   virtual std::string flow() = 0;
   virtual std::string jump(const Jump& jump) = 0;
   virtual std::string output(const Output& output) = 0;
 
+  /// The statements of programs; what they need is added to the remarks.
   Code code(const std::vector<expr::Program>& programs);
   static std::vector<expr::Program> programs_of(const std::vector<Assigned>& list);
   static std::vector<expr::Program> programs_of(const Jump& jump);

@@ -1,3 +1,8 @@
+// Gains and observers as a module of Python that needs NumPy alone. States are attributes, inputs
+// are parameters of methods.
+//
+// NumPy has no matrix exponential: the linear flow is Taylor's series over steps h with |M|_1 h <=
+// 1, as in C.
 #include <fmt/format.h>
 
 #include <utility>
@@ -12,6 +17,7 @@ namespace {
 
 const Dialect kPython{Language::python, false, ""};
 
+/// A literal of NumPy, always with two dimensions.
 std::string array_text(const numbers::Matrix& value) {
   if (value.size() == 0) return fmt::format("np.zeros(({}, {}))", value.rows(), value.cols());
   std::string text = "np.array([";
@@ -43,6 +49,7 @@ std::string value_text(const std::vector<std::string>& elements, expr::Shape sha
                      shape.cols);
 }
 
+/// The class of one observer.
 class PythonObserver : public ObserverWriter {
  public:
   PythonObserver(const Content& content, const Observer& observer, std::string name,
@@ -83,6 +90,7 @@ class PythonObserver : public ObserverWriter {
                        help, units.empty() ? "" : "        #" + units + "\n", body);
   }
 
+  /// A dictionary by the names of the states that flow.
   std::string rate() override {
     const auto programs = programs_of(observer_.rate);
     const Code made = code(programs);
@@ -95,6 +103,7 @@ class PythonObserver : public ObserverWriter {
                   units_text(inputs_read(programs)), body + "        }\n");
   }
 
+  /// d is the k-th term h^k / k! M^(k-1) (M z + c) of the series.
   std::string flow() override {
     const auto still = rate_at_rest();
     const Code made = code(still);
@@ -125,6 +134,7 @@ class PythonObserver : public ObserverWriter {
                   units_text(inputs_read(still), "dt"), text);
   }
 
+  /// A pass is one assignment of a tuple: all of its maps read the states before the pass.
   std::string jump(const Jump& jump) override {
     std::string body;
     for (const auto& pass : jump.passes) {
@@ -188,6 +198,7 @@ std::string python_file(Content& content, const std::string& name) {
   }
   for (const Observer& observer : content.observers) {
     std::string title = observer.name;
+    // Classes begin with a capital.
     if (title.front() >= 'a' && title.front() <= 'z')
       title.front() = static_cast<char>(title.front() - 'a' + 'A');
     maps += "\n\n" + PythonObserver(content, observer, taken(title), remarks).text();

@@ -1,3 +1,8 @@
+// Code of programs by the graph of their scalar operations.
+//
+// A node that several others read, or whose formula is longer than a line, gets a variable gs<k>;
+// all others are written where they are read. Inverses and large products are blocks with an array
+// gsb<k> and keep their matrix form. Constants were folded when the graph was made.
 #include "export/scalar_code.h"
 
 #include <fmt/format.h>
@@ -27,15 +32,18 @@ struct Term {
   Binding binding = atom;
 };
 
+/// The text, in parentheses where it binds less tightly than its place needs.
 std::string within(const Term& term, Term::Binding least) {
   return term.binding >= least ? term.text : "(" + term.text + ")";
 }
 
+/// Writes the nodes of one graph in the order in which they were made, operands first.
 class Writer {
  public:
   Writer(const ScalarGraph& graph, const std::vector<std::string>& inputs, const Dialect& dialect)
       : graph_(graph), inputs_(inputs), dialect_(dialect), terms_(graph.nodes().size()) {}
 
+  /// The code of these nodes, one list for each program. The writer is of no use after it.
   Code write(const std::vector<std::vector<int>>& results) {
     count(results);
     for (std::size_t k = 0; k < uses_.size(); ++k)
@@ -51,6 +59,7 @@ class Writer {
   using Node = ScalarGraph::Node;
   const Node& node(int k) const { return graph_.nodes()[at(k)]; }
 
+  /// Whether a, b, c of the node are nodes: others have an index or nothing there.
   static bool has_operands(const Node& node) {
     return node.op != ScalarOp::input && node.op != ScalarOp::constant &&
            node.op != ScalarOp::element;
@@ -61,6 +70,7 @@ class Writer {
     uses_.assign(graph_.nodes().size(), 0);
     for (const auto& nodes : results)
       for (const int one : nodes) ++uses_[at(one)];
+    // Operands precede what reads them: from the last node on all readers of a node are counted.
     for (std::size_t k = uses_.size(); k-- > 0;) {
       if (uses_[k] == 0) continue;
       const Node& one = graph_.nodes()[k];
@@ -73,7 +83,9 @@ class Writer {
     }
   }
 
+  /// The term of a node, and a variable for it where it needs one.
   void add(int k) {
+    // Characters: a longer formula gets a variable even where it is read once.
     constexpr std::size_t kLine = 72;
     const Node& one = node(k);
     Term& term = terms_[at(k)];
@@ -81,6 +93,7 @@ class Writer {
       term = {inputs_[at(one.a)], Term::atom};
     } else if (one.op == ScalarOp::constant) {
       const double value = graph_.value(k);
+      // A negative number binds like a sign: 2 - (-1).
       term = {number_text(value, dialect_), value < 0 ? Term::loose : Term::atom};
     } else if (one.op == ScalarOp::element) {
       add_block(one.a);
@@ -90,6 +103,7 @@ class Writer {
               Term::atom};
     } else {
       term = formula(one);
+      // It is written where it is read.
       if (uses_[at(k)] == 1 && term.text.size() <= kLine) return;
       const std::string name = "gs" + std::to_string(k);
       define(name, term.text);
@@ -97,6 +111,7 @@ class Writer {
     }
   }
 
+  /// A statement that gives a variable its value.
   void define(const std::string& name, const std::string& value) {
     if (dialect_.language == Language::c)
       code_.lines.push_back("const " + type_of(dialect_) + " " + name + " = " + value + ";");
@@ -105,11 +120,14 @@ class Writer {
                             (dialect_.language == Language::matlab ? ";" : ""));
   }
 
+  /// a o b. The right operand binds more tightly: a - (b - c) and a / (b / c) keep their
+  /// parentheses.
   Term binary(const Node& one, const char* sign, Term::Binding own) const {
     const auto tighter = static_cast<Term::Binding>(own + 1);
     return {within(terms_[at(one.a)], own) + sign + within(terms_[at(one.b)], tighter), own};
   }
 
+  /// f(a), or f(a, b).
   Term call(const std::string& function, const Node& one) const {
     std::string text = function + "(" + terms_[at(one.a)].text;
     if (one.b >= 0) text += ", " + terms_[at(one.b)].text;
@@ -130,6 +148,7 @@ class Writer {
     return call(name, one);
   }
 
+  /// A function of helper_text().
   Term helper(const std::string& name, const Node& one) {
     code_.helpers.insert(name);
     code_.library = code_.library || name == "mod";
@@ -141,6 +160,7 @@ class Writer {
     return dialect_.language == Language::c ? helper(name, one) : call(name, one);
   }
 
+  /// b where a > 0, or a >= 0, and otherwise c. MATLAB has no such expression and gets a function.
   Term choice(const Node& one, const char* sign) {
     const std::string condition =
         within(terms_[at(one.a)], Term::sum) + sign + number_text(0, dialect_);
@@ -224,6 +244,7 @@ class Writer {
   void add_block(int k) {
     if (!known_blocks_.insert(k).second) return;
     const ScalarGraph::Block& block = graph_.blocks()[at(k)];
+    // Of the operations on whole matrices these two alone have code.
     const bool inverse = block.instruction.op == expr::Op::inverse;
     if (!inverse && block.instruction.op != expr::Op::multiply)
       throw NoCode("'" + expr::to_string(block.instruction.op) + "' has no formula on numbers");
@@ -254,6 +275,8 @@ class Writer {
     }
   }
 
+  /// An operand of a block as an array, column by column; of Python and MATLAB as a matrix. Its
+  /// name.
   std::string add_operand(const std::string& name, const std::vector<int>& nodes,
                           expr::Shape shape) {
     std::string list;
@@ -283,6 +306,7 @@ class Writer {
 
 Code scalar_code(const std::vector<expr::Program>& programs, const ElementNames& names,
                  const numbers::Values& values, const Dialect& dialect) {
+  // One graph for all programs, so that equal parts are computed once.
   ScalarGraph graph;
   std::vector<std::string> inputs;
   std::map<std::string, int, std::less<>> first;

@@ -14,6 +14,7 @@
 
 namespace gainsmith::exports {
 
+/// How numbers and functions are written.
 struct Dialect {
   Language language = Language::c;
   bool single = false;  ///< C: float instead of double
@@ -23,6 +24,8 @@ struct Dialect {
 /// What the elements of an input are called, column by column.
 using ElementNames = std::map<std::string, std::vector<std::string>, std::less<>>;
 
+/// The code of several programs, which share their statements. A result is a formula, not always a
+/// variable.
 struct Code {
   std::vector<std::string> lines;  ///< statements, without indentation
   std::vector<std::vector<std::string>>
@@ -36,7 +39,8 @@ struct NoCode : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Programs without calls. Inputs that have names are read, the others are numbers: `values` has them.
+/// Programs without calls. Inputs that have names are read, the others are numbers: `values` has
+/// them.
 Code scalar_code(const std::vector<expr::Program>& programs, const ElementNames& names,
                  const numbers::Values& values, const Dialect& dialect);
 

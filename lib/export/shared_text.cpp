@@ -1,3 +1,5 @@
+// Texts that files of all languages have: heads, comments, names of elements; and numbers that they
+// need of a linear flow.
 #include "export/shared_text.h"
 
 #include <utility>

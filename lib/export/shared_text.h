@@ -25,13 +25,15 @@ std::string lines_text(const std::vector<std::string>& lines, const std::string&
 std::vector<std::string> elements_of(expr::Shape shape,
                                      const std::function<std::string(int row, int column)>& name);
 
-/// [Phi, Psi] of x+ = Phi x + Psi c after the time T, where x' = M x + c.
+/// [Phi, Psi], each n x n, of x(T) = Phi x(0) + Psi c where x' = M x + c. By one exponential of 2n
+/// x 2n (Van Loan 1978), which holds for a singular M too.
 std::pair<numbers::Matrix, numbers::Matrix> step_matrices(const numbers::Matrix& M, double T);
 
-/// The largest sum of absolute values of a column.
+/// |M|_1 = max over j of sum_i |M_ij|, the norm that bounds the steps of the series.
 double one_norm(const numbers::Matrix& M);
 
-/// How many terms of the series of exp(M) x with |M| <= 1 reach rounding.
+/// The order K at which Taylor's series of exp(M) x with |M|_1 <= 1 ends: its rest, below 2 / (K +
+/// 1)! of |x|, is below the rounding of single or double precision.
 int terms_of_series(bool single);
 
 }  // namespace gainsmith::exports

@@ -25,6 +25,7 @@ std::string latex_number(double value) {
 
 /// "L", "F_{0}", "\mathit{Ldno}".
 std::string latex_name(const std::string& name) {
+  // What follows the first underscore is an index, further ones separate indices.
   const std::size_t bar = name.find('_');
   const std::string base = name.substr(0, bar);
   std::string text = base.size() == 1 ? base : "\\mathit{" + base + "}";
@@ -53,7 +54,9 @@ std::string element(std::uint32_t type, const std::string& bytes) {
   return text;
 }
 
+/// A matrix of class double: flags, dimensions, name, numbers column by column.
 std::string mat_element(const std::string& name, const numbers::Matrix& value) {
+  // Codes of types and classes of MAT-files, level 5.
   constexpr std::uint32_t kInt8 = 1, kInt32 = 5, kUint32 = 6, kDouble = 9, kMatrix = 14,
                           kDoubleClass = 6;
   std::string flags, size, numbers;
@@ -69,6 +72,7 @@ std::string mat_element(const std::string& name, const numbers::Matrix& value) {
 
 }  // namespace
 
+/// Each gain is one displayed equation.
 std::string latex_file(const Content& content, const std::vector<GainMatrix>& matrices) {
   constexpr Eigen::Index kColumns = 10;  // of a bmatrix, unless more are asked for
   std::vector<std::string> head = head_lines(content, "Gains");
@@ -98,6 +102,7 @@ std::string latex_file(const Content& content, const std::vector<GainMatrix>& ma
 }
 
 std::string mat_file(const std::vector<GainMatrix>& matrices) {
+  // The header has 128 bytes: text, offset of data (none), version 0x0100, mark of byte order.
   constexpr std::size_t kText = 116, kHead = 124;
   std::string bytes = "MATLAB 5.0 MAT-file, written by gainsmith";
   bytes.resize(kText, ' ');

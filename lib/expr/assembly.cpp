@@ -18,6 +18,8 @@ int place_of(std::vector<Input>& inputs, const std::string& name, Shape shape) {
 
 }  // namespace
 
+/// The key of an instruction is its operation, operands, shape, attributes, text and body; its
+/// place is not part of it. The first place is kept.
 int Assembly::add(Instruction instruction) {
   std::vector<Shape> operands;
   operands.reserve(instruction.operands.size());
@@ -38,6 +40,7 @@ int Assembly::add(Instruction instruction) {
   return found->second;
 }
 
+/// One input for each name.
 int Assembly::add_input(const std::string& name, Shape shape, const Instruction& like) {
   return add(made(Op::input, {}, shape, like, {place_of(program_.inputs, name, shape)}));
 }
@@ -50,6 +53,7 @@ int Assembly::add_call(const std::string& name, Shape shape, int argument,
   return add(std::move(call));
 }
 
+/// Inputs and functions are found by name, as their numbers differ between programs.
 int Assembly::add_copy(const Program& program, Instruction copy) {
   if (copy.op != Op::input && copy.op != Op::call) return add(std::move(copy));
   if (copy.op == Op::call)
@@ -62,6 +66,7 @@ int Assembly::add_program(const Program& program) {
   return add_program(program, [](const auto&, const auto&) { return std::nullopt; });
 }
 
+/// One pass backwards marks what is needed, one forwards copies it with new numbers.
 Program Assembly::extract(int at) const {
   std::vector<bool> needed(program_.code.size(), false);
   needed[static_cast<std::size_t>(at)] = true;

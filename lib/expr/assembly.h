@@ -1,4 +1,7 @@
 // A program under construction.
+//
+// Instructions are numbered by value: one that is added twice is there once. So a subexpression
+// that a text repeats, or that two texts share, is computed once.
 #pragma once
 
 #include <map>
@@ -13,6 +16,7 @@
 namespace gainsmith::expr {
 
 /// Collects instructions, equal ones once, and takes programs out of them.
+/// It only grows; indices of instructions stay valid.
 class Assembly {
  public:
   /// Adds an instruction whose operands are here already, unless there is one like it; its index.
@@ -23,8 +27,8 @@ class Assembly {
   /// The instruction that calls a function of the given shape; `like` gives its place and text.
   int add_call(const std::string& name, Shape shape, int argument, const Instruction& like);
 
-  /// Adds a program: where each of its instructions is then. replace(one, copy) gives what takes the
-  /// place of one, if anything does; the copy has its operands here.
+  /// Adds a program: where each of its instructions is then. replace(one, copy) gives what takes
+  /// the place of one, if anything does; the copy has its operands here.
   template <class Replace>
   std::vector<int> add_all(const Program& program, const Replace& replace) {
     std::vector<int> places;

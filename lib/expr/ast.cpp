@@ -10,6 +10,7 @@ std::string to_string(Relation relation) {
   return word_of<Relation::not_equal>(relation, {"<", "<=", ">", ">=", "==", "!="});
 }
 
+/// At most 40 characters on one line; what is left out is "...".
 std::string Expression::quote(const Node& node) const {
   constexpr std::size_t kLongest = 40;
   std::string source = text->str().substr(node.begin, node.end - node.begin);
@@ -28,6 +29,7 @@ void collect(const Node& node, std::set<std::string>& names) {
 
 }  // namespace
 
+/// In the order of the text, also of `and` within parentheses.
 std::vector<Expression> conjuncts(const Expression& expression) {
   if (expression.root->kind != NodeKind::conjunction) return {expression};
   std::vector<Expression> all;
@@ -36,6 +38,7 @@ std::vector<Expression> conjuncts(const Expression& expression) {
   return all;
 }
 
+/// Names that sums and boxes bind are among them.
 std::set<std::string> names_in(const Expression& expression) {
   std::set<std::string> names;
   collect(*expression.root, names);

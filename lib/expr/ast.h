@@ -43,11 +43,14 @@ enum class Relation { less, less_equal, greater, greater_equal, equal, not_equal
 /// "<", "<=", ">", ">=", "==", "!=".
 std::string to_string(Relation relation);
 
+/// One node of a tree. Nodes are shared and never changed once the tree is made.
 struct Node {
   NodeKind kind = NodeKind::number;
   std::string text;
   std::vector<std::shared_ptr<const Node>> children;
+  /// Of `compare`, one less than children.
   std::vector<Relation> relations;
+  /// Of `block`: the entries in a row.
   int columns = 0;
   int height = 1;         ///< of the tree: 1 for a leaf
   std::size_t begin = 0;  ///< first byte in the Text

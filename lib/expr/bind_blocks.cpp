@@ -1,3 +1,4 @@
+// Block matrices [a, b; c, d], whose entries may have no size of their own: 0, I and "*".
 #include <algorithm>
 #include <utility>
 
@@ -12,6 +13,9 @@ constexpr int kUnknown = -1;
 }  // namespace
 
 /// One block matrix: its entries and how it is cut.
+/// Heights of block rows and widths of block columns are unknowns. They are learnt from entries
+/// with a shape, then carried across multiples of I, which are square. What is unknown at last is
+/// an error.
 class BlockBinding {
  public:
   BlockBinding(Binder& binder, const Expression& expression, const Node& node)
@@ -62,6 +66,7 @@ class BlockBinding {
       for (int j = 0; j < columns_; ++j) visit(i, j);
   }
 
+  /// A size that is learnt twice must be the same. `what`: "row" or "column", for the message.
   void learn(int& size, int found, const Node& from, Bound value, const char* what) const {
     if (size == kUnknown) size = found;
     if (size != found)
@@ -70,6 +75,7 @@ class BlockBinding {
                        what + " has size " + std::to_string(size));
   }
 
+  /// An entry with a shape fixes the height of its row and the width of its column; two must agree.
   void learn_from_entries() {
     for_each([&](int i, int j) {
       const Bound value = entries_[place(i, j)];
@@ -96,6 +102,7 @@ class BlockBinding {
     }
   }
 
+  /// Blocks with "*" are cut alike in rows and columns.
   void check_diagonal() {
     for (int i = 0; i < rows_ && mirrored_; ++i)
       if (height(i) != width(i))
@@ -114,6 +121,7 @@ class BlockBinding {
       if (numbers) std::ranges::replace(*sizes, kUnknown, 1);
   }
 
+  /// Zeros and identities get the shapes that their rows and columns have.
   void materialise_entries() {
     for_each([&](int i, int j) {
       Bound& value = entries_[place(i, j)];
@@ -126,6 +134,7 @@ class BlockBinding {
     });
   }
 
+  /// Entry (i, j) = transpose of entry (j, i).
   void mirror_entries() {
     for_each([&](int i, int j) {
       if (entry(i, j).kind != NodeKind::mirror) return;

@@ -1,5 +1,5 @@
-// What jacobian(e, x), flow_map(e, x, d) and project_convex(x, P, e) have in common: e as a function
-// of the name x.
+// What jacobian(e, x), flow_map(e, x, d) and project_convex(x, P, e) have in common: e as a
+// function of the name x.
 #include <algorithm>
 #include <utility>
 
@@ -7,6 +7,8 @@
 
 namespace gainsmith::expr {
 
+/// A symbol is varied itself. A parameter or a definition gets an input of its own, since its value
+/// may also occur in e in other ways.
 Binder::Varied Binder::varied(const Expression& expression, const Node& node, std::size_t value_at,
                               std::size_t variable_at, bool rate) {
   const Node& value_node = *node.children[value_at];
@@ -53,6 +55,7 @@ Binder::Varied Binder::varied(const Expression& expression, const Node& node, st
   return {of, variable, point};
 }
 
+/// One pass forwards: an instruction depends on a variable where one of its operands does.
 std::vector<bool> Binder::depending_on(const std::vector<int>& variables, int until) const {
   const int last = std::max(until, *std::max_element(variables.begin(), variables.end()));
   std::vector<bool> depends(static_cast<std::size_t>(last) + 1);
@@ -63,6 +66,8 @@ std::vector<bool> Binder::depending_on(const std::vector<int>& variables, int un
   return depends;
 }
 
+/// The instructions between the variables and the value are copied to a program of their own. What
+/// they read besides becomes inputs "operand k", so that it is computed once outside of the body.
 Binder::Body Binder::body_of(int value, const std::vector<std::pair<int, std::string>>& inputs,
                              std::size_t first) const {
   std::vector<int> variables;

@@ -1,3 +1,6 @@
+// Calls. A name with arguments may be, in this order: a matrix of a system, a member of a family, a
+// number of an event, an indexed value, a definition, a function that is linked later, or one of
+// the table.
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -18,6 +21,8 @@ int value_of(const std::vector<int>& sizes, std::size_t at) { return sizes[at]; 
 
 }  // namespace
 
+/// Names that the file gives hide functions of the language, and members of families come before
+/// both.
 Bound Binder::bind_call(const Expression& expression, const Node& node) {
   const std::string& name = node.text;
   if (name.starts_with('.'))
@@ -87,6 +92,7 @@ struct Parsed {
   NodePtr tree;
 };
 
+/// Texts of the table are parsed once a process.
 const Parsed& parsed(const Written& written) {
   static const std::map<std::string_view, Parsed> all = [] {
     std::map<std::string_view, Parsed> made;
@@ -108,6 +114,7 @@ const Parsed& parsed(const Written& written) {
 
 }  // namespace
 
+/// The text is bound like a definition, with all its nodes at the place of the call for messages.
 Bound Binder::bind_written(const Expression& expression, const Node& node, const Written& written) {
   const Parsed& of = parsed(written);
   Environment arguments;
@@ -181,6 +188,7 @@ std::optional<Node> Binder::of_event(const Node& node) const {
   return plain;
 }
 
+/// A function of the scope under the name "derivative(P)", linked later like P itself.
 std::optional<Bound> Binder::bind_derivative(const Expression& expression, const Node& node) {
   const Node& whole = node.kind == NodeKind::index ? *node.children[0] : node;
   if (whole.kind != NodeKind::call || whole.text != "derivative") return std::nullopt;
@@ -197,6 +205,7 @@ std::optional<Bound> Binder::bind_derivative(const Expression& expression, const
   return bind_given_function(expression, node, name, *node.children[1], found->second);
 }
 
+/// The argument is a number; the value has the shape `of`.
 Bound Binder::bind_given_function(const Expression& expression, const Node& node,
                                   const std::string& name, const Node& argument, Shape of) {
   const int at = materialise(expression, argument, bind(expression, argument), {});
@@ -230,6 +239,8 @@ int Binder::square_argument(const Expression& expression, const Node& node,
   return at;
 }
 
+/// Where shapes do not fit, the message says which argument is at fault. The inverse of a multiple
+/// of I is one again.
 Bound Binder::bind_operation(const Expression& expression, const Node& node,
                              const Function& function, Op op) {
   if (operation(op).rule == ShapeRule::nearest_to_rows ||
@@ -268,6 +279,7 @@ Bound Binder::bind_composed(const Expression& expression, const Node& node, Comp
   fail(expression, node, "unknown function");
 }
 
+/// He(s I) = 2 s I.
 Bound Binder::symmetric(const Expression& expression, const Node& node) {
   const Node& argument = *node.children[0];
   const Bound a = bind(expression, argument);
@@ -282,6 +294,7 @@ int Binder::same_shape(const Expression& expression, const Node& node, Bound val
   return materialise(expression, node, value, wanted);
 }
 
+/// From left to right; numbers are filled into the shape of the others.
 Bound Binder::fold_minmax(const Expression& expression, const Node& node, Op op) {
   if (node.children.size() == 1) return extreme_element(expression, node, op);
   std::vector<Bound> values;
@@ -298,6 +311,7 @@ Bound Binder::fold_minmax(const Expression& expression, const Node& node, Op op)
   return {result};
 }
 
+/// One size n means n x n.
 Bound Binder::constant_matrix(const Expression& expression, const Node& node, Composed function) {
   constexpr int kLargest = 100000;
   std::vector<int> sizes;
@@ -328,6 +342,7 @@ Bound Binder::diagonal(const Expression& expression, const Node& node) {
   return {emit(expression, node, Op::diagonal_of, {at}, {from.rows, 1})};
 }
 
+/// Zeros between blocks of any shapes.
 Bound Binder::block_diagonal(const Expression& expression, const Node& node) {
   const std::vector<int> blocks = parts(expression, node);
   std::vector<int> heights;
@@ -345,6 +360,7 @@ Bound Binder::block_diagonal(const Expression& expression, const Node& node) {
                    widths)};
 }
 
+/// By the recurrence of chebyshev.h, as products and differences of numbers.
 Bound Binder::chebyshev(const Expression& expression, const Node& node) {
   constexpr int kMost = 100;
   const auto k = whole_number(expression, *node.children[0]);

@@ -62,6 +62,7 @@ int discrete_operator(const Emitter& make, int a) {
 
 }  // namespace
 
+/// What is decided while a text is bound may depend on known symbols alone.
 Program Binder::known_program(const Expression& expression, const Node& node, int at,
                               std::string_view why) {
   Program program = extract(at);
@@ -79,6 +80,7 @@ Program Binder::known_program(const Expression& expression, const Node& node, in
   return program;
 }
 
+/// The number of singular values above the tolerance times the largest one.
 int Binder::known_rank(const Expression& expression, const Node& node, int at) {
   std::optional<Program> tolerance;
   if (node.children.size() == 2) {
@@ -106,10 +108,15 @@ int Binder::output_matrix(const Expression& expression, const Node& argument, in
   return c;
 }
 
+<<<<<<< HEAD
 int Binder::power_of_two(const Emitter& make, int exponent) {
   return make.number(fmt::format("{:.{}e}", std::ldexp(1.0, exponent), std::abs(exponent)));
 }
 
+=======
+/// Powers of 2 as decimals with as many digits as they need, so that they are exact in every number
+/// type.
+>>>>>>> comments
 Bound Binder::units(const Expression& expression, const Node& node) {
   const int a = square_argument(expression, node, node.text);
   const Node& outputs = *node.children[1];
@@ -124,6 +131,8 @@ Bound Binder::units(const Expression& expression, const Node& node) {
   return {make(Op::diagonal_matrix, {make.blocks(diagonal, 1)})};
 }
 
+/// The rank r is decided now: orth has r columns and null n - r. The values of the columns are
+/// computed whenever the program runs.
 Bound Binder::basis(const Expression& expression, const Node& node, Op op) {
   const int at = sized(expression, *node.children[0], bind(expression, *node.children[0]));
   const int rank = known_rank(expression, node, at);
@@ -133,6 +142,7 @@ Bound Binder::basis(const Expression& expression, const Node& node, Op op) {
   return {emit(expression, node, op, {at}, result)};
 }
 
+/// The number of columns is given, so that no rank is decided.
 Bound Binder::complement(const Expression& expression, const Node& node) {
   const Node& argument = *node.children[0];
   const int at = sized(expression, argument, bind(expression, argument));
@@ -146,6 +156,7 @@ Bound Binder::complement(const Expression& expression, const Node& node) {
   return {emit(expression, node, Op::complement_basis, {at}, {from.rows, count})};
 }
 
+/// The quotient of the largest and the smallest singular value.
 Bound Binder::condition_number(const Expression& expression, const Node& node) {
   const Emitter make(*this, expression, node);
   const int m = sized(expression, *node.children[0], bind(expression, *node.children[0]));
@@ -156,8 +167,8 @@ Bound Binder::condition_number(const Expression& expression, const Node& node) {
                "cond: a singular value is 0, so there is no finite quotient")};
 }
 
-/// Column by column, from the lower triangle: l = s/sqrt(s_1) of the first column s of what is left,
-/// S - l l' without its first row and column is left then.
+/// Column by column, from the lower triangle: l = s/sqrt(s_1) of the first column s of what is
+/// left, S - l l' without its first row and column is left then.
 Bound Binder::cholesky(const Expression& expression, const Node& node) {
   const Emitter make(*this, expression, node);
   int left = square_argument(expression, node, node.text);
@@ -196,6 +207,7 @@ Bound Binder::extreme_eigenvalue(const Expression& expression, const Node& node,
   return {largest ? make.subtract(first, c) : make.subtract(c, first)};
 }
 
+/// Each block of rows is the one before times A.
 Bound Binder::observability(const Expression& expression, const Node& node) {
   const Emitter make(*this, expression, node);
   const int a = square_argument(expression, node, "obsv");
@@ -261,6 +273,8 @@ Bound Binder::lyapunov(const Expression& expression, const Node& node, bool disc
   return {unstacked(make, make.multiply(inverse, make.negate(stacked(make, q))), n)};
 }
 
+/// The shortest decimals that read as the doubles which were found: the design has these very
+/// numbers.
 Bound Binder::output_gain(const Expression& expression, const Node& node, bool discrete) {
   const int a = square_argument(expression, node, node.text);
   const int b = input_matrix(expression, node, a);
@@ -279,6 +293,8 @@ Bound Binder::output_gain(const Expression& expression, const Node& node, bool d
   return {make.blocks(std::move(elements), of.cols)};
 }
 
+/// Continuous: A'X + X A - (X B + S) R^-1 (B'X + S') + Q = 0. Discrete: X = A'X A + Q less (A'X B +
+/// S)(R + B'X B)^-1 (B'X A + S'). A: n x n, B: n x m, Q: n x n, R: m x m, S: n x m.
 Bound Binder::riccati(const Expression& expression, const Node& node, Op op) {
   const int a = square_argument(expression, node, node.text);
   const int b = input_matrix(expression, node, a);

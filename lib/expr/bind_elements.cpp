@@ -17,6 +17,7 @@ std::string elementwise_name(NodeKind kind) {
 
 }  // namespace
 
+/// A number counts for each element of the other side.
 std::pair<int, int> Binder::fitted(const Expression& expression, const Node& node, Bound a,
                                    Bound b) {
   const Node& left = *node.children[0];
@@ -50,6 +51,8 @@ Bound Binder::elementwise(const Expression& expression, const Node& node) {
                {left, right}, shape(left))};
 }
 
+/// A whole exponent is a power by products; a negative one is 1 over it. Other exponents are real
+/// powers.
 Bound Binder::elementwise_power(const Expression& expression, const Node& node) {
   const Node& exponent_node = *node.children[1];
   const int base = sized(expression, *node.children[0], bind(expression, *node.children[0]));

@@ -9,6 +9,8 @@
 
 namespace gainsmith::expr {
 
+/// The names of the box are inputs of the body, "the variable", "the variable 2", .... Operands are
+/// the ends of all intervals, low and high in turn, then what f reads besides.
 Bound Binder::extremum(const Expression& expression, const Node& node, bool largest) {
   const auto is_box = [](const NodePtr& child) { return child->kind == NodeKind::within; };
   if (is_box(node.children[0]) ||
@@ -29,8 +31,8 @@ Bound Binder::extremum(const Expression& expression, const Node& node, bool larg
     operands.insert(operands.end(), {low, high});
     like.offset = box.begin;
     names += (names.empty() ? "" : " ") + box.text;
-    const int variable = assembly_.add_input(
-        box.text + " of maximum " + std::to_string(extrema_), shape(low), like);
+    const int variable =
+        assembly_.add_input(box.text + " of maximum " + std::to_string(extrema_), shape(low), like);
     variables.emplace_back(variable, variable_name(k - 1));
     if (!environment.insert_or_assign(box.text, Bound{variable}).second)
       fail(expression, box, "'" + box.text + "' already has a meaning here; name it otherwise");
@@ -45,8 +47,7 @@ Bound Binder::extremum(const Expression& expression, const Node& node, bool larg
   refuse_moving(expression, node, operands);
   auto program = std::make_shared<const Program>(body.assembly.extract(body.result));
   return {emit(expression, node, Op::extremum, std::move(operands), {},
-               {largest ? 1 : 0, static_cast<int>(variables.size())}, names,
-               std::move(program))};
+               {largest ? 1 : 0, static_cast<int>(variables.size())}, names, std::move(program))};
 }
 
 std::pair<int, int> Binder::ends_of_box(const Expression& expression, const Node& box) {
@@ -78,6 +79,7 @@ void Binder::refuse_moving(const Expression& expression, const Node& node,
                  input.name + "' changes along a run");
 }
 
+/// A search within a search would be evaluated at every point of the outer one.
 void Binder::refuse_inside(const Expression& expression, const Node& node, const Body& body) const {
   if (!body.call.empty())
     fail(expression, node,

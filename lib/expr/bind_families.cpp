@@ -13,6 +13,7 @@
 
 namespace gainsmith::expr {
 
+/// The name of a member as a plain symbol.
 std::string member_name(const std::string& family, const std::vector<int>& indices) {
   std::string name = family;
   for (const int index : indices) name += "_" + std::to_string(index);
@@ -41,6 +42,7 @@ bool compares(Relation relation, int a, int b) {
 
 }  // namespace
 
+/// `what`: "an index of P", "the end of a range", for the message.
 int Binder::required_whole_number(const Expression& expression, const Node& node,
                                   const std::string& what) {
   const auto value = whole_number(expression, node);
@@ -64,6 +66,7 @@ int Binder::required_whole_number(const Expression& expression, const Node& node
   return *value;
 }
 
+/// A range with last < first is empty.
 std::pair<int, int> Binder::range_of(const Expression& expression, const Node& low,
                                      const Node& high) {
   constexpr int kFarthest = 1'000'000'000;
@@ -80,6 +83,7 @@ std::pair<int, int> Binder::range_of(const Expression& expression, const Node& l
   return {first, last};
 }
 
+/// Indices are whole numbers here, so that a member is a plain name; `end` is the last index.
 std::optional<std::string> Binder::member(const Expression& expression, const Node& node) {
   if (node.kind != NodeKind::call || environment_.contains(node.text)) return std::nullopt;
   const auto family = scope_.families.find(node.text);
@@ -104,6 +108,7 @@ std::optional<std::string> Binder::member(const Expression& expression, const No
   return member_name(node.text, indices);
 }
 
+/// A parameter counts by its value, which may be a mode.
 bool Binder::is_over_modes(const Node& node) const {
   switch (node.kind) {
     case NodeKind::name: {
@@ -228,6 +233,7 @@ void Binder::for_indices(const Expression& expression, const Node& node,
   --open_sums_;
 }
 
+/// Terms are added from left to right, each bound anew with its index.
 Bound Binder::sum(const Expression& expression, const Node& node) {
   if (node.children.size() == 1) return sum_of_elements(expression, node);
   if (node.children[0]->kind != NodeKind::each)

@@ -9,6 +9,8 @@
 
 namespace gainsmith::expr {
 
+/// x' = e(x, t) from the value of x over the time d. Operands: x, d, then the time where e depends
+/// on it (attributes[0] = 1), then what e reads besides, which is constant meanwhile.
 Bound Binder::flow_map(const Expression& expression, const Node& node) {
   const Varied rate = varied(expression, node, 0, 1, true);
   const Node& length = *node.children[2];
@@ -41,6 +43,7 @@ Bound Binder::flow_map(const Expression& expression, const Node& node) {
                std::move(program))};
 }
 
+/// A flow_map may go back in time, d < 0, where measurements and draws are not known.
 void Binder::require_past(const Expression& expression, const Node& node,
                           const std::vector<int>& outside) const {
   for (const int at : outside)

@@ -37,6 +37,8 @@ int integral(const Emitter& make, int f, int q, int t) {
 
 }  // namespace
 
+/// The recursions above from the far end of the window; F and J n x n, Hc p x n, Hd q x n. The
+/// backward Gramian is the forward one of the inverse system, with -F and J^-1.
 Bound Binder::gramian(const Expression& expression, const Node& node, bool backward) {
   const auto argument = [&](std::size_t i) {
     return sized(expression, *node.children[i], bind(expression, *node.children[i]));

@@ -17,6 +17,7 @@ std::optional<int> as_int(std::int64_t value) {
   return std::abs(value) <= kMost ? std::optional(static_cast<int>(value)) : std::nullopt;
 }
 
+/// A decimal without point and exponent; none for others and for those beyond int.
 std::optional<int> whole(const std::string& decimal) {
   int value = 0;
   const auto end = std::from_chars(decimal.data(), decimal.data() + decimal.size(), value);
@@ -24,6 +25,7 @@ std::optional<int> whole(const std::string& decimal) {
   return complete ? std::optional(value) : std::nullopt;
 }
 
+/// a + b, a - b or a b; none where it is no int.
 std::optional<int> combined(Op op, std::optional<std::int64_t> a, std::optional<std::int64_t> b) {
   if (!a || !b) return std::nullopt;
   if (op == Op::add) return as_int(*a + *b);
@@ -32,6 +34,8 @@ std::optional<int> combined(Op op, std::optional<std::int64_t> a, std::optional<
 
 }  // namespace
 
+/// Indices, sizes and exponents must be known before shapes are. They are computed from the syntax
+/// tree, without a program.
 std::optional<int> Binder::whole_number(const Expression& expression, const Node& node) {
   if (node.kind == NodeKind::negate) {
     const auto value = whole_number(expression, *node.children[0]);
@@ -80,6 +84,7 @@ std::optional<int> Binder::whole_index(const Expression& expression, const Node&
   return value;
 }
 
+/// From 1 to `size` as in the language, [first, last) from 0 in the result. a:a-1 is empty.
 std::pair<int, int> Binder::index_range(const Expression& expression, const Node& whole,
                                         const Node& node, int size) {
   if (node.kind == NodeKind::range && node.children.empty()) return {0, size};
@@ -105,6 +110,7 @@ std::pair<int, int> Binder::index_range(const Expression& expression, const Node
   return {*from - 1, *to};
 }
 
+/// One index of a row or a column, two of any matrix.
 Bound Binder::index(const Expression& expression, const Node& node, Bound base, std::size_t first) {
   if (base.is_system()) refuse_system(expression, node);
   const int at = sized(expression, node, base);

@@ -7,6 +7,8 @@
 
 namespace gainsmith::expr {
 
+/// Element (i, k) is de_i/dx_k, both counted column by column. The instruction carries e as its
+/// body, which number types differentiate; derivative.h makes formulas of it where it has rules.
 Bound Binder::jacobian(const Expression& expression, const Node& node) {
   const auto [value, variable, point] = varied(expression, node, 0, 1, false);
   const Shape result{shape(value).size(), shape(variable).size()};

@@ -14,8 +14,9 @@ namespace gainsmith::expr {
 
 /// K of A - B K with the poles p: with vectors g of inputs, X of A X - X L = B G and K = G X^-1,
 /// where L has the poles (Bhattacharyya and de Souza). A pair s +- i w has the block [s, w; -w, s]
-/// of L; of m inputs a pole may be there m times, each further one is coupled to the one m before by
-/// a 1 above the diagonal.
+/// of L; of m inputs a pole may be there m times, each further one is coupled to the one m before
+/// by a 1 above the diagonal. Columns of X are found one pole at a time: (A - s I) x = B g for a
+/// real pole s. For a pair s +- i w it is [A - s I, w I; -w I, A - s I] [x; y] = [B g; 0].
 Bound Binder::placed(const Expression& expression, const Node& node) {
   const Emitter make(*this, expression, node);
   const int a = square_argument(expression, node, node.text);

@@ -10,6 +10,8 @@
 
 namespace gainsmith::expr {
 
+/// argmin over z of (z - x)'P(z - x): polytopes {A z <= b}, affine sets {A z = b}, and ellipsoids
+/// {(z - x0)'Q(z - x0) <= level}. x: n x 1, P and Q: n x n, A: m x n, b: m x 1.
 Bound Binder::projection(const Expression& expression, const Node& node, const Function& function,
                          Op op) {
   const auto argument = [&](std::size_t i) -> const Node& { return *node.children[i]; };
@@ -41,6 +43,7 @@ Bound Binder::projection(const Expression& expression, const Node& node, const F
   return {emit(expression, node, op, operands, point)};
 }
 
+/// The same over {c(z) <= 0}, c a column of functions that the body computes.
 Bound Binder::convex_projection(const Expression& expression, const Node& node) {
   const Node& metric = *node.children[1];
   const Node& functions = *node.children[2];

@@ -12,6 +12,7 @@
 
 namespace gainsmith::expr {
 
+/// A scope has definitions "rate(x)" only where runs are meant.
 Bound Binder::rate(const Expression& expression, const Node& node) {
   const std::string prefix = "rate(";
   const auto first = scope_.definitions.lower_bound(prefix);
@@ -51,6 +52,8 @@ std::map<int, int> Binder::rates_of(const Expression& expression, const Node& no
   return rates;
 }
 
+/// v(x + s f) as a body with the variable s, whose jacobian at s = 0 is v'(x) f, size(v) x 1. What
+/// v does not need of the flow stays outside.
 Bound Binder::derivative_along(const Expression& expression, const Node& node, int value,
                                const std::map<int, int>& rates) {
   const Shape result{shape(value).size(), 1};

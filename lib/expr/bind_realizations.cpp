@@ -19,6 +19,7 @@ constexpr const char* kHidden[] = {"1e-9", "1e-11", "1e-13"};
 /// By what minreal may change a transfer function, relative.
 constexpr double kUnchanged = 1e-6;
 
+/// The largest singular value; 0 of an empty matrix.
 int largest_gain(const Emitter& make, int m) {
   if (make.shape(m).size() == 0) return make.zeros({1, 1});
   return make.element(make(Op::singular_values, {m}), 0);
@@ -35,9 +36,9 @@ Bound Binder::in_basis(const Emitter& make, const SystemParts& of, int basis) {
           false, make.shape(basis).cols, -1};
 }
 
-/// An orthonormal basis of the range of [B, A B, A^2 B, ...]; what is small beside `size` counts as 0
-/// in B. Each next basis is of [V, A V/|A|], so that powers of A, which lose what is small, are not
-/// formed.
+/// An orthonormal basis of the range of [B, A B, A^2 B, ...]; what is small beside `size` counts as
+/// 0 in B. Each next basis is of [V, A V/|A|], so that powers of A, which lose what is small, are
+/// not formed.
 int Binder::reachable(const Expression& expression, const Node& node, const Emitter& make,
                       std::pair<int, int> pair, int size, int tolerance) {
   const auto [a, b] = pair;

@@ -19,6 +19,7 @@ namespace gainsmith::expr {
 
 namespace {
 
+/// [A, B; C, D]; a system without states is D alone, with no sampling time.
 Bound system_of(const Emitter& make, const Binder::SystemParts& of, int step) {
   const int n = make.shape(of.a).rows;
   if (n == 0) return {of.d, false, 0, -1};
@@ -32,7 +33,8 @@ int outputs_of(const Emitter& make, const Bound& system) {
   return make.shape(system.at).rows - system.states;
 }
 
-/// d_k of the denominator sum_k d_k (s T)^k of a Pade approximation: (2n - k)!/(k! (n - k)!), whole numbers.
+/// d_k of the denominator sum_k d_k (s T)^k of a Pade approximation: (2n - k)!/(k! (n - k)!), whole
+/// numbers.
 std::vector<std::string> pade_coefficients(int n) {
   std::vector<std::string> all;
   for (int k = 0; k <= n; ++k) {
@@ -112,6 +114,7 @@ std::optional<Bound> Binder::part_of_name(const Expression& expression, const No
   return part_of_system(expression, node, value, part);
 }
 
+/// A: n x n, B: n x m, C: p x n, D: p x m.
 Bound Binder::state_space(const Expression& expression, const Node& node) {
   const Emitter make(*this, expression, node);
   const int a = square_argument(expression, node, "ss");
@@ -128,6 +131,8 @@ Bound Binder::state_space(const Expression& expression, const Node& node) {
 }
 
 /// The controllable canonical form: the state is [w^(n-1); ...; w], den(s) w = u.
+/// With den = s^n + a_1 s^(n-1) + ... + a_n and num likewise with b_k, after division by the
+/// leading coefficient: D = b_0, C = [b_1 - a_1 b_0, ..., b_n - a_n b_0].
 Bound Binder::transfer_function(const Expression& expression, const Node& node) {
   const Emitter make(*this, expression, node);
   const auto vector = [&](std::size_t i) {
@@ -166,7 +171,11 @@ Bound Binder::transfer_function(const Expression& expression, const Node& node) 
           n, step};
 }
 
-/// A first of `series`.
+/// In `series` a signal passes `first` first, then `second`. As A, B, C, D:
+///
+///   parallel   [A1, 0; 0, A2], [B1; B2], [C1, C2], D1 + D2
+///   series     [A1, 0; B2 C1, A2], [B1; B2 D1], [D2 C1, C2], D2 D1
+///   append     all four block diagonal
 Bound Binder::pair_of_systems(const Expression& expression, const Node& node, Composed how,
                               Bound first, Bound second) {
   const Emitter make(*this, expression, node);
@@ -249,6 +258,8 @@ Bound Binder::divided_system(const Expression& expression, const Node& node, Bou
 namespace {
 
 /// u = K y between the last inputs u and outputs y of P; the inverse is of I - D_K D_22.
+/// With u = K y, L = (I - D_K D_22)^-1 and the states [x; x_K]: u = L (D_K C_2 x + C_K x_K + D_K
+/// D_21 w) and y = C_2 x + D_21 w + D_22 u are put into x', x_K' and the outputs left.
 Bound closed(const Emitter& make, const Bound& p, const Bound& k, int step) {
   const Binder::SystemParts of = Binder::parts_of(make, p), by = Binder::parts_of(make, k);
   const int n = p.states, y = inputs_of(make, k), u = outputs_of(make, k);

@@ -33,6 +33,7 @@ void Binder::require_rising(const Expression& expression, const Node& node, int 
     fail(expression, points, "interp1: the points x must rise from each to the next");
 }
 
+/// x and y: n points, n >= 2; q: m queries, a row or a column, whose shape the result has.
 Bound Binder::interpolated(const Expression& expression, const Node& node) {
   const Emitter make(*this, expression, node);
   std::vector<int> arguments;

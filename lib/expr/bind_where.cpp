@@ -1,4 +1,12 @@
 // where(condition, x, y) and the differences of conditions.
+//
+// where(condition, x, y) and the differences of conditions. Conditions with `and`, `or`, `not`
+// become nested choices by one difference each:
+//
+//   where(a and b, x, y) = where(a, where(b, x, y), y)      where(not a, x, y) = where(a, y, x)
+//   where(a or b, x, y)  = where(a, x, where(b, x, y))
+//
+// Equality d = 0 is d >= 0 and -d >= 0.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -65,8 +73,8 @@ Bound Binder::compared(const Expression& expression, const Node& node, const Nod
                 no);
 }
 
-/// The value of numbers that are written out, such as an index; none of others, and of those so near 0
-/// that rounding may decide their sign.
+/// The value of numbers that are written out, such as an index; none of others, and of those so
+/// near 0 that rounding may decide their sign.
 std::optional<double> Binder::written_number(int at) const {
   constexpr double kClear = 1e-6;
   if (!shape(at).is_scalar() || !scope_.known) return std::nullopt;
@@ -81,6 +89,8 @@ std::optional<double> Binder::written_number(int at) const {
   return is_whole || std::abs(value) >= kClear ? std::optional(value) : std::nullopt;
 }
 
+/// A number beside a column counts for each element. A written difference decides at once, so that
+/// the side which is left out needs no value.
 Bound Binder::branch(const Expression& expression, const Node& node, int difference, bool strict,
                      Bound yes, Bound no) {
   Shape common;

@@ -1,3 +1,5 @@
+// Leaves and operators of the language, definitions, and the entries compile(), compile_system()
+// and compile_relations() of compile.h.
 #include "expr/binder.h"
 
 #include <algorithm>
@@ -32,6 +34,7 @@ std::string Binder::describe(const Expression& expression, const Node& node, Bou
   return quoted + " (" + to_string(shape(value.at)) + ")";
 }
 
+/// Roots and logarithms within a text of the table get its message (Written::fault).
 int Binder::emit(const Expression& expression, const Node& node, Op op, std::vector<int> operands,
                  Shape shape, Attributes attributes, std::string text,
                  std::shared_ptr<const Program> body) {
@@ -176,6 +179,8 @@ Bound Binder::bind_name(const Expression& expression, const Node& node) {
   unknown_name(expression, node);
 }
 
+/// The body sees the names of the whole scope and its own parameters, not those of the caller.
+/// Cycles are found by the definitions that are open.
 Bound Binder::bind_definition(const Expression& expression, const Node& node,
                               const std::string& name, std::vector<Bound> arguments) {
   const Definition& definition = scope_.definitions.at(name);
@@ -213,6 +218,7 @@ int Binder::sized(const Expression& expression, const Node& node, Bound value) {
   return value.at;
 }
 
+/// I and 0 get their size here: s I becomes s eye(n), and 0 becomes zeros(r, c).
 int Binder::materialise(const Expression& expression, const Node& node, Bound value, Shape wanted) {
   if (value.identity) {
     if (!wanted.is_square())
@@ -282,6 +288,7 @@ Bound Binder::add(const Expression& expression, const Node& node, Op op, Bound a
   return {emit(expression, node, op, {a.at, b.at}, shape(a.at))};
 }
 
+/// A multiple of I stays one where the other factor is a number or a multiple of I.
 Bound Binder::multiply(const Expression& expression, const Node& node, Bound a, Bound b) {
   const Shape left = shape(a.at);
   const Shape right = shape(b.at);
@@ -322,6 +329,8 @@ Bound Binder::transpose(const Expression& expression, const Node& node, Bound a)
   return {emit(expression, node, Op::transpose, {a.at}, {shape(a.at).cols, shape(a.at).rows})};
 }
 
+/// A^k with whole k is a product of k factors, or of the inverse for k < 0. Other exponents are of
+/// numbers.
 Bound Binder::power(const Expression& expression, const Node& node) {
   const Node& base_node = *node.children[0];
   const Node& exponent_node = *node.children[1];
@@ -347,6 +356,7 @@ Bound Binder::power(const Expression& expression, const Node& node) {
           base.identity};
 }
 
+/// Symmetric, r + c rows for D of r x c. Its eigenvalues are +- the singular values of D, and 0.
 int Binder::equation(const Expression& expression, const Node& node, int difference) {
   const auto [rows, columns] = shape(difference);
   const int transposed = sized(expression, node, transpose(expression, node, {difference}));
@@ -387,6 +397,7 @@ bool is_eigenvalues(const Node& node) {
 }
 
 /// A side of eig(P) < 3 as one of P < 3*I.
+/// A side of a comparison of eigenvalues as the side of a matrix inequality, for the message.
 std::string of_matrices(const Expression& expression, const Node& side) {
   if (is_eigenvalues(side)) return expression.quote(*side.children[0]);
   const std::string text = expression.quote(side);
@@ -397,6 +408,8 @@ std::string of_matrices(const Expression& expression, const Node& side) {
 
 }  // namespace
 
+/// Each comparison of the chain becomes large - small, all in one assembly, so that the sides in
+/// the middle are bound once.
 std::vector<CompiledRelation> compile_relations(const Expression& expression, const Scope& scope) {
   count_bound();
   const Node& root = *expression.root;

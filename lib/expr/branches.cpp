@@ -14,6 +14,7 @@ class BranchCollector {
  public:
   explicit BranchCollector(const std::function<bool(const std::string&)>& moves) : moves_(moves) {}
 
+  /// Over the inputs of the program; differences that are equal are kept once.
   std::vector<Branch> take(const Program& program) {
     std::vector<int> inputs;
     for (const Input& input : program.inputs)
@@ -24,6 +25,8 @@ class BranchCollector {
 
  private:
   /// `inputs`: the instructions that are the inputs of the program.
+  /// The bodies of jacobians are walked with the operands as their inputs. The derivative of what
+  /// has a kink jumps there.
   void walk(const Program& program, const std::vector<int>& inputs) {
     std::vector<int> at;
     for (const Instruction& instruction : program.code) {
@@ -43,6 +46,7 @@ class BranchCollector {
     }
   }
 
+  /// The difference of one instruction, if it branches.
   void note(const Instruction& branch) {
     const std::vector<int>& operands = branch.operands;
     switch (branch.op) {

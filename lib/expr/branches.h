@@ -17,6 +17,7 @@
 
 namespace gainsmith::expr {
 
+/// A difference, of any shape, each of whose elements marks a branch where it is 0.
 struct Branch {
   Program difference;
   bool jumps = false;  ///< otherwise a kink

@@ -38,6 +38,7 @@ class Chebyshev {
   }
 
  private:
+  /// a_0 = 1, a_1 = first, a_{i+1} = 2 x a_i - a_{i-1}; a_k.
   int recurrence(int k, int first) {
     int before = number_("1");
     if (k == 0) return before;

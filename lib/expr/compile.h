@@ -42,6 +42,7 @@ std::pair<int, int> range_of(const Index& index, const Scope& scope);
 bool whole_condition(const Expression& expression, const Scope& scope);
 
 /// One comparison of a chain: the larger side minus the smaller one, to be > 0 (strict) or >= 0.
+/// It is of use for inequalities of symmetric matrices; `difference` is square.
 struct CompiledRelation {
   Program difference;  ///< of `==`: [0, D; D', 0], D of any shape
   bool strict = true;

@@ -11,6 +11,7 @@ namespace {
 
 using Kind = Condition::Kind;
 
+/// `<` and `<=` become `>` and `>=` with the sides exchanged (ordered_pair).
 Kind kind_of(Relation relation) {
   if (relation == Relation::equal || relation == Relation::not_equal) return Kind::zero;
   return relation == Relation::less || relation == Relation::greater ? Kind::positive
@@ -27,6 +28,7 @@ Condition with_parts(Kind kind, std::vector<Condition> parts, const Expression& 
   return condition;
 }
 
+/// Comparison `at` of a chain. a != b is the negation of a == b.
 Condition comparison(const Expression& expression, const Node& chain, std::size_t at,
                      const Scope& scope) {
   const Relation relation = chain.relations[at];
@@ -38,6 +40,7 @@ Condition comparison(const Expression& expression, const Node& chain, std::size_
   return with_parts(Kind::none, {std::move(condition)}, expression, pair);
 }
 
+/// A tree of comparisons and of `and`, `or`, `not` as a tree of conditions.
 Condition bind(const Expression& expression, const Node& node, const Scope& scope) {
   std::vector<Condition> parts;
   switch (node.kind) {

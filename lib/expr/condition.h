@@ -13,6 +13,7 @@
 
 namespace gainsmith::expr {
 
+/// A tree. Leaves are comparisons of a difference with 0, element by element.
 struct Condition {
   enum class Kind {
     positive,     ///< difference > 0, for each element
@@ -33,8 +34,8 @@ struct Condition {
   }
 };
 
-/// Of all, any or none of the parts, where `of` says what one is. It stops where that is decided, so
-/// that a part may guard a later one against having no value.
+/// Of all, any or none of the parts, where `of` says what one is. It stops where that is decided,
+/// so that a part may guard a later one against having no value.
 template <class Parts, class Of>
 Truth joined(Condition::Kind kind, Parts& parts, const Of& of) {
   if (kind == Condition::Kind::none) return opposite(of(parts.front()));

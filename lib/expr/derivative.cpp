@@ -1,3 +1,13 @@
+// Forward differentiation of matrix programs by rules, one direction at a time:
+//
+//   (A + B)' = A' + B'              (A B)' = A' B + A B'          (a/b)' = (a' - (a/b) b')/b
+//   inv(A)' = -inv(A) A' inv(A)     (x^k)' = k x^(k-1) x'         sqrt(x)' = x'/(2 sqrt(x))
+//   exp(x)' = exp(x) x'             log(x)' = exp(-log(x)) x'     tanh(x)' = (1 - tanh(x)^2) x'
+//   |x|' = x', -x' below 0          max(a, b)' = a' or b'
+//   atan2(y, x)' = (x y' - y x')/(x^2 + y^2)
+//
+// Column k of a jacobian is the derivative in the direction of element k of the variable.
+// Directions are unit matrices, so zeros are not computed with and products with 1 are left out.
 #include "expr/derivative.h"
 
 #include <optional>
@@ -53,6 +63,8 @@ class Direction {
   }
 
  private:
+  /// The derivative of one instruction by the rules above; none where there is no rule. `value`:
+  /// the instruction itself in the program that is made.
   std::optional<Slope> slope(const Instruction& one, int value) {
     const auto x = [&](std::size_t k) { return moved_[static_cast<std::size_t>(one.operands[k])]; };
     const auto d = [&](std::size_t k) {
@@ -170,6 +182,7 @@ class Direction {
     return shape.is_scalar() ? number("1") : apply(Op::fill, {number("1")}, shape);
   }
 
+  /// The matrix that is 1 in element `unit`, counted column by column, and 0 elsewhere.
   Slope unit_slope(Shape shape, int unit) {
     if (shape.is_scalar()) return {number("1"), 0};
     std::vector<int> elements;
@@ -178,6 +191,7 @@ class Direction {
         elements.push_back(number(column * shape.rows + row == unit ? "1" : "0"));
     return {apply(Op::blocks, std::move(elements), shape, {shape.cols}), unit};
   }
+  /// A part of a unit matrix: another unit matrix, or 0.
   Slope part_of_unit(const Instruction& index, int unit, int rows) {
     const int row = unit % rows - index.attributes[0];
     const int column = unit / rows - index.attributes[2];
@@ -208,7 +222,8 @@ class Direction {
     if (const int even = without_sign(op, a.at, b.at); even >= 0) return {even};
     return {apply(op, {a.at, b.at}, shape)};
   }
-  /// |x|' x = |x| in a product of numbers or element by element: the slope of |x| x does not jump. -1: there is none.
+  /// |x|' x = |x| in a product of numbers or element by element: the slope of |x| x does not jump.
+  /// -1: there is none.
   int without_sign(Op op, int a, int b) {
     const Shape shape = assembly_.shape(a);
     if (!has_moduli_ || shape != assembly_.shape(b)) return -1;
@@ -242,6 +257,7 @@ class Direction {
     }
     return -1;
   }
+  /// factor .* slope.
   Slope along(int factor, const Slope& slope, Shape shape) {
     return times(Op::elementwise_product, {factor}, slope, shape);
   }
@@ -267,6 +283,7 @@ std::vector<int> add_instructions(Assembly& assembly, const Program& program,
                                   const std::vector<int>& inputs);
 
 /// None without rules for all operations.
+/// The columns of one jacobian beside each other, over operands in place of the inputs of its body.
 std::optional<int> add_columns(Assembly& assembly, const Instruction& jacobian,
                                const std::vector<int>& operands) {
   const Program& body = *jacobian.body;

@@ -9,12 +9,16 @@
 
 namespace gainsmith::expr {
 
+/// Short names for instructions in the functions of the binder, all at the place of one node. All
+/// methods take and return indices of instructions.
 class Emitter {
  public:
   Emitter(Binder& binder, const Expression& expression, const Node& node)
       : binder_(binder), expression_(expression), node_(node) {}
 
   /// `text`: what a message says when the operation has no result.
+  /// The instruction of an operation. Shapes that do not fit are an error of the caller
+  /// (std::bad_optional_access).
   int operator()(Op op, std::vector<int> operands, const Attributes& attributes = {},
                  std::string text = "") const {
     const Shape of = binder_.shape_of(op, operands, attributes).value();
@@ -25,6 +29,7 @@ class Emitter {
   Shape shape(int at) const { return binder_.shape(at); }
   int number(const std::string& text) const { return binder_.number(expression_, node_, text); }
   int zeros(Shape of) const { return binder_.emit(expression_, node_, Op::zeros, {}, of); }
+  /// All elements are the 1 x 1 instruction `number`.
   int filled(int number, Shape of) const {
     return binder_.emit(expression_, node_, Op::fill, {number}, of);
   }
@@ -60,6 +65,7 @@ class Emitter {
     const Shape a = shape(first), b = shape(second);
     return blocks({first, zeros({a.rows, b.cols}), zeros({b.rows, a.cols}), second}, 2);
   }
+  /// expm(a t), t 1 x 1.
   int exponential(int a, int t) const { return (*this)(Op::matrix_exponential, {scale(t, a)}); }
 
  private:

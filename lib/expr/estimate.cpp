@@ -12,6 +12,8 @@ std::string to_string(Estimate estimate) {
       estimate, {"", "estimate from below", "estimate from above", "from estimates"});
 }
 
+/// Forward over the code: an instruction with an operand that is an estimate is `mixed`, since a
+/// value that is made of one is bounded from no side.
 Estimate estimate_of(const Program& program,
                      const std::function<Estimate(const std::string& input)>& of_input) {
   std::vector<Estimate> found(program.code.size(), Estimate::none);

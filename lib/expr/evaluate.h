@@ -131,8 +131,11 @@ class Evaluator {
   std::vector<Value> registers_;
   std::vector<const Value*> operands_;  ///< of all instructions, one after the other
   std::vector<std::size_t> first_operand_;
+  /// The instructions that run() computes, in order.
   std::vector<std::size_t> varying_;
+  /// What depends on fixed inputs alone is computed.
   bool prepared_ = false;
+  /// operands_ are those of the inputs that are set.
   bool linked_ = false;
 };
 

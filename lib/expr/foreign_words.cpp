@@ -1,3 +1,5 @@
+// A word of MATLAB, Python or Julia is answered by what to write here, never by another function:
+// the same name may mean another thing there.
 #include "expr/foreign_words.h"
 
 #include <algorithm>
@@ -23,6 +25,7 @@ constexpr std::string_view kNonlinear =
 
 /// A word, or several with spaces between them, and the advice.
 using Row = std::pair<std::string_view, std::string_view>;
+/// The first row that has the word counts.
 constexpr auto kRows = std::to_array<Row>({
     {"transpose ctranspose adjoint T", "write A' for the transpose of A"},
     {"inverse matinv invert", "write inv(M)"},
@@ -156,7 +159,8 @@ constexpr auto kRows = std::to_array<Row>({
     {"normNuc norm_nuc nuclear", "there is none; norm(M) is the largest singular value"},
     {"logdet log_det geomean",
      "there is none that a program of inequalities minimises; trace(M) is affine"},
-    {"zoh cont2discrete discretize d2d", "write c2d(G, T) of a system, or c2d(A, B, T), which is [Ad, Bd]"},
+    {"zoh cont2discrete discretize d2d",
+     "write c2d(G, T) of a system, or c2d(A, B, T), which is [Ad, Bd]"},
     {"d2c", "there is none; a plant is given in continuous time, or as jumps"},
     {"ode45 odeint lsim initial",
      "there is none; state 'plant' with a 'flow', and "
@@ -170,6 +174,7 @@ constexpr auto kRows = std::to_array<Row>({
 
 }  // namespace
 
+/// Of "np.linalg.inv" the last part counts.
 std::string advice_on(std::string_view function) {
   if (const std::size_t dot = function.rfind('.'); dot != std::string_view::npos) {
     const std::string_view own = function.substr(dot + 1);

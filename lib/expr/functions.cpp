@@ -1,3 +1,4 @@
+// The rows of operations.def as tables, in the order of the page. All are made at compile time.
 #include "expr/functions.h"
 
 #include <algorithm>
@@ -9,6 +10,7 @@ namespace gainsmith::expr {
 
 namespace {
 
+/// The number of names in "x, lo, hi".
 constexpr int count_of(std::string_view parameters) {
   return 1 + static_cast<int>(std::ranges::count(parameters, ','));
 }

@@ -57,6 +57,7 @@ const Function* find_function(std::string_view name);
 /// derivative, end, and, or, not.
 bool is_reserved(std::string_view name);
 
+/// In the order of the page, for suggestions.
 std::vector<std::string> function_names();
 
 /// The tables of docs/language.md, in Markdown.

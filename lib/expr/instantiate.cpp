@@ -36,12 +36,14 @@ std::optional<std::int64_t> value_of(const Node& node) {
   }
 }
 
+/// Replaces indices by numbers and members by names, in tree and text alike, and moves all places.
 class Instantiation {
  public:
   Instantiation(const Expression& expression, const std::map<std::string, int>& indices,
                 const std::map<std::string, Ranges>& families)
       : expression_(expression), indices_(indices), families_(families) {}
 
+  /// Pieces are sorted by place, so that the text is written in one pass.
   Expression run() {
     NodePtr root = changed(*expression_.root);
     if (replaced_.empty()) return expression_;
@@ -59,6 +61,7 @@ class Instantiation {
     std::string text;
   };
 
+  /// A leaf in place of a node. What was replaced inside of the node is covered by it.
   std::shared_ptr<Node> replaced(const Node& node, NodeKind kind, std::string text) {
     std::erase_if(replaced_, [&](const Piece& piece) {
       return node.begin <= piece.begin && piece.end <= node.end;
@@ -73,6 +76,7 @@ class Instantiation {
   }
 
   /// "P_2" when the node, whose arguments were changed, is a member.
+  /// None too where an index is not a number yet, or is outside of its range.
   std::optional<std::string> member(const Node& node) const {
     const auto family = families_.find(node.text);
     if (node.kind != NodeKind::call || family == families_.end() ||
@@ -88,6 +92,7 @@ class Instantiation {
     return member_name(node.text, values);
   }
 
+  /// Children first, so that an index of a member is a number when the member is named.
   NodePtr changed(const Node& node) {
     const bool binds = node.kind == NodeKind::each || node.kind == NodeKind::within;
     if (binds && indices_.contains(node.text))
@@ -110,6 +115,7 @@ class Instantiation {
     return result;
   }
 
+  /// The new text; each byte has the place of what was written there.
   Text written() const {
     const Text& old = *expression_.text;
     std::string text;
@@ -142,6 +148,7 @@ class Instantiation {
     return result;
   }
 
+  /// The tree with places in the new text.
   NodePtr moved(const Node& node) const {
     auto result = std::make_shared<Node>(node);
     result->begin = moved(node.begin);

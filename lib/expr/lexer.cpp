@@ -1,3 +1,5 @@
+// Numbers, names and symbols. What other languages write is recognised first, so that the message
+// says what to write here.
 #include "expr/lexer.h"
 
 #include <array>
@@ -113,6 +115,7 @@ constexpr auto kForeign = std::to_array<Foreign>({
     {"\xE2\x80\x9D", "this is a typographic quote; write \" around the whole formula"},
 });
 
+/// InputError for a character that begins no token. A character of UTF-8 is named as a whole.
 [[noreturn]] void refuse(const Text& text, std::size_t at) {
   const std::string_view rest = std::string_view(text.str()).substr(at);
   for (const auto& [spelling, advice] : kForeign)
@@ -128,6 +131,8 @@ constexpr auto kForeign = std::to_array<Foreign>({
 
 }  // namespace
 
+/// The longest symbol that fits is taken, as the table has longer ones first. White space separates
+/// tokens and is dropped.
 std::vector<Token> tokenize(const Text& text) {
   const std::string_view source = text.str();
   std::vector<Token> tokens;

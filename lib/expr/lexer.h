@@ -18,6 +18,7 @@ enum class TokenKind {
   end
 };
 
+/// A piece of the text, bytes begin ... end - 1.
 struct Token {
   TokenKind kind = TokenKind::end;
   std::string text;

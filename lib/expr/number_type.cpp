@@ -11,6 +11,8 @@ void singular(const Instruction& inverse) {
 
 void division_by_zero() { throw EvaluationError("division by zero"); }
 
+/// A root of hardly less than 0, above -1e-9, is likely to be rounding: the message says what to
+/// write.
 void outside_domain(Op op, double value) {
   constexpr double kHardlyNegative = 1e-9;
   const bool is_hardly = op == Op::sqrt && value < 0 && value > -kHardlyNegative;
@@ -31,6 +33,7 @@ void no_error_bound(Op op) {
                         " has no error bound, so nothing is proved with it");
 }
 
+/// Quotients, logarithms and roots may say more than the operation, as tan does at its pole.
 std::string said_of(const Instruction& instruction, const std::string& found) {
   using enum Op;
   const bool says = is_one_of(instruction.op, {divide, elementwise_quotient, log, sqrt});

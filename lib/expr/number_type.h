@@ -85,6 +85,7 @@ template <class Value>
 using Operands = std::span<const Value* const>;
 
 /// One instruction with the values of its operands.
+/// It lives as long as the call of one rule; instruction and operands are those of the evaluator.
 template <class Value>
 struct Step {
   const Instruction& instruction;
@@ -112,12 +113,14 @@ concept NumberType = std::default_initializable<typename Type::Value> &&
   type.apply(instruction, operands, out);
 };
 
+/// A type of rules has an overload for the operation.
 template <class Rules, class Value, Op op>
 concept Computes = requires(const Rules& rules, const Step<Value>& step, Value& out) {
   rules(Is<op>{}, step, out);
 };
 
 /// Calls the rule of the instruction's operation.
+/// std::logic_error for operations that are resolved before anything is computed.
 template <class Rules, class Value>
 void dispatch(const Rules& rules, const Instruction& instruction, Operands<Value> operands,
               Value& out) {

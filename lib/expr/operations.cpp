@@ -16,6 +16,7 @@ constexpr std::array kOperations = {
 #include "expr/operations.def"
 };
 
+/// The shape, or none where the operands do not fit.
 std::optional<Shape> when(bool holds, Shape shape) {
   return holds ? std::optional(shape) : std::nullopt;
 }
@@ -36,12 +37,15 @@ std::optional<Shape> layout_shape(std::span<const Shape> blocks, int columns) {
   return total;
 }
 
+/// Rows at[0] ... at[1] - 1 and columns at[2] ... at[3] - 1 of a matrix; they may be empty.
 std::optional<Shape> part_shape(Shape from, const Attributes& at) {
   const bool inside = 0 <= at[0] && at[0] <= at[1] && at[1] <= from.rows && 0 <= at[2] &&
                       at[2] <= at[3] && at[3] <= from.cols;
   return when(inside, {at[1] - at[0], at[3] - at[2]});
 }
 
+/// Of projections: x, the metric, and the rows A, b of a polytope, or the center, matrix and level
+/// of a quadratic form.
 std::optional<Shape> nearest_shape(ShapeRule rule, std::span<const Shape> operands) {
   const Shape point{operands[0].rows, 1}, square{point.rows, point.rows};
   const Shape rows{operands[2].rows, point.rows}, right{rows.rows, 1};
@@ -64,6 +68,7 @@ std::string to_string(Shape shape) {
   return std::to_string(shape.rows) + " x " + std::to_string(shape.cols);
 }
 
+/// One case a rule, in the order of ShapeRule.
 std::optional<Shape> result_shape(Op op, std::span<const Shape> operands,
                                   const Attributes& attributes, Shape wanted) {
   const int count = operation(op).operands;

@@ -15,6 +15,7 @@
 namespace gainsmith::expr {
 
 /// Every operation of the machine.
+/// In the order of the table.
 enum class Op {
 #define RESOLVED(op, ...) op,
 #define OPERATION(op, ...) op,
@@ -27,8 +28,8 @@ constexpr bool is_one_of(Op op, std::initializer_list<Op> list) {
   return std::find(list.begin(), list.end(), op) != list.end();
 }
 
-/// Whether its value is that of a problem: a projection, a search, a flow, an equation. Number types
-/// with bounds have none.
+/// Whether its value is that of a problem: a projection, a search, a flow, an equation. Number
+/// types with bounds have none.
 constexpr bool is_without_bounds(Op op) {
   using enum Op;
   return is_one_of(op, {project_polytope, project_ellipsoid, project_affine, project_convex,
@@ -78,6 +79,8 @@ enum class ShapeRule {
   flow_map           ///< A, s, ... -> r x c
 };
 
+/// Whole numbers of an instruction, such as the rows and columns of a part; their meaning is at the
+/// rows of the table.
 using Attributes = std::array<int, 4>;
 
 /// attributes[0] of an elementwise quotient by what is nothing but rounding where it should be 0: a
@@ -85,6 +88,7 @@ using Attributes = std::array<int, 4>;
 inline constexpr int kPoleWithinRounding = 1;
 
 /// One row of the table.
+/// What the machine knows of an operation; its meaning is in the rules of the number types.
 struct Operation {
   Op op;
   std::string_view identifier;  ///< as in Op

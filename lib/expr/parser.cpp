@@ -12,6 +12,7 @@ namespace gainsmith::expr {
 
 namespace {
 
+/// The relation of a token; none for other tokens.
 std::optional<Relation> relation_of(TokenKind kind) {
   switch (kind) {
     case TokenKind::less:
@@ -31,6 +32,7 @@ std::optional<Relation> relation_of(TokenKind kind) {
   }
 }
 
+/// The product or quotient of a token; none for other tokens.
 std::optional<NodeKind> factor_of(TokenKind kind) {
   switch (kind) {
     case TokenKind::star:
@@ -46,6 +48,7 @@ std::optional<NodeKind> factor_of(TokenKind kind) {
   }
 }
 
+/// One function for each rule of parser.h. It reads a token once and never goes back.
 class Parser : TokenCursor {
  public:
   using TokenCursor::TokenCursor;
@@ -132,6 +135,7 @@ class Parser : TokenCursor {
   static constexpr int kDeepest = 200;
   static constexpr int kTallest = 1000;
 
+  /// Counts nested calls; InputError at kDeepest. What ends a call, an exception too, counts down.
   struct Depth {
     explicit Depth(Parser& p) : parser(p) {
       if (++parser.depth_ > kDeepest) parser.fail("the expression is nested too deeply");
@@ -142,6 +146,7 @@ class Parser : TokenCursor {
     Parser& parser;
   };
 
+  /// A node from `begin` to the end of the last token. InputError for a tree above kTallest.
   std::shared_ptr<Node> make(NodeKind kind, std::size_t begin,
                              std::vector<NodePtr> children) const {
     auto node = std::make_shared<Node>();
@@ -155,6 +160,8 @@ class Parser : TokenCursor {
     return node;
   }
 
+  /// `or` binds less tightly than `and`, and `and` less than `not`; a lone operand is no node of
+  /// its own.
   NodePtr condition() {
     const Depth depth(*this);
     const std::size_t begin = here().begin;
@@ -178,6 +185,7 @@ class Parser : TokenCursor {
     return make(NodeKind::negation, begin, {inner});
   }
 
+  /// A chain a < b <= c is one node with its operands and relations.
   NodePtr comparison() {
     const std::size_t begin = here().begin;
     std::vector<NodePtr> operands = {sum()};
@@ -235,6 +243,7 @@ class Parser : TokenCursor {
 
   NodePtr sign() { return with_signs(&Parser::postfix); }
 
+  /// Signs before a factor or an exponent: -a^b is -(a^b), and 2^-1 is allowed.
   NodePtr with_signs(NodePtr (Parser::*read)()) {
     const Depth depth(*this);
     const std::size_t begin = here().begin;
@@ -246,6 +255,7 @@ class Parser : TokenCursor {
     return (this->*read)();
   }
 
+  /// Left to right: A'*B and x(1)^2 need no parentheses, and a^b^c is (a^b)^c.
   NodePtr postfix() {
     const std::size_t begin = here().begin;
     NodePtr value = primary();
@@ -291,6 +301,7 @@ class Parser : TokenCursor {
     return make(NodeKind::index, begin, std::move(arguments));
   }
 
+  /// A lone ":", a range a:b, an index, a box, or a condition, of which a number is one.
   NodePtr argument() {
     const std::size_t begin = here().begin;
     if (accept(TokenKind::colon)) return make(NodeKind::range, begin, {});
@@ -377,6 +388,7 @@ class Parser : TokenCursor {
     return table(begin, std::move(rows), 1);
   }
 
+  /// A block of these entries; one row where `columns` is 0.
   NodePtr table(std::size_t begin, std::vector<NodePtr> entries, std::size_t columns = 0) const {
     if (columns == 0) columns = entries.size();
     auto node = make(NodeKind::block, begin, std::move(entries));
@@ -384,6 +396,7 @@ class Parser : TokenCursor {
     return node;
   }
 
+  /// A "*" alone is the mirror of the entry across the diagonal.
   NodePtr entry() {
     const TokenKind after = here(1).kind;
     const bool alone = after == TokenKind::comma || after == TokenKind::semicolon ||

@@ -1,4 +1,4 @@
-// From tokens to a syntax tree.
+// From tokens to a syntax tree, by recursive descent: one function for each rule.
 //
 //   condition  := conjunction ("or" conjunction)*
 //   conjunction := negation ("and" negation)*
@@ -13,8 +13,9 @@
 //   primary    := number | name | "(" condition ")" | "[" row (";" row)* "]"
 //   row        := entry ("," entry)*;   entry := "*" | sum
 //   arguments  := argument ("," argument)*
-//   argument   := ":" | condition [":" comparison] | index
+//   argument   := ":" | condition [":" comparison] | index | box
 //   index      := name "in" sum ".." sum
+//   box        := name "in" "[" sum "," sum "]"
 #pragma once
 
 #include "expr/ast.h"
@@ -36,6 +37,7 @@ struct Index {
   Place place;
 };
 
+/// "i in 1..N" alone. InputError for anything else.
 Index parse_index(Text text);
 
 /// A left-hand side: "mu", "E(tau)", "f(a, b)", or of a family "L(i in 1..N)", "L(i in 1..N)(s)".
@@ -45,6 +47,7 @@ struct Signature {
   std::vector<Index> indices{};
 };
 
+/// InputError for a parameter or an index that is given twice.
 Signature parse_signature(Text text);
 
 }  // namespace gainsmith::expr

@@ -23,6 +23,7 @@ bool is_open(std::span<const Token> tokens, std::size_t at) {
 }
 
 /// What a unit is in base units, as it is written behind a number.
+/// SI prefixes as decimal powers, so that the number can be written as it is.
 std::optional<std::string_view> power_of_unit(std::string_view unit) {
   static constexpr auto kPowers = std::to_array<std::pair<std::string_view, std::string_view>>(
       {{"ms", "e-3"},  {"us", "e-6"},      {"ns", "e-9"},   {"mm", "e-3"}, {"cm", "e-2"},

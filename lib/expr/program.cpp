@@ -16,12 +16,16 @@ Instruction moved(Instruction instruction, const std::vector<int>& to) {
   return instruction;
 }
 
+/// "the variable", "the variable 2", ...: no name of the language has a space, so that none is
+/// captured.
 std::string variable_name(std::size_t k) {
   return k == 0 ? "the variable" : "the variable " + std::to_string(k + 1);
 }
 
 std::string other_name(std::size_t k) { return "operand " + std::to_string(k + 1); }
 
+/// Instruction by instruction; programs that differ in the order of their instructions are not the
+/// same.
 bool is_same(const Program& a, const Program& b) {
   const auto same_input = [](const Input& x, const Input& y) {
     return x.name == y.name && x.shape == y.shape;

@@ -1,5 +1,19 @@
 // An expression after names and shapes are known: a straight-line program over matrices, to be
 // evaluated over any number type (see evaluate.h).
+//
+// The room is the matrix language, from characters to numbers:
+//
+//   text.h, lexer.h, parser.h, ast.h   a text with its places, tokens, the syntax tree
+//   scope.h, compile.h, binder.h       names and shapes; a program of each text
+//   operations.def, operations.h       the table of operations, and the shapes of their results
+//   evaluate.h, number_type.h          the value of a program over a number type
+//   rewrite.h, substitute.h            programs with parts replaced
+//   derivative.h, branches.h           derivatives by rules; where a program is not smooth
+//
+// A program has no control flow, and no names but those of its inputs and of functions that are
+// linked later. Decimals are kept as written until a number type rounds them. So the same program
+// is evaluated in double, in 100 digits and in enclosures. Every instruction knows where it was
+// written, for messages.
 #pragma once
 
 #include <cstddef>
@@ -14,6 +28,8 @@ namespace gainsmith::expr {
 
 struct Program;
 
+/// One operation. Its operands are indices of earlier instructions of the same program, so that a
+/// program is evaluated from its first instruction to its last.
 struct Instruction {
   Op op = Op::constant;
   std::vector<int> operands;  ///< earlier instructions
@@ -31,6 +47,7 @@ struct Instruction {
   Place place() const { return origin ? origin->place(offset) : Place{}; }
 };
 
+/// A matrix that a program reads, by name.
 struct Input {
   std::string name;
   Shape shape;
@@ -43,6 +60,8 @@ Instruction made(Op op, std::vector<int> operands, Shape shape, const Instructio
 /// An instruction whose operands have moved: operand k is to[k] now.
 Instruction moved(Instruction instruction, const std::vector<int>& to);
 
+/// Code, what it reads, and which instruction is the result. `code` is not empty in a program that
+/// is compiled; an empty one represents the number 1 in combination() (rewrite.h).
 struct Program {
   std::vector<Instruction> code;
   std::vector<Input> inputs;

@@ -20,6 +20,7 @@ std::set<std::string> indices_of(const Node& node) {
   return indices;
 }
 
+/// `indices`: names that sums or boxes around the node bind.
 NodePtr changed(const Node& node, const Renaming& to, std::set<std::string> indices) {
   auto result = std::make_shared<Node>(node);
   if (is_named(node) && !indices.contains(node.text))
@@ -29,6 +30,7 @@ NodePtr changed(const Node& node, const Renaming& to, std::set<std::string> indi
   return result;
 }
 
+/// Calls `seen` for names and calls that no sum or box around them binds.
 void visit(const Node& node, const std::function<void(const Node&)>& seen,
            std::set<std::string> indices) {
   if (is_named(node) && !indices.contains(node.text)) seen(node);

@@ -14,6 +14,7 @@ using Renaming = std::function<std::optional<std::string>(const std::string&)>;
 
 /// The expression with other names for values, functions and events. An index of a sum keeps its
 /// own.
+/// Only trees change: messages quote the text as it was written.
 Expression renamed(const Expression& expression, const Renaming& to);
 
 /// Calls `visit` for each node that is a name or a call of one, an index of a sum left out.

@@ -27,6 +27,7 @@ int add_linked(Assembly& assembly, const Program& program, const BodyOf& body,
 
 }  // namespace
 
+/// Calls within bodies are linked on the way, however deep.
 Program link(const Program& program, const BodyOf& body) {
   if (program.functions.empty()) return program;
   Assembly assembly;
@@ -44,6 +45,7 @@ std::vector<const Instruction*> calls_in(const Program& program) {
   return calls;
 }
 
+/// The subprogram of the operand of the call.
 Program argument_of(const Program& program, const Instruction& call) {
   Program whole = program;
   whole.result = call.operands[0];
@@ -71,6 +73,7 @@ int Composer::apply(Op op, std::vector<int> operands, Shape shape, std::array<in
 
 int Composer::program(const Program& program) { return assembly_.add_program(program); }
 
+/// f_1 T_1 + f_2 T_2 + ... from left to right.
 Program combination(const std::vector<Program>& factors, const std::vector<std::string>& terms,
                     Shape shape, const Place& place) {
   Composer compose(place);
@@ -91,6 +94,7 @@ Program input_program(const std::string& name, Shape shape) {
   return compose.take(compose.input(name, shape));
 }
 
+/// P + s D as add(P, scale(s, D)).
 Program with_diagonal(const Program& program, const std::vector<std::string>& diagonal,
                       const std::string& name) {
   Assembly assembly;

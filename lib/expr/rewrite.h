@@ -39,11 +39,13 @@ class Composer {
  public:
   explicit Composer(const Place& place);
 
+  /// Each gives the index of an instruction. A decimal is kept as written.
   int number(const std::string& decimal);
   int input(const std::string& name, Shape shape = {});
   int apply(Op op, std::vector<int> operands, Shape shape = {}, std::array<int, 4> attributes = {});
   /// The result of another program over the same inputs.
   int program(const Program& program);
+  /// The program of one of them.
   Program take(int result) const { return assembly_.extract(result); }
 
  private:

@@ -31,6 +31,8 @@ struct Definition {
 };
 
 /// What binding asks of the values of known symbols.
+/// The only values that binding may depend on: they decide shapes and constants of programs, and
+/// must be the same whenever the program is used.
 class KnownValues {
  public:
   virtual ~KnownValues() = default;
@@ -39,7 +41,8 @@ class KnownValues {
   /// The number of singular values above tolerance * the largest one; without a tolerance above
   /// rounding.
   virtual int rank(const Program& matrix, const Program* tolerance) const = 0;
-  /// Exponents of two of the units in which A, n x n, and C, p x n, are near 1 (numerics/balance.h).
+  /// Exponents of two of the units in which A, n x n, and C, p x n, are near 1
+  /// (numerics/balance.h).
   virtual std::vector<int> units(const Program& A, const Program& C) const = 0;
   /// The elements of a gain, row by row (numerics/output_gain.h).
   virtual std::vector<double> output_gain(const Program& A, const Program& B, const Program& C,
@@ -71,6 +74,8 @@ using Ranges = std::vector<std::pair<int, int>>;
 /// "P_2", "P_1_3": under these names a scope has the members P(2), P(1, 3) of a family.
 std::string member_name(const std::string& family, const std::vector<int>& indices);
 
+/// A scope is a value: an inner one is a copy with more names. A parameter hides all else; of a
+/// name with several meanings the symbol comes first, then the definition, and the dimension last.
 struct Scope {
   std::map<std::string, int> dimensions;  ///< n, p, ...
   std::map<std::string, Symbol> symbols;

@@ -5,6 +5,7 @@
 
 namespace gainsmith::expr {
 
+/// The size of a matrix, 1 x 1 by default. Empty matrices, such as 0 x n, are allowed.
 struct Shape {
   int rows = 1;
   int cols = 1;

@@ -4,6 +4,7 @@
 
 namespace gainsmith::expr {
 
+/// The last instruction norm(v) becomes v'; one more is the product v'v, of a row v v'.
 std::optional<Program> square_of_norm(const Program& program) {
   const auto last = static_cast<std::size_t>(program.result);
   const Instruction& root = program.code[last];

@@ -14,6 +14,7 @@ namespace {
 std::size_t index(int at) { return static_cast<std::size_t>(at); }
 
 /// An assembly with products of several factors.
+/// Products are flat lists of factors here: a factor beside its inverse is left out with it.
 class Algebra {
  public:
   Assembly assembly;
@@ -22,6 +23,7 @@ class Algebra {
     return assembly.add(made(op, std::move(operands), shape, like));
   }
 
+  /// left * right; as it is where nothing cancels, so that the order of operations stays.
   int times(int left, int right, const Instruction& like) {
     std::vector<int> factors;
     bool shorter = false;
@@ -37,6 +39,7 @@ class Algebra {
     return product;
   }
 
+  /// inv(inv(A)) is A.
   int inverse(int square, const Instruction& like) {
     const Instruction& it = assembly[square];
     if (it.op == Op::inverse) return it.operands[0];
@@ -141,6 +144,7 @@ std::optional<int> undone(Algebra& algebra, const Instruction& one, std::size_t 
 
 }  // namespace
 
+/// The variable of a body is its own: no other name in it is replaced.
 Program substitute(const Program& program, const Replacements& replacements) {
   Algebra algebra;
   const Special special = [&](const std::string& name,
@@ -162,6 +166,8 @@ Program substitute(const Program& program, const Replacements& replacements) {
   return algebra.assembly.extract(result);
 }
 
+/// Program and parts are added to one assembly, where equal subexpressions are one instruction.
+/// Then the program is cut at the instructions of the parts.
 Program with_inputs(const Program& program,
                     const std::vector<std::pair<std::string, Program>>& parts) {
   if (!program.functions.empty()) throw std::logic_error("a call that was not linked");
@@ -191,6 +197,8 @@ Program with_inputs(const Program& program,
   return made.extract(moved[index(result)]);
 }
 
+/// From the result down to the part, each operation is undone by its inverse: f(part) = value
+/// becomes part = f^-1(value).
 std::optional<Program> isolated(const Program& program, const std::string& part,
                                 const std::string& variable, const std::string& value) {
   int target = -1;

@@ -14,6 +14,7 @@ namespace gainsmith::expr {
 
 /// What replaces names: inputs by programs of the same shape, functions by bodies. Names in the
 /// replacements are not replaced again.
+/// By name. What is not in them stays.
 struct Replacements {
   std::map<std::string, Program> inputs;
   std::map<std::string, Body> functions;

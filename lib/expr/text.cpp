@@ -7,6 +7,8 @@ namespace gainsmith::expr {
 
 namespace {
 
+/// A position for each byte and one for the end. Bytes after the first of a character of UTF-8 are
+/// in its column.
 std::vector<Position> consecutive(const std::string& text, Position at) {
   std::vector<Position> positions;
   positions.reserve(text.size() + 1);

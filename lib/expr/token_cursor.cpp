@@ -10,6 +10,7 @@ namespace gainsmith::expr {
 TokenCursor::TokenCursor(std::shared_ptr<const Text> text)
     : text_(std::move(text)), tokens_(tokenize(*text_)) {}
 
+/// The end is the token at all places behind it.
 const Token& TokenCursor::here(std::size_t ahead) const {
   return tokens_[std::min(at_ + ahead, tokens_.size() - 1)];
 }

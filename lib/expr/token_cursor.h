@@ -11,6 +11,7 @@
 
 namespace gainsmith::expr {
 
+/// A position in the tokens of one text. The last token is `end`, and the cursor does not pass it.
 class TokenCursor {
  public:
   explicit TokenCursor(std::shared_ptr<const Text> text);

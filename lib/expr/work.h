@@ -5,6 +5,7 @@
 
 namespace gainsmith::expr {
 
+/// Counts since the process began. They only grow.
 struct Work {
   std::uint64_t parsed = 0;    ///< calls of parse() (parser.h)
   std::uint64_t bound = 0;     ///< calls of compile() and compile_relations() (compile.h)

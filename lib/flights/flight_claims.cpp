@@ -23,6 +23,8 @@ constexpr double kLeast = -1e300;
 /// Of a flight, to see how large a claim of degree 3 to 5 becomes.
 constexpr int kHalvings = 3;
 
+/// The fields of one claim after a flight from those before it (FlightSystem::Field). `above` is
+/// `below` of the negated value.
 class ClaimCode {
  public:
   ClaimCode(FlightGraph& graph, const claims::Claim& claim, std::size_t number, int length)
@@ -45,6 +47,7 @@ class ClaimCode {
                   : is_.number(1);
   }
 
+  /// Appends the fields in the order of their places, each as a node.
   void make(Nodes& fields) {
     FlightSystem& made = graph_.made();
     const FlightSystem::Places& places = made.places[number_];
@@ -85,6 +88,8 @@ class ClaimCode {
   }
 
   /// Of the value anywhere up to s.
+  /// kErrorOfFlights sum_j |p_j - q_j| s^j + (kTermRounding + 8 u) sum_j size_j s^j. The
+  /// coefficients count with their absolute values, so that the bound holds all along the flight.
   int error_up_to(int s) {
     Nodes apart;
     for (std::size_t j = 0; j < along_.first.value.size(); ++j)
@@ -98,7 +103,7 @@ class ClaimCode {
                    is_.part(hybrid::kTermRounding + 8 * kUnitRoundoff, size));
   }
 
-  /// B_0 ... B_n on [0, length].
+  /// B_0 ... B_n on [0, length]: B_k = sum_{j<=k} C(k, j)/C(n, j) c_j length^j.
   Nodes bernstein(const Nodes& c) {
     const std::size_t n = c.size() - 1;
     Nodes scaled;
@@ -142,6 +147,7 @@ class ClaimCode {
   }
 
   /// By the coefficients of halves of halves: those at their ends are values.
+  /// De Casteljau's algorithm at 1/2, three times over: eight parts.
   void widen(const Nodes& b, int halvings, std::pair<int, int>& highest) {
     if (halvings == 0) {
       for (const int one : b) highest.second = is_.most(highest.second, one);
@@ -158,6 +164,9 @@ class ClaimCode {
     widen(right, halvings - 1, highest);
   }
 
+  /// Held where most + error <= limit, violated where the attained top exceeds limit + error,
+  /// otherwise the flight is not ok. A claim over jumps is compared at the start of the flight
+  /// after them.
   void compare_with_bound() {
     const Value& at = claim_.over ? start_ : end_;
     const int always = is_.number(claim_.always ? 1 : 0);
@@ -180,6 +189,9 @@ class ClaimCode {
     graph_.require_true(is_.is_at_least_0(is_.minus(near, is_.minus(most, peak))));
   }
 
+  /// v(t) <= the least v so far, at the start of the flight and along it. It falls along the flight
+  /// where all differences of coefficients exceed twice the error; or its size is below the
+  /// accuracy times |v(0)|.
   void compare_with_before() {
     int compares = is_.both(counts_, is_.no(begins_));
     // A jump that leaves it bit by bit.
@@ -200,6 +212,9 @@ class ClaimCode {
     keep_extremes(end_, is_.number(1));
   }
 
+  /// Held where v + error <= the least v - error so far. Otherwise the flight is ok only where the
+  /// value is below `least` of the value at the start, which `floor` notes. Violations are left to
+  /// steps.
   void compare_at(const Value& at, int compares) {
     const int above_high = is_.minus(at.value, field_[Flown::high]);
     const int above_low = is_.minus(at.value, field_[Flown::low]);
@@ -250,6 +265,8 @@ class ClaimCode {
 
 }  // namespace
 
+/// The fields that a kind keeps: bounds keep their peak, `shrinks` both ends, `nonincreasing` the
+/// extremes so far.
 FlightSystem::Places places_of(const PackClaim& claim, std::size_t& next) {
   std::vector<Flown::Field> kept = {Flown::peak, Flown::violated};
   if (claim.kind == ClaimKind::shrinks)

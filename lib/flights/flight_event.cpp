@@ -13,8 +13,9 @@ using model::Dynamics;
 
 namespace {
 
+/// Later than any event; the end of the flight is then the horizon.
 constexpr double kNoTime = 1e300;
-/// Of all watches: each asks for all conditions.
+/// The most roots of all watches together, as the conditions of all events are evaluated at each.
 constexpr std::size_t kMostRoots = 8;
 
 /// Whether something is certainly so, and whether it may be.
@@ -27,6 +28,8 @@ struct Side {
   int sign = 0, known = 0;
 };
 
+/// Finds the end of one flight, as nodes: all candidates are computed in all lanes, and the
+/// earliest one at which an event may be due is picked.
 class EventFinder {
  public:
   explicit EventFinder(FlightGraph& graph)
@@ -88,6 +91,8 @@ class EventFinder {
     std::size_t watch = 0;
   };
 
+  /// The rate c_1 + 2 c_2 s at the root, and what the second run has there: its own root is
+  /// other/rate earlier, to first order.
   Candidate candidate(int time, std::size_t w) {
     const Nodes& c = watches_[w].first.value;
     int rate = is_.number(0);
@@ -96,6 +101,8 @@ class EventFinder {
     return {time, rate, first_.at(watches_[w].second, time), w};
   }
 
+  /// A discriminant within its error of 0 may be a touch, which is left open. The error is the
+  /// first-order effect of the errors of c_0, c_1 and c_2, and kTouches of its terms.
   void add_candidates(std::size_t w, std::vector<Candidate>& candidates) {
     const FlightPair& watch = watches_[w];
     const std::size_t degree = watch.first.degree();
@@ -154,6 +161,7 @@ class EventFinder {
     return sides;
   }
 
+  /// Certain: true for all sides that are not known. Possible: true for some of them, part by part.
   Certainty truth(const WatchedCondition& condition, const std::vector<Side>& sides) {
     using Kind = expr::Condition::Kind;
     const int one = is_.number(1);
@@ -194,6 +202,9 @@ class EventFinder {
 
   // --- The event that ends the flight. ---
 
+  /// Requires that nothing is due at the start, that flow sets hold there, and that the event which
+  /// may come first is sure. No root may be near the horizon, and both runs have nearly one root
+  /// (kApart).
   FlightEnd find_event() {
     FlightEnd end{0, 0, is_.number(-1), {}};
     std::vector<Side> at_start = sides_;

@@ -15,6 +15,7 @@ FlightGraph::FlightGraph(const PackSystem& pack, FlightSystem& made)
       second_(texts_, second_inputs(), false),
       ok_(is_.number(1)) {}
 
+/// The values of the second run are the inputs behind those of the first.
 Nodes FlightGraph::second_inputs() {
   Nodes x;
   for (std::size_t k = 0; k < pack_.whole; ++k)
@@ -22,6 +23,8 @@ Nodes FlightGraph::second_inputs() {
   return x;
 }
 
+/// q(s - shift) to first order: the coefficients q_j - (j + 1) shift q_{j+1}. The second run began
+/// its flight `shift` later, as its root was later.
 FlightPair FlightGraph::pair(const Series& first, const Series& second) {
   FlightPair made{first, second.value};
   const int shift = input(FlightSystem::shift);
@@ -33,6 +36,7 @@ FlightPair FlightGraph::pair(const Series& first, const Series& second) {
   return made;
 }
 
+/// kErrorOfFlights |p_j - q_j| + kTermRounding size_j.
 int FlightGraph::error_of(const FlightPair& one, std::size_t j) {
   const int apart = is_.abs(is_.minus(one.first.value[j], one.second[j]));
   return is_.add(is_.part(kErrorOfFlights, apart),

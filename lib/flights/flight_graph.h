@@ -14,6 +14,8 @@ struct FlightPair {
   Nodes second;
 };
 
+/// One graph for the whole flight: the texts, both runs, and one truth value `ok` that collects all
+/// that has to be certain.
 class FlightGraph {
  public:
   /// All must outlive it. NoFormula (numbers/scalar_rules.h) where values are no polynomials.

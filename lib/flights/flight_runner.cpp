@@ -58,6 +58,7 @@ void FlightRunner::refill() {
   if (fresh != 0) set_limits(fresh);
 }
 
+/// Both runs begin at the same drawn values; they part by moves alone.
 void FlightRunner::begin(std::size_t l, std::uint64_t run) {
   runs_[l] = run;
   moves_[l] = packs::Moves(run);
@@ -112,6 +113,8 @@ void FlightRunner::fly() {
   if (goes_on != 0) arrive(goes_on);
 }
 
+/// The ends of both runs become the values before the jump. Lanes with the same event jump
+/// together.
 void FlightRunner::arrive(std::uint32_t mask) {
   const LaneMask moved(mask);
   for (std::size_t k = 0; k < flights_.rows; ++k) {
@@ -138,6 +141,8 @@ void FlightRunner::arrive(std::uint32_t mask) {
   }
 }
 
+/// Notes the flight, and ends runs whose jumps accumulate. After kInARow flights below kHardly of
+/// the horizon a run is left open.
 std::uint32_t FlightRunner::watch_zeno(std::uint32_t mask) {
   const std::size_t at = ++number_ % kept;
   std::copy_n(result(Flown::length), kLanes, lengths_[at].begin());

@@ -10,6 +10,9 @@ using numbers::NoFormula;
 using numbers::ScalarGraph;
 using numbers::ScalarOp;
 
+/// Picard's iteration x_{i+1}(s) = x(0) + int_0^s f(x_i(u)) du, from x_0 = x(0). Of a nilpotent
+/// flow it comes to rest after as many passes as the flow has integrators in a row: then x_i is the
+/// solution. At rest means equal nodes, so that the test is exact.
 FlightSeries::FlightSeries(PackGraph& texts, const Nodes& x, bool sizes)
     : texts_(texts), graph_(texts.graph()), x_(x), sizes_(sizes) {
   for (const int node : x) values_.push_back(constant(node));
@@ -38,6 +41,7 @@ Series FlightSeries::constant(int node) {
   return {{node}, sizes_ ? Nodes{graph_.apply(ScalarOp::abs, node)} : Nodes{}};
 }
 
+/// Drops leading coefficients that are the constant 0.
 void FlightSeries::trim(Series& series) {
   while (series.value.size() > 1 && graph_.is_zero(series.value.back())) {
     series.value.pop_back();
@@ -46,6 +50,7 @@ void FlightSeries::trim(Series& series) {
   if (series.degree() > most_degree) throw NoFormula();
 }
 
+/// start + sum_j rate_j s^(j+1)/(j + 1).
 Series FlightSeries::integral(int start, const Series& rate) {
   Series made = constant(start);
   for (std::size_t j = 0; j < rate.value.size(); ++j) {
@@ -65,6 +70,8 @@ Series FlightSeries::of_node(int node) {
   return made;
 }
 
+/// Sums and products of polynomials, quotients by what rests along flows. All other operations have
+/// a polynomial only where their operands rest.
 Series FlightSeries::made_of(int node) {
   const ScalarGraph::Node one = graph_.nodes()[index(node)];
   switch (one.op) {
@@ -109,6 +116,7 @@ Series FlightSeries::combined(const Series& a, const Series& b, bool negated) {
   return made;
 }
 
+/// Cauchy's product c_k = sum_{i+j=k} a_i b_j; the sizes multiply alike.
 Series FlightSeries::product(const Series& a, const Series& b) {
   const std::size_t terms = a.value.size() + b.value.size() - 1;
   Series made{Nodes(terms, graph_.constant(0)), Nodes(sizes_ ? terms : 0, graph_.constant(0))};
@@ -148,6 +156,7 @@ Series FlightSeries::chosen(const ScalarGraph::Node& one) {
   return yes;
 }
 
+/// Horner's rule.
 int FlightSeries::at(const Nodes& coefficients, int s) {
   int sum = coefficients.back();
   for (std::size_t j = coefficients.size() - 1; j-- > 0;)

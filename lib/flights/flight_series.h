@@ -18,6 +18,8 @@ using packs::index;
 using packs::Nodes;
 using packs::PackGraph;
 
+/// A polynomial in the time s since the start of a flight, as nodes. `size` of a coefficient is the
+/// sum of the absolute values of its terms, by which rounding is measured.
 struct Series {
   Nodes value;  ///< coefficients of 1, s, s^2, ...
   Nodes size;   ///< of their terms; none where sizes are not asked for
@@ -26,6 +28,8 @@ struct Series {
   bool operator==(const Series&) const = default;
 };
 
+/// The values of one run along a flight, as polynomials whose coefficients are nodes over the
+/// inputs.
 class FlightSeries {
  public:
   static constexpr std::size_t most_degree = 5;
@@ -42,6 +46,7 @@ class FlightSeries {
   }
 
   /// Of a node that is made of the values.
+  /// It is computed once for each node.
   Series of_node(int node);
   /// Its value, and the size of its terms, at s.
   int at(const Nodes& coefficients, int s);

@@ -36,6 +36,8 @@ void add_ends(FlightGraph& graph, const FlightEnd& end, std::vector<Nodes>& resu
   }
 }
 
+/// The order matters: the end of the flight is found first, since claims are compared up to it. The
+/// fields of claims are fed back to their inputs, so that they carry over from flight to flight.
 void make_code(const PackSystem& pack, const std::vector<claims::Claim>& claims,
                FlightSystem& made) {
   made.whole = pack.whole;
@@ -63,6 +65,9 @@ void make_code(const PackSystem& pack, const std::vector<claims::Claim>& claims,
 }
 
 /// What flights leave to steps whatever the texts are.
+/// Plain are systems with events by conditions or crossings alone, without clocks, noise, costs,
+/// kinks, branches and lost events. Claims with `after`, a tolerance or a cost are left to steps
+/// too.
 bool may_fly(const PackSystem& pack, const std::vector<claims::Claim>& claims) {
   const model::Dynamics& dynamics = pack.system->dynamics;
   const bool has_branches = std::any_of(pack.watches.begin(), pack.watches.end(),

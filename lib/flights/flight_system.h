@@ -5,10 +5,10 @@
 //   x(s) = sum_j c_j s^j,   s* = the first root of a watch after which an event is due
 //
 // A run is made twice. The second is moved after each flight by up to kMoved of the size of all
-// terms, at random, and at jumps (packs/moves.h). It has roots of its own. What both differ by, times
-// kErrorOfFlights, and the rounding of terms is the error of a value. A flight is *ok* where all signs,
-// the order of events and the comparisons of claims are certain by that. Otherwise the run is left to
-// steps (packs/lane_set.h).
+// terms, at random, and at jumps (packs/moves.h). It has roots of its own. What both differ by,
+// times kErrorOfFlights, and the rounding of terms is the error of a value. A flight is *ok* where
+// all signs, the order of events and the comparisons of claims are certain by that. Otherwise the
+// run is left to steps (packs/lane_set.h).
 //
 // Inputs, in this order: the values of the first run, then of the second; then as `Input` says; a
 // move in [-1, 1) for each of the rows; of each claim its limit (ClaimLane) and its fields so far.
@@ -33,6 +33,8 @@ using packs::Watch;
 using packs::Watched;
 using packs::WatchedCondition;
 
+/// The code of a flight and where its inputs and results are. It is made once and read by all
+/// threads.
 struct FlightSystem {
   enum Input : std::size_t {
     shift,   ///< how much later the root of the second run was, before the last jump
@@ -70,12 +72,15 @@ struct FlightSystem {
   /// Of each field its place among those of all claims; -1: the claim has none.
   using Places = std::array<int, fields_of_claim>;
 
+  /// Values of the system, values that move, claims that are stated.
   std::size_t whole = 0, rows = 0, claims = 0;
   std::vector<std::size_t> crossings;  ///< the events with one
   std::vector<Places> places;          ///< by claim
   std::size_t fields_in_all = 0;
   std::optional<lanes::LaneCode> code;
 
+  /// Positions of inputs: of `Input`, of the move of row k, of a limit, of a field of a claim, and
+  /// of the side that a crossing had before.
   std::size_t at(Input input) const { return 2 * whole + input; }
   std::size_t move_of_row(std::size_t k) const { return 2 * whole + inputs + k; }
   std::size_t limit_of(std::size_t claim) const { return 2 * whole + inputs + rows + claim; }
@@ -86,6 +91,7 @@ struct FlightSystem {
   std::size_t side_before(std::size_t crossing) const {
     return limit_of(claims) + fields_in_all + crossing;
   }
+  /// How many inputs the code has.
   std::size_t all_inputs() const { return side_before(crossings.size()); }
 };
 

@@ -1,4 +1,7 @@
 // Operations on the nodes of a scalar graph, with decisions as numbers.
+//
+// Lanes do not branch: both results are computed, and `pick` takes one of them. So a decision that
+// is known when the graph is made costs nothing.
 #pragma once
 
 #include "numbers/scalar_graph.h"
@@ -16,6 +19,7 @@ class LaneTerms {
   int minus(int a, int b) { return graph_.subtract(a, b); }
   int minus(int a) { return graph_.negate(a); }
   int times(int a, int b) { return graph_.multiply(a, b); }
+  /// a b of a number a; the larger of two; the root of what is positive, otherwise 0.
   int part(double a, int b) { return graph_.multiply(number(a), b); }
   int abs(int a) { return graph_.apply(numbers::ScalarOp::abs, a); }
   int most(int a, int b) { return graph_.apply(numbers::ScalarOp::maximum, a, b); }
@@ -25,10 +29,12 @@ class LaneTerms {
     const int is = is_positive(abs(b));
     return pick(is, graph_.divide(a, pick(is, b, number(1))), number(otherwise));
   }
+  /// 1 or -1; -1 of 0.
   int sign(int a) { return pick(is_positive(a), number(1), number(-1)); }
 
   int is_positive(int a) { return graph_.where(true, a, number(1), number(0)); }
   int is_at_least_0(int a) { return graph_.where(false, a, number(1), number(0)); }
+  /// a == b, of finite a.
   int is_equal(int a, double b) { return no(is_positive(abs(minus(a, number(b))))); }
   int no(int a) { return pick(a, number(0), number(1)); }
   int both(int a, int b) { return a == b ? a : pick(a, b, number(0)); }

@@ -1,3 +1,5 @@
+// The text "[B_11, B_12; *, B_22] < 0" put together from the blocks, and parsed like any other.
+// Each character keeps its place in the file, so that errors are shown at the block.
 #include "io/blocks_yaml.h"
 
 #include <algorithm>
@@ -19,8 +21,10 @@ class NamedBlocks {
     if (names_.empty()) throw InputError(place_, "blocks: expected rows, name: {name: block}");
   }
 
+  /// The inequality of the whole matrix, n x n blocks by n names.
   expr::Expression compared(const YamlItem& is) {
     const expr::Text relation = file_.scalar(is.value, "is");
+    // Nothing precedes the sign: the left side is made here.
     const char* const kExpected = "is: expected a comparison with 0, < 0 or \"> 0\"";
     if (relation.str().find_first_of("<>") != relation.str().find_first_not_of(' '))
       throw InputError(relation.place(0), kExpected);
@@ -42,6 +46,7 @@ class NamedBlocks {
   }
 
  private:
+  /// The row of a name; a new name gets the next one.
   std::size_t at(const std::string& name) {
     const auto found = std::find(names_.begin(), names_.end(), name);
     if (found != names_.end()) return static_cast<std::size_t>(found - names_.begin());
@@ -59,6 +64,8 @@ class NamedBlocks {
     entries_.emplace(std::pair(i, j), file_.scalar(entry.value, entry.key));
   }
 
+  /// Element (i, j): "*" below the diagonal, the block, or the transpose of the one given at (j,
+  /// i).
   void add_entry(std::size_t i, std::size_t j, TextComposer& composer) const {
     if (i > j) return composer.punctuation("*", place_);
     if (const auto above = entries_.find({i, j}); above != entries_.end())

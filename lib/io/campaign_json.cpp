@@ -1,5 +1,5 @@
+// Campaigns as JSON: writer and reader of each record are beside each other.
 #include "io/campaign_json.h"
-
 
 #include "base/hash.h"
 #include "io/figures_json.h"
@@ -12,6 +12,7 @@ namespace {
 
 Json optional_json(const auto& value) { return value ? Json(*value) : Json(); }
 
+/// A claim: of one that is not stated what it lacks, of others the worst sample at (t, j).
 Json check_json(const model::ClaimRecord& check) {
   Json result = {{"claim", check.name}, {"kind", check.kind}, {"stated", check.stated}};
   if (!check.stated) {
@@ -76,6 +77,7 @@ model::CampaignVerdict campaign_verdict_of(const JsonReader& reader) {
   reader.fail("expected held, violated or undecided");
 }
 
+/// The first run of a kind and why it is open; none where the key is not there.
 std::optional<model::OpenRunRecord> open_run(const JsonReader& reader, const char* key) {
   if (!reader.has(key)) return std::nullopt;
   const JsonReader run = reader.at(key);

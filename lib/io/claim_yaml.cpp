@@ -1,3 +1,5 @@
+// A claim is one of five kinds, and each kind has keys of its own; a key of another kind is an
+// error.
 #include "io/claim_yaml.h"
 
 #include "expr/parser.h"
@@ -8,6 +10,7 @@ namespace {
 
 using model::ClaimKind;
 
+/// integral of flow + sum of jump <= below, each part optional.
 void read_cost(const YamlFile& file, const YamlItem& cost, const YamlItem& below,
                model::Claim& claim) {
   YamlMap parts(file, cost.value, "cost", keys::cost);
@@ -79,6 +82,7 @@ model::Claim claim(const YamlFile& file, const YamlItem& item) {
   result.name = signature.name;
   result.indices = signature.indices;
   result.place = item.place;
+  // These two are about the whole run: no part of it can be left out.
   for (const auto& part : {after, over})
     if (part && (result.kind == ClaimKind::cost || result.kind == ClaimKind::shrinks))
       throw InputError(part->place, part->key + ": of the claims nonincreasing, below and above");

@@ -1,3 +1,5 @@
+// Plants and observers. A component that is `like` an earlier one starts as its copy: own entries
+// replace those of their names, `none` removes, the rest is added behind.
 #include "io/component_yaml.h"
 
 #include <algorithm>
@@ -19,6 +21,8 @@ using model::Component;
 /// The names of a mapping whose value is `none`.
 using Removed = std::set<std::string>;
 
+/// The items of a mapping; of a component that is `like` another without those that are `none`,
+/// whose names go to `removed`.
 std::vector<YamlItem> items_without(const YamlFile& file, const std::optional<YamlItem>& item,
                                     const std::string& what, bool like, Removed& removed) {
   // A YAML::Node that is assigned to changes what it referred to: items are copied, never moved.
@@ -73,6 +77,7 @@ model::Output output(const YamlFile& file, const YamlItem& item) {
   return result;
 }
 
+/// "K: ...", "K(i): ...": signatures with their bodies.
 std::vector<model::Let> definitions(const YamlFile& file, const std::vector<YamlItem>& items) {
   std::vector<model::Let> result;
   for (const YamlItem& item : items)
@@ -81,6 +86,7 @@ std::vector<model::Let> definitions(const YamlFile& file, const std::vector<Yaml
   return result;
 }
 
+/// The rate or the new value of a state, where a list of numbers is a column.
 model::Named assignment(const YamlFile& file, const YamlItem& item) {
   return {item.key, matrix_of(file, item), item.place};
 }
@@ -123,6 +129,7 @@ model::PassText pass(const YamlFile& file, const YamlItem& item) {
   map.finish();
   if (let) result.let = definitions(file, items_of(file, let, "let"));
   read_map(file, repeated, "repeat", result);
+  // `at_most` goes with `until`, `times` with neither.
   if (at_most.has_value() == times.has_value() || until.has_value() != at_most.has_value())
     throw InputError(item.place,
                      "a loop is {repeat: map, until: condition, at_most: N} or {repeat: map, "
@@ -154,6 +161,7 @@ model::ReactionText reaction(const YamlFile& file, const YamlItem& item) {
   return result;
 }
 
+/// "while: {c: condition, say: text}": where it may flow, and what is said of a run that leaves it.
 std::vector<model::FlowSetText> flow_sets(const YamlFile& file,
                                           const std::optional<YamlItem>& item) {
   std::vector<model::FlowSetText> result;
@@ -200,6 +208,7 @@ void require_replacing(const YamlFile& file, const YamlItem& item, const YamlIte
   }
 }
 
+/// The component that this one is `like`, which precedes it; an empty one without `like`.
 Component copied(const YamlFile& file, const std::optional<YamlItem>& like,
                  const std::vector<Component>& before) {
   if (!like) return {};
@@ -215,6 +224,7 @@ Component copied(const YamlFile& file, const std::optional<YamlItem>& like,
 
 }  // namespace
 
+/// Sections in the order of the tables. Each replaces entries of the copy that `like` made.
 Component component(const YamlFile& file, const YamlItem& item,
                     const std::vector<Component>& before,
                     std::vector<model::MeasuredText>* measured) {
@@ -227,6 +237,7 @@ Component component(const YamlFile& file, const YamlItem& item,
   result.name = item.key;
   result.place = item.place;
   if (const auto family = map.find("for")) result.indices = indices(file, family);
+  // Reads one section: own entries over those of the copy, `none` removes.
   const auto read = [&](const char* key, auto& list, auto&& one) {
     Removed removed;
     std::vector<std::decay_t<decltype(list.front())>> own;
@@ -256,6 +267,7 @@ Component component(const YamlFile& file, const YamlItem& item,
   return result;
 }
 
+/// A value alone is the deviation; a mapping may have a center and a covariance.
 std::optional<Spread> spread(const YamlFile& file, YamlMap& map, const std::string& mean,
                              const std::string& median) {
   const auto normal = map.find("normal");

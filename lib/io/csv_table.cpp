@@ -1,3 +1,5 @@
+// Tables of CSV in one pass: cells are ranges of the text, and become texts or numbers when they
+// are asked for.
 #include "io/csv_table.h"
 
 #include <algorithm>
@@ -12,6 +14,7 @@ namespace gainsmith::io {
 
 namespace {
 
+/// What around a cell does not count.
 bool is_blank_cell(char c) { return c == ' ' || c == '\t'; }
 
 /// Also a carriage return alone.
@@ -31,10 +34,12 @@ bool is_with_unit(const std::string& name, const std::string& column) {
 
 CsvTable::CsvTable(std::string text, std::string path, FirstLine first)
     : text_(std::move(text)), path_(std::move(path)) {
+  // The byte order mark that some programs write in front.
   if (text_.starts_with("\xEF\xBB\xBF")) text_.erase(0, 3);
   read(first);
 }
 
+/// Comments, empty lines, a heading, names and units are told apart in the order of the lines.
 void CsvTable::read(FirstLine first) {
   bool is_first = true;
   bool may_be_units = true;
@@ -80,6 +85,7 @@ void CsvTable::read(FirstLine first) {
   if (lines_.empty()) throw InputError({path_, 1, 1}, "there is no row below the column names");
 }
 
+/// Quoted cells may hold ends of lines: `number` then grows by more than one.
 std::vector<CsvTable::Cell> CsvTable::line(std::size_t& at, int& number, std::size_t& begin) const {
   std::vector<Cell> cells;
   while (true) {
@@ -135,6 +141,7 @@ void CsvTable::read_header(const std::vector<Cell>& cells, const Line& line) {
                      "the columns are separated by semicolons; expected commas");
 }
 
+/// No cell is quoted or begins as a number, behind signs and a point.
 bool CsvTable::are_units(const std::vector<Cell>& cells) const {
   return std::all_of(cells.begin(), cells.end(), [&](const Cell& one) {
     const std::string word = text(one);
@@ -155,6 +162,7 @@ bool CsvTable::is_heading(const std::vector<Cell>& cells) const {
   });
 }
 
+/// A doubled quotation mark within a quoted cell is one.
 std::string CsvTable::text(const Cell& cell) const {
   std::string result = text_.substr(cell.begin, cell.end - cell.begin);
   if (!cell.quoted) return result;
@@ -175,6 +183,7 @@ std::optional<std::size_t> CsvTable::find(const std::string& column) const {
   return static_cast<std::size_t>(found - names_.begin());
 }
 
+/// The line of units precedes a unit in the name.
 std::string CsvTable::unit(std::size_t column) const {
   if (!units_.empty() && !units_[column].empty()) {
     const std::string& unit = units_[column];
@@ -208,6 +217,7 @@ Place CsvTable::place(std::size_t row, std::size_t column) const {
   return place(lines_[row], cell(row, column));
 }
 
+/// A line that is broken within quotation marks is walked through to find its part.
 Place CsvTable::place(const Line& line, const Cell& cell) const {
   const std::size_t at = cell.begin - (cell.quoted ? 1U : 0U);
   Place place{path_, line.number, 0};

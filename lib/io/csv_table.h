@@ -2,9 +2,9 @@
 //
 // Lines end with LF or CRLF; cells are separated by commas, may be quoted, and spaces around them
 // do not count. Empty lines and those that begin with # are left out; so is a line of units below
-// the names, in which no cell begins as a number does. A name may end with its unit, as in
-// "angle [deg]", and is found
-// without it where it is the only one. Errors name file, line and column of the CSV itself.
+// the names, in which no cell begins as a number does. A name may end with its unit, as in "angle
+// [deg]", and is found without it where it is the only one. Errors name file, line and column of
+// the CSV itself.
 #pragma once
 
 #include <optional>
@@ -15,6 +15,7 @@
 
 namespace gainsmith::io {
 
+/// A table, which owns its text. Rows and columns count from 0; the text of cells is UTF-8.
 class CsvTable {
  public:
   /// `row`: the first line is a row, the columns are called 1, 2, ...; but it is left out when
@@ -34,9 +35,11 @@ class CsvTable {
   std::string unit(std::size_t column) const;
   /// InputError at `place`, which names the column, when there is none, with the nearest spelling.
   std::size_t column(const std::string& name, const Place& place) const;
+  /// The text of a cell, without its quotation marks.
   std::string text(std::size_t row, std::size_t column) const;
   /// None of an empty cell. InputError for what is no finite decimal number.
   std::optional<double> number(std::size_t row, std::size_t column) const;
+  /// Where a cell begins, its quotation mark included.
   Place place(std::size_t row, std::size_t column) const;
 
  private:
@@ -52,7 +55,8 @@ class CsvTable {
   };
 
   void read(FirstLine first);
-  /// The cells of the line that begins at `at`, which is moved behind it; `number` and `begin`: of the line that `at` is in.
+  /// The cells of the line that begins at `at`, which is moved behind it; `number` and `begin`: of
+  /// the line that `at` is in.
   std::vector<Cell> line(std::size_t& at, int& number, std::size_t& begin) const;
   Cell cell(std::size_t& at, int& number, std::size_t& line_begin) const;
   void read_header(const std::vector<Cell>& cells, const Line& line);

@@ -1,3 +1,5 @@
+// Matrices of files: by the key of their format to its reader, then as a text of the language with
+// the decimals of the file.
 #include "io/data_file_yaml.h"
 
 #include <array>
@@ -23,6 +25,7 @@ struct Wanted {
   Place place;       ///< of that name, or of the path
 };
 
+/// A format of files, by the key that names it in a problem.
 struct Format {
   const char* key;
   bool has_names;  ///< one file may hold several matrices
@@ -57,6 +60,7 @@ model::Value value(const YamlItem& item, const FileMatrix& found, const std::str
   const expr::Position here{place.line, place.column};
   std::vector<expr::Position> positions = {here};
   for (std::size_t k = 0; k < matrix.elements.size(); ++k) {
+    // A formula keeps where its characters come from: here each element where it is in its file.
     const expr::Position at = found.positions.empty() ? here : found.positions[k];
     if (k > 0) text += k % static_cast<std::size_t>(matrix.cols) == 0 ? ';' : ',';
     text += matrix.elements[k];
@@ -74,6 +78,7 @@ model::Value value(const YamlItem& item, const FileMatrix& found, const std::str
           file + (matrix.key.empty() ? "" : ": " + matrix.key)};
 }
 
+/// The keys of all formats, for suggestions.
 std::vector<std::string> format_keys() {
   std::vector<std::string> keys;
   for (const Format& format : kFormats) keys.emplace_back(format.key);

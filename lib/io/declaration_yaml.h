@@ -13,6 +13,7 @@ namespace gainsmith::io {
 /// Nothing of an absent item.
 std::optional<expr::Expression> optional_expression(const YamlFile& file,
                                                     const std::optional<YamlItem>& item);
+/// Empty where the item is absent.
 std::string optional_string(const YamlFile& file, const std::optional<YamlItem>& item);
 
 /// The texts of a key that takes one or a list of them.

@@ -1,3 +1,5 @@
+// Plant, observers, events, inputs and noise. The short form of a method with one clock, `timer`
+// and `jump`, becomes an event and what components do at it: other rooms know events alone.
 #include "io/dynamics_yaml.h"
 
 #include <utility>
@@ -114,6 +116,7 @@ model::Component single(const YamlFile& file, const YamlItem& item,
   return result;
 }
 
+/// `observer` is first, then those of `observers`, each of which may be `like` one before it.
 void read_observers(const YamlFile& file, const std::optional<YamlItem>& one,
                     const std::optional<YamlItem>& several, model::Method& method) {
   if (one) method.observers.push_back(single(file, *one, nullptr));
@@ -122,6 +125,7 @@ void read_observers(const YamlFile& file, const std::optional<YamlItem>& one,
     method.observers.push_back(component(file, item, method.observers));
 }
 
+/// The list of events of `order`.
 std::vector<std::string> names(const YamlFile& file, const std::optional<YamlItem>& item) {
   std::vector<std::string> result;
   if (!item) return result;
@@ -157,6 +161,7 @@ void read_dynamics(const YamlFile& file, YamlMap& map, model::Method& method) {
   for (const YamlItem& item : items_of(file, noises, "noise"))
     method.noise.push_back(noise(file, item));
 
+  // The place of the first part that there is, in this order.
   for (const auto& item :
        {observers, event_list, order, inputs, noises, plant, observer, timer_item})
     if (item && method.dynamics_place.line == 0) method.dynamics_place = item->place;

@@ -10,6 +10,7 @@ namespace {
 
 using EventKind = model::Dynamics::EventKind;
 
+/// The keys that say what an event is due by.
 const std::vector<std::pair<std::string, EventKind>>& kinds() {
   static const std::vector<std::pair<std::string, EventKind>> kKinds = {
       {"when", EventKind::when},       {"rises", EventKind::rises}, {"falls", EventKind::falls},
@@ -17,6 +18,7 @@ const std::vector<std::pair<std::string, EventKind>>& kinds() {
   return kKinds;
 }
 
+/// Of [0, 1): an event that is always lost never happens.
 double probability(const YamlFile& file, const YamlItem& item) {
   const double value = file.number(item.value, item.key);
   if (value >= 0 && value < 1) return value;
@@ -42,6 +44,7 @@ void read_lost(const YamlFile& file, const YamlItem& item, model::EventText& eve
 
 }  // namespace
 
+/// All keys are taken before the first error, so that a misspelt one is named.
 model::EventText event(const YamlFile& file, const YamlItem& item) {
   if (!item.value.IsMap())
     throw InputError(item.place, "the event '" + item.key +

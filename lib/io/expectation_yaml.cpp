@@ -1,3 +1,5 @@
+// What a problem expects of its results: words, values with a tolerance or bounds, figures of a
+// run.
 #include "io/expectation_yaml.h"
 
 #include <algorithm>
@@ -10,6 +12,7 @@ namespace gainsmith::io {
 
 namespace {
 
+/// One of the known words. InputError for another one, with the nearest.
 std::optional<std::string> word(const YamlFile& file, const std::optional<YamlItem>& item,
                                 const std::vector<std::string>& known) {
   if (!item) return std::nullopt;
@@ -38,6 +41,7 @@ model::ExpectedValue expected_value(const YamlFile& file, const YamlItem& item) 
   if (!result.value && !result.below && !result.above)
     throw InputError(item.place, item.key + ": expected a 'value' with its tolerance, 'relative' or "
                                             "'absolute'; or a bound, 'below' or 'above'");
+  // A value needs a tolerance, and a bound takes none.
   const bool tolerated = result.relative || result.absolute;
   if (result.value && !tolerated)
     throw InputError(item.place, item.key + ": expected a tolerance, 'relative' or 'absolute'");

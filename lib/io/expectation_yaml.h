@@ -5,6 +5,7 @@
 
 namespace gainsmith::io {
 
+/// The words, values and figures that `expect:` states. InputError for an unknown word or key.
 model::Expectation expectation_from(const YamlFile& file, const YamlItem& item);
 
 /// A tolerance, which may be left out. InputError when it is negative.

@@ -1,3 +1,6 @@
+// Figures of runs. With the error e of an estimate and its covariance P or, of innovations r, S:
+//   nees = e' inv(P) e   at a moment,    nis = r' inv(S) r   at all samples of an event         (1)
+// (Bar-Shalom, Li, Kirubarajan 2001). Both become ordinary expressions of the language here.
 #include "io/figure_yaml.h"
 
 #include <algorithm>
@@ -22,6 +25,7 @@ constexpr const char* kForms =
     "over: [a, b]}, {nees: e, covariance: P, at: {t: ...}}, {nis: r, covariance: S, at: {event: "
     "...}}, {count: event}, {passes: event}, {lost: event}, {ended: why}";
 
+/// What is said of `ended` where several observers are compared.
 constexpr const char* kOfRun = "it belongs in expect.run alone: all observers end with the run";
 
 /// "at: {event: leave, count: 1, side: before}" or "at: {t: 10}".
@@ -136,6 +140,7 @@ FigureText figure(const YamlFile& file, YamlMap& map, std::string* ending) {
                        "ended: unknown word '" + *ending + "'" + suggestion(*ending, known));
   }
   if (ending == nullptr) map.finish({{"ended", kOfRun}});
+  // No kind was found: a misspelt key is named before all forms are listed.
   if (found == 0 && ending != nullptr) {
     for (const char* key : {"is", "relative", "absolute"}) map.find(key);
     map.finish();  // names what was misspelt
@@ -177,6 +182,7 @@ void set_limits(const YamlFile& file, const YamlItem& is, model::ExpectedFigureT
     throw InputError(is.place, "is: expected a value, or {below: limit, above: limit}");
 }
 
+/// A figure with the value or the limits that it is expected to have.
 model::ExpectedFigureText expected(const YamlFile& file, const YAML::Node& node) {
   YamlMap map(file, node, "run", keys::expected_figure);
   model::ExpectedFigureText result;
@@ -203,6 +209,7 @@ model::ExpectedFigureText expected(const YamlFile& file, const YAML::Node& node)
   return result;
 }
 
+/// The list of a key. InputError, with all forms of figures, for anything else.
 const YAML::Node& list_of(const YamlItem& item) {
   if (!item.value.IsSequence())
     throw InputError(item.place, item.key + ": expected a list of figures; " + kForms);

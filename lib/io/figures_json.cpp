@@ -1,3 +1,5 @@
+// Figures over runs as JSON: extremes with the runs that have them, quantiles with bounds of
+// confidence, and how well covariances fit errors.
 #include "io/figures_json.h"
 
 #include <cmath>
@@ -23,6 +25,7 @@ std::optional<double> value_of(const JsonReader& reader) {
   reader.fail("expected a number, null, \"inf\" or \"-inf\"");
 }
 
+/// A value, its numerical error, and the run that has it.
 Json of_run_json(const std::optional<double>& value, double error, std::uint64_t run) {
   return {{"value", value_json(value)}, {"error", error}, {"run", run}};
 }
@@ -65,6 +68,7 @@ model::FigureRecord figure_of(const JsonReader& reader) {
   figure.runs = reader.at("runs").count();
   figure.without = reader.at("runs_without").count();
   const JsonReader least = reader.at("least"), largest = reader.at("largest");
+  // Keys that belong together: all of them are there, or none.
   if (reader.has("error")) {
     figure.unknown = reader.at("runs_unknown").count();
     figure.why = reader.at("why").text();

@@ -1,3 +1,5 @@
+// Gain files. Each record has a writer *_json and a reader *_of; optional keys are written where
+// there is something to say, and may be missing where they are read.
 #include "io/gains_json.h"
 
 #include <cmath>
@@ -12,6 +14,7 @@ namespace gainsmith::io {
 
 namespace {
 
+/// Of the rules by which verdicts were shown. Files of another version are refused.
 constexpr int kProofVersion = 1;
 
 /// The rows of a matrix with the decimals of its key.
@@ -34,6 +37,7 @@ Json element_json(const model::Gains& gains, const std::string& key,
   return matrix.size() == 1 ? rows[0][0] : rows;
 }
 
+/// Matrices by their names; `key`: the key that they are under, for their decimals.
 Json matrices_json(const model::Gains& gains, const std::string& key,
                    const model::NamedMatrices& matrices) {
   Json result = Json::object();
@@ -42,6 +46,7 @@ Json matrices_json(const model::Gains& gains, const std::string& key,
   return result;
 }
 
+/// A list of what `write_item` makes of each item.
 template <class Item, class Write>
 Json list_json(const std::vector<Item>& items, Write write_item) {
   Json list = Json::array();
@@ -49,6 +54,7 @@ Json list_json(const std::vector<Item>& items, Write write_item) {
   return list;
 }
 
+/// How the solver ended: status, cause and measures of its best point.
 Json solver_json(const model::SolverRecord& solver) {
   return {{"status", solver.status},
           {"cause", solver.cause},
@@ -60,6 +66,7 @@ Json solver_json(const model::SolverRecord& solver) {
           {"precision", solver.precision}};
 }
 
+/// One inequality at the decimals of the file; margins are relative, eigenvalues are not.
 Json margin_json(const model::Margin& margin) {
   return {{"name", margin.name},
           {"strict", margin.strict},
@@ -70,6 +77,7 @@ Json margin_json(const model::Margin& margin) {
           {"worst_point", margin.worst_point}};
 }
 
+/// A bound on a gain and what was reached; null where that is not finite.
 Json bound_json(const model::GainBound& bound) {
   return {{"gain", bound.what},
           {"bound", bound.bound},
@@ -78,6 +86,7 @@ Json bound_json(const model::GainBound& bound) {
           {"balanced_units", bound.is_balanced}};
 }
 
+/// F(s) as its formula; a polynomial has the coefficients F_0, F_1, ... too.
 Json gain_function_json(const model::Gains& gains, const model::GainFunction& gain) {
   Json result = {{"of", gain.variable}, {"kind", to_string(gain.kind)}, {"formula", gain.formula}};
   if (gain.kind != model::GainFunction::Kind::polynomial) return result;
@@ -102,6 +111,7 @@ Json algebraic_json(const model::AlgebraicRecord& algebraic) {
   return result;
 }
 
+/// What shows that there is no solution: multipliers, terms at an algebraic number, or moments.
 Json certificate_json(const model::Gains& gains, const std::string& key,
                       const model::CertificateRecord& certificate) {
   Json result = {
@@ -116,6 +126,7 @@ Json certificate_json(const model::Gains& gains, const std::string& key,
   return result;
 }
 
+/// What a search found. Keys of a kind of search alone are left out by the others.
 Json search_json(const model::Gains& gains, const model::SearchRecord& search) {
   const auto number = [](const std::optional<double>& value) {
     return value ? Json(*value) : Json();
@@ -136,6 +147,7 @@ Json search_json(const model::Gains& gains, const model::SearchRecord& search) {
   return result;
 }
 
+/// A matrix of a data file with its decimals; one that was a list stays a list.
 Json stated_matrix_json(const model::StatedMatrix& matrix) {
   Json rows = Json::array();
   auto element = matrix.elements.begin();
@@ -148,6 +160,7 @@ Json stated_matrix_json(const model::StatedMatrix& matrix) {
   return rows;
 }
 
+/// A file that the problem names: its hash, and its text or its matrices.
 Json stated_file_json(const model::StatedFile& file) {
   Json result = {{"file", file.name}, {"sha256", file.sha256}};
   if (!file.text.empty()) result["text"] = file.text;
@@ -159,6 +172,7 @@ Json stated_file_json(const model::StatedFile& file) {
   return result;
 }
 
+/// The texts that the gains answer, settings from outside, other files, and the hash of all.
 Json statement_json(const model::Statement& statement) {
   Json result = {{"method", statement.method_name},
                  {"method_text", statement.method_text},
@@ -231,6 +245,7 @@ model::Margin margin_of(const JsonReader& reader) {
           reader.at("holds").truth()};
 }
 
+/// All coefficients are fractions as texts; `step` is 1 where it is left out.
 model::AlgebraicRecord algebraic_of(const JsonReader& reader) {
   const auto fractions = [](const JsonReader& list) {
     model::AlgebraicRecord::Fractions texts;
@@ -253,6 +268,7 @@ model::AlgebraicRecord algebraic_of(const JsonReader& reader) {
   return result;
 }
 
+/// `about` is the problem itself where it is left out.
 model::CertificateRecord certificate_of(const JsonReader& reader, model::Gains& gains) {
   if (reader.has("shows")) (void)reader.at("shows").text();  // follows from the others
   model::CertificateRecord result{reader.at("exact").truth(), reader.at("backward_error").number(),
@@ -301,6 +317,7 @@ model::SearchRecord search_of(const JsonReader& reader, model::Gains& gains) {
   return search;
 }
 
+/// A list of numbers is one row that is marked as flat; otherwise all rows have one length.
 model::StatedMatrix stated_matrix_of(const std::string& key, const JsonReader& reader) {
   const std::vector<JsonReader> rows = reader.items();
   const bool flat = rows.empty() || !rows.front().is_list();
@@ -328,6 +345,7 @@ model::StatedFile stated_file_of(const JsonReader& reader) {
   return file;
 }
 
+/// InputError where texts and files do not have the hash: the file was edited.
 model::Statement statement_of(const JsonReader& reader) {
   model::Statement statement{reader.at("method").text(""),
                              reader.at("method_text").source(),
@@ -359,6 +377,7 @@ Json matrix_json(const numbers::Matrix& matrix) {
   return rows;
 }
 
+/// The order of the keys is that of the file. Timings are last: gains_hash() leaves them out.
 Json to_json(const model::Gains& gains) {
   Json document = {{"gainsmith", gains.version},
                    {"problem", gains.problem_name},
@@ -462,6 +481,7 @@ model::Gains parse_gains(const std::string& text, const std::string& file) {
     for (const JsonReader& item : reader.at("sums_of_squares").items())
       gains.sums_of_squares.push_back(sum_of_squares_of(item));
   gains.solver = solver_of(reader.at("solver"));
+  // Both are at the top for people, and in the record of the solver.
   for (const auto& [key, value] :
        {std::pair{"status", &gains.solver.status}, {"cause", &gains.solver.cause}})
     if (reader.has(key) && reader.at(key).text() != *value)
@@ -471,6 +491,7 @@ model::Gains parse_gains(const std::string& text, const std::string& file) {
     const JsonReader proof = reader.at("proof");
     if (proof.at("version").whole() != kProofVersion)
       proof.at("version").fail("another version of gainsmith wrote this proof");
+    // The results are hashed beside the statement: a number that was edited is seen, and allowed.
     gains.is_edited = proof.at("sha256").text() != model::results_hash(gains);
   }
   for (const auto& [name, seconds] : reader.at("timings").members())
@@ -481,6 +502,7 @@ model::Gains parse_gains(const std::string& text, const std::string& file) {
 
 model::Problem stated_problem(const model::Gains& gains, const std::string& file) {
   const model::Statement& statement = gains.statement;
+  // The only method that this statement may name is the one whose text it holds.
   const MethodLibrary library{
       [&](const std::string& name) {
         return name == statement.method_name ? std::optional(statement.method_text) : std::nullopt;

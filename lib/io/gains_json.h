@@ -1,4 +1,9 @@
-// The gain file.
+// The gain file: one JSON document with all that a synthesis found and all that it was made from.
+//
+// It holds verdict, gains, unknowns, margins and certificates, the texts of method and problem with
+// their SHA-256, and the matrices of other files. So it can be checked, simulated and exported
+// without the files that it came from (docs/gain-file.md). Numbers have their decimals: a proof is
+// about the decimals in the file, not about the doubles nearest to them.
 #pragma once
 
 #include <string>

@@ -15,6 +15,7 @@ namespace {
 using hybrid::GivenRun;
 using Names = std::vector<std::string>;
 
+/// A column as a list, a number as itself, other matrices as lists of rows.
 Json given_value_json(const numbers::Matrix& value) {
   if (value.cols() != 1) return matrix_json(value);
   if (value.size() == 1) return value(0, 0);
@@ -23,6 +24,7 @@ Json given_value_json(const numbers::Matrix& value) {
   return column;
 }
 
+/// The same read: a list of numbers is a column here, not a row.
 numbers::Matrix given_value(const JsonReader& reader) {
   if (!reader.is_list()) return reader.matrix();
   const std::vector<JsonReader> items = reader.items();
@@ -43,6 +45,7 @@ void add_given(Json& json, const std::string& key, const List& list, const Names
   }
 }
 
+/// The list, or null for an empty one, which is not given.
 template <class Item, class Write>
 Json written_list(const std::vector<Item>& items, const Write& write) {
   if (items.empty()) return nullptr;
@@ -64,6 +67,7 @@ void take_given(const JsonReader& reader, const std::string& key, const Names& n
   }
 }
 
+/// InputError for an empty list: it could not be used in turn.
 template <class Item, class Read>
 std::vector<Item> read_list(const JsonReader& reader, const Read& read) {
   std::vector<Item> list;

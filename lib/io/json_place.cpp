@@ -1,3 +1,5 @@
+// Places in a JSON text are found when an error needs them: the text is read once more, up to the
+// path. Readers so need not keep a place for each value.
 #include "io/json_place.h"
 
 #include <algorithm>
@@ -18,6 +20,7 @@ class Locator : public nlohmann::json_sax<Json> {
  public:
   Locator(const std::string& text, const std::string& path) : text_(text), path_(path) {}
 
+  /// The byte at which the key or element begins; none where the path leads nowhere.
   std::optional<std::size_t> find() {
     Json::sax_parse(CountingIterator(text_.data(), read_),
                     CountingIterator(text_.data() + text_.size(), read_), this);
@@ -67,6 +70,7 @@ class Locator : public nlohmann::json_sax<Json> {
     return goes_on;
   }
 
+  /// A list or an object begins. It leads on where its path is a beginning of the wanted one.
   bool open(bool object) {
     if (!enter()) return false;
     const bool leads = (levels_.empty() || levels_.back().leads) && path_.starts_with(here_);
@@ -102,6 +106,7 @@ class Locator : public nlohmann::json_sax<Json> {
 
 Place place_of(const std::string& text, const std::string& file, std::size_t byte) {
   const std::string_view before = std::string_view(text).substr(0, std::min(byte, text.size()));
+  // Columns count characters: continuation bytes of UTF-8 do not count.
   const std::size_t start = before.rfind('\n') + 1;  // npos + 1 is 0
   const auto is_first_byte = [](char c) {
     return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;

@@ -1,3 +1,8 @@
+// Readers of a document share one note of the keys that were asked for, by object. finish()
+// compares it with the keys that are there.
+//
+// Where tables of keys (keys.h) are given, each reader also has the form of its value, so that it
+// finds the table for what is below it.
 #include "io/json_reader.h"
 
 #include <array>
@@ -68,12 +73,14 @@ std::string JsonReader::path_to(const std::string& key) const {
   return path_.empty() ? key : path_ + "." + key;
 }
 
+/// The value of a key, with the form that the table says, or that of all entries of a mapping.
 JsonReader JsonReader::below(const std::string& key, const Json& value) const {
   const Level* here = level();
   const Key* known = here == nullptr ? nullptr : here->find(key);
   return {value, *this, path_to(key), known == nullptr ? inner(form_, '{') : known->form};
 }
 
+/// A missing key is often a misspelt one: keys that nobody asked for yet are compared with it.
 JsonReader JsonReader::at(const std::string& key) const {
   if (const Level* here = level()) require_known(*here, key);
   if (!value_.is_object()) fail("expected an object");
@@ -155,6 +162,7 @@ std::vector<std::pair<std::string, JsonReader>> JsonReader::members() const {
   return result;
 }
 
+/// A number is 1 x 1. An empty list is 0 x 0; rows have equal lengths.
 numbers::Matrix JsonReader::matrix() const {
   if (is_number(value_)) return numbers::Matrix::Constant(1, 1, number());
   const auto rows = items();
@@ -177,6 +185,7 @@ std::vector<std::string> JsonReader::decimals() const {
   return result;
 }
 
+/// An object of which nothing was asked is left alone.
 void JsonReader::finish() const {
   if (value_.is_array())
     for (const JsonReader& item : items()) item.finish();

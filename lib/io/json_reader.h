@@ -40,14 +40,18 @@ class JsonReader {
   std::string text(std::string_view allowed = "\n\t") const;
   /// The text of a file as it is.
   std::string source() const;
+  /// The double nearest to a number.
   double number() const;
   /// The decimal of a number.
   std::string decimal() const;
   /// null represents infinity.
   double number_or_infinity() const;
+  /// A number without point and exponent that an int has.
   int whole() const;
+  /// The same from 0 on, of 64 bits.
   std::uint64_t count() const;
   bool truth() const;
+  /// The elements of a list.
   std::vector<JsonReader> items() const;
   /// All keys, whatever they are, with their values.
   std::vector<std::pair<std::string, JsonReader>> members() const;
@@ -61,6 +65,7 @@ class JsonReader {
   /// InputError for the first key below here that nothing asked for, with the nearest known one.
   void finish() const;
 
+  /// InputError with the place and the path of this value.
   [[noreturn]] void fail(const std::string& message) const;
   /// The same at a key below here.
   [[noreturn]] void fail_at(const std::string& key, const std::string& message) const;

@@ -1,3 +1,7 @@
+// Documents with the decimals of their numbers. A float whose text is not the one that would be
+// printed is kept as bytes; all other numbers are those of the library.
+//
+// The text is read by events (SAX), so that doubled keys are seen and decimals are not lost.
 #include "io/json_text.h"
 
 #include <algorithm>
@@ -17,6 +21,7 @@ namespace gainsmith::io {
 
 namespace {
 
+/// Whether a list has neither lists nor objects in it: it is written on one line.
 bool is_flat(const Json& list) { return std::ranges::none_of(list, &Json::is_structured); }
 
 /// Bytes that are no UTF-8 (in the name of a file) are replaced: JSON has no spelling for them.
@@ -26,6 +31,7 @@ std::string dumped(const Json& text) {
 
 void write(const Json& value, std::size_t indent, std::string& out);
 
+/// An object, or a list, indented by two spaces a level.
 void write_items(const Json& value, std::size_t indent, std::string& out) {
   const bool object = value.is_object();
   const bool one_line = value.empty() || (!object && is_flat(value));
@@ -66,6 +72,7 @@ class Builder : public nlohmann::json_sax<Json> {
   bool boolean(bool value) override { return add(value); }
   bool number_integer(std::int64_t value) override { return add(value); }
   bool number_unsigned(std::uint64_t value) override { return add(value); }
+  /// A decimal that is printed as it was read needs no text of its own.
   bool number_float(double value, const std::string& decimal) override {
     if (!parse_decimal(decimal)) refuse_number(decimal, read_);
     return add(decimal == model::printed(value) ? Json(value) : decimal_json(decimal));

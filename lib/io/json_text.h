@@ -22,6 +22,7 @@ Json finite_or_null(double value);
 /// A number that is written as `text`, a decimal that is finite in double.
 Json decimal_json(const std::string& text);
 
+/// Whether it is a number of JSON, or a decimal of decimal_json().
 bool is_number(const Json& value);
 
 /// The double nearest to a number.

@@ -13,8 +13,8 @@ namespace gainsmith::io {
 ///     never                                   this key means something else
 ///     'word'                                  this text
 ///     [F]  [F]+  [F, F]                       a list, one that is not empty, a pair
-///     {F}  {F}?  {F}+  {F}1                   a mapping with the user's names: any, or left empty; not
-///                                             empty; of one name
+///     {F}  {F}?  {F}+  {F}1                   a mapping with the user's names: any, or left empty;
+///                                             not empty; of one name
 ///     NAME                                    a level or a named form
 ///     F | F                                   either
 struct Key {
@@ -24,6 +24,7 @@ struct Key {
   bool required = false;
 };
 
+/// For the last member of Key.
 inline constexpr bool kRequired = true;
 
 /// What keys ask of each other; several are separated by commas.
@@ -55,6 +56,7 @@ struct Level {
   std::span<const Rule> rules = {};
   std::string_view rest = "";  ///< the form of all other keys; empty: there are none
 
+  /// The entry of a key; null where the level has none.
   const Key* find(std::string_view key) const;
 };
 
@@ -82,6 +84,7 @@ extern const Level component, map, loop, output, flow_set, state, log_plant, log
     measured_input, measured_times, event, lost, noise, sinusoid, timer;
 }  // namespace keys
 
+/// All levels of problem and method files, and the forms that have names in their tables.
 std::span<const Level* const> problem_levels();
 std::span<const NamedForm> problem_forms();
 

@@ -1,3 +1,8 @@
+// Times of a log. With d decimals at most, of a time t and the origin t_0, their difference is
+// taken in whole numbers of 10^-d:
+//   round((t - t_0) 10^d) / (10^d / scale)                                                     (1)
+// The divisor is made whole where it is nearly so: where the scale is a power of ten. Beyond
+// kMostDecimals it is (t - t_0) scale.
 #include "io/log_times.h"
 
 #include <algorithm>
@@ -13,8 +18,10 @@ namespace {
 /// In seconds, some 12 days. No run begins so long before its measurements: these are Unix times.
 constexpr double kFarFromZero = 1e6;
 constexpr double kNoSeconds = 1e11;  // of Unix times the year 5138
+/// With more, whole numbers of 10^-d have no room in a long double.
 constexpr int kMostDecimals = 18;
 
+/// Digits behind the point.
 int decimals_of(const std::string& text) {
   const std::size_t point = text.find('.');
   if (point == std::string::npos) return 0;
@@ -24,6 +31,7 @@ int decimals_of(const std::string& text) {
 
 }  // namespace
 
+/// A decimal, or a date as seconds since 1970-01-01 UTC without leap seconds; none of other texts.
 std::optional<LogTimes::Time> LogTimes::parsed(const std::string& text) {
   if (parse_decimal(text)) {
     int decimals = decimals_of(text);
@@ -72,6 +80,7 @@ LogTimes::LogTimes(const CsvTable& table, std::size_t column, double scale,
     : table_(table), column_(column), scale_(scale) {
   std::optional<Time> first;
   for (std::size_t row = 0; row < table.rows() && !first; ++row) first = time_of(row);
+  // Dates are in seconds already.
   if (first && first->is_date) scale_ = 1;
   if (first && std::abs(first->value) * scale_ > kNoSeconds)
     throw InputError(place, "the times of " + table.path() + " begin at " +
@@ -86,6 +95,7 @@ LogTimes::LogTimes(const CsvTable& table, std::size_t column, double scale,
     from_ = *stated;
     return;
   }
+  // Dates and Unix times count from their first row unless something else is said.
   begins_by_itself_ = !from && (first->is_date || std::abs(first->value) * scale_ > kFarFromZero);
   if (from || begins_by_itself_) from_ = *first;
 }
@@ -94,6 +104,7 @@ std::optional<double> LogTimes::at(std::size_t row) const {
   const auto time = time_of(row);
   if (!time) return std::nullopt;
   const int decimals = std::max(time->decimals, from_.decimals);
+  // The decimal of the cell, rounded once.
   if (from_.value == 0 && scale_ == 1 && !time->is_date)
     return parse_decimal(table_.text(row, column_));
   if (decimals > kMostDecimals) return static_cast<double>((time->value - from_.value) * scale_);

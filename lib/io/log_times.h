@@ -1,7 +1,7 @@
 // Internal to io: the times of the rows of a log, in seconds from the one at which a run begins.
 //
-// A time is a decimal number or a date, 2026-11-29T08:30:00.25Z (ISO 8601; without Z or +hh:mm it is
-// UTC). Differences of times are taken in decimals, so that 1700000000.15 is 0.1 after
+// A time is a decimal number or a date, 2026-11-29T08:30:00.25Z (ISO 8601; without Z or +hh:mm it
+// is UTC). Differences of times are taken in decimals, so that 1700000000.15 is 0.1 after
 // 1700000000.05.
 #pragma once
 
@@ -14,9 +14,9 @@ namespace gainsmith::io {
 
 class LogTimes {
  public:
-  /// `scale`: the unit of the numbers in seconds. `from`: where a run begins, in the file's units: a
-  /// time as in a row, or "first row"; none for 0, or for the first row where it is a date or more than
-  /// 1e6 s away. InputError at `place`.
+  /// `scale`: the unit of the numbers in seconds. `from`: where a run begins, in the file's units:
+  /// a time as in a row, or "first row"; none for 0, or for the first row where it is a date or
+  /// more than 1e6 s away. InputError at `place`.
   LogTimes(const CsvTable& table, std::size_t column, double scale,
            const std::optional<std::string>& from, const Place& place);
 

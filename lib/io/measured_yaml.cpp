@@ -1,3 +1,5 @@
+// Measured data from logs. A series is a column, or the columns x1, x2, ... of a vector, over the
+// times of its rows; rows must be in the order of time.
 #include "io/measured_yaml.h"
 
 #include <algorithm>
@@ -19,6 +21,7 @@ namespace {
 
 using model::Between;
 
+/// The table of the file that the item names, which a problem may name.
 std::shared_ptr<const CsvTable> table_of(const YamlFile& file, const YamlItem& item) {
   const std::string name = file.named_by(item.value, file.string(item.value, item.key));
   Sources& sources = file.sources(item.value);
@@ -71,6 +74,7 @@ Source source(const YamlFile& file, const YamlItem& path, YamlMap* map,
   const auto find = [&](const char* key) { return map ? map->find(key) : std::nullopt; };
   const auto own = find("time");
   if (!time) time = own;
+  // Without the key: the column t, or time where there is no t.
   const bool has_time = !result.table->find("t") && result.table->find("time");
   const std::size_t column =
       time ? result.table->column(file.string(time->value, time->key), file.place(time->value))
@@ -79,6 +83,7 @@ Source source(const YamlFile& file, const YamlItem& path, YamlMap* map,
   const auto from = find("from");
   const std::string word = result.table->unit(column);
   const auto known = seconds_of(word);
+  // A unit that is not known would be taken for seconds.
   if (!scale && !known && !word.empty() && word != "-" && result.table->rows() > 0 &&
       parse_decimal(result.table->text(0, column)))
     throw InputError(path.place, result.table->path() + ": the times are in '" + word +
@@ -103,6 +108,7 @@ Source source(const YamlFile& file, const YamlItem& path, YamlMap* map,
   return result;
 }
 
+/// How values go on between rows: held, or on a line to the next one.
 Between between(const YamlFile& file, YamlMap& map, Between otherwise) {
   const auto item = map.find("between");
   if (!item) return otherwise;
@@ -142,6 +148,7 @@ bool has_values(const CsvTable& table, std::size_t row, const std::vector<std::s
                    "the row has some elements of a vector and not the others");
 }
 
+/// The time of a row, in seconds. InputError where there is none, and where it is below `before`.
 double time_of(const Source& source, std::size_t row, double before) {
   const auto time = source.times->at(row);
   const Place place = source.times->place(row);
@@ -152,6 +159,8 @@ double time_of(const Source& source, std::size_t row, double before) {
   return *time;
 }
 
+/// The rows that the source takes, n rows by the elements of the quantity. Times of rows without a
+/// value are kept apart. InputError where no row has one.
 std::shared_ptr<const model::Series> series(const Source& source, const std::string& name,
                                             const Place& place) {
   const CsvTable& table = *source.table;
@@ -219,6 +228,7 @@ model::MeasuredText measured_input(const YamlFile& file, const YamlItem& item) {
   return result;
 }
 
+/// Times before that of the start of a run are left out.
 std::vector<double> measured_times(const YamlFile& file, const YamlItem& at) {
   YamlMap map(file, at.value, at.key, keys::measured_times);
   const YamlItem csv = map.require("csv");

@@ -1,3 +1,5 @@
+// A method from its sections: declarations, definitions, inequalities, gains, dynamics, claims.
+// Names that occur twice are found at the end (model::check_names).
 #include "io/method_yaml.h"
 
 #include <algorithm>
@@ -67,6 +69,7 @@ model::UnknownDeclaration unknown(const YamlFile& file, const YamlItem& item) {
   return result;
 }
 
+/// The entries of a mapping of declarations; `fallback` as of declaration().
 std::vector<model::Declaration> declarations(const YamlFile& file,
                                              const std::optional<YamlItem>& item,
                                              const std::string& what, const char* fallback) {
@@ -93,6 +96,7 @@ model::Parameter parameter(const YamlFile& file, const YamlItem& item) {
   return result;
 }
 
+/// Expressions with names.
 std::vector<model::Named> named(const YamlFile& file, const std::optional<YamlItem>& item,
                                 const std::string& what) {
   std::vector<model::Named> result;
@@ -136,6 +140,7 @@ void read_sum_of_squares(const YamlFile& file, YamlMap& map, model::Requirement&
   const auto degree = map.find("degree");
   if (!degree) return;
   const std::string text = file.string(degree->value, "degree");
+  // Of a degree: more than 99 is a mistake.
   constexpr std::size_t kDigits = 2;
   result.adds_degree = text.starts_with('+');
   const std::string digits = text.substr(result.adds_degree ? 1 : 0);
@@ -147,6 +152,7 @@ void read_sum_of_squares(const YamlFile& file, YamlMap& map, model::Requirement&
   result.degree = std::stoi(digits);
 }
 
+/// "P > 0", or {that: ..., forall: [...]}, or blocks by the names of their rows (blocks_yaml.h).
 model::Requirement requirement(const YamlFile& file, const YamlItem& item) {
   model::Requirement result;
   result.name = item.key;
@@ -176,6 +182,7 @@ model::Requirement requirement(const YamlFile& file, const YamlItem& item) {
   return result;
 }
 
+/// One of the tasks by which methods are listed.
 std::string task_of(const YamlFile& file, const YamlItem& item) {
   std::string task = file.string(item.value, "task");
   const std::vector<std::string>& known = model::tasks();
@@ -185,6 +192,7 @@ std::string task_of(const YamlFile& file, const YamlItem& item) {
   return task;
 }
 
+/// Why there is no campaign: for methods in which nothing moves.
 void read_no_campaign(const YamlFile& file, const YamlItem& item, model::Method& method) {
   method.no_campaign = reason(file, item);
   const bool moves = method.has_dynamics || !method.claims.empty();
@@ -202,6 +210,7 @@ std::string reason(const YamlFile& file, const YamlItem& item) {
   return text;
 }
 
+/// Behind the last character a comma is read, which ends the last part.
 std::vector<expr::Expression> parse_list(const expr::Text& text) {
   std::vector<expr::Expression> parts;
   int depth = 0;
@@ -230,6 +239,7 @@ std::optional<std::size_t> power_of_reals(const std::string& text) {
 
 }  // namespace
 
+/// By the first character behind " in ": R, a bracket, a brace, conv or a name.
 model::Forall parse_forall(const expr::Text& text) {
   using model::Over;
   const std::string& source = text.str();
@@ -310,6 +320,7 @@ model::Method method_from(const YamlFile& file, const YAML::Node& node, const st
   for (const YamlItem& item : items_of(file, map.find("claims"), "claims"))
     method.claims.push_back(claim(file, item));
   if (const auto reason = map.find("no campaign")) read_no_campaign(file, *reason, method);
+  // Words of other programs get the key that is meant.
   map.finish({{"maximize", "write minimize: -(...)"},
               {"maximise", "write minimize: -(...)"},
               {"objective", "write minimize: ..."},

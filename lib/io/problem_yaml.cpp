@@ -1,3 +1,5 @@
+// A problem from its sections, in an order in which later ones may ask earlier ones: the method
+// first, then data, choices, search, campaign, and settings from outside last.
 #include "io/problem_yaml.h"
 
 #include <algorithm>
@@ -25,6 +27,7 @@ namespace gainsmith::io {
 
 namespace {
 
+/// The method in the problem itself, or the one of the library that it names.
 std::shared_ptr<const model::Method> method_of(const YamlFile& file, const YamlItem& item,
                                                const std::string& problem,
                                                const MethodLibrary& library, bool has_figures) {
@@ -36,6 +39,7 @@ std::shared_ptr<const model::Method> method_of(const YamlFile& file, const YamlI
   return std::make_shared<model::Method>(parse_method(*text, model::method_file(name)));
 }
 
+/// With the place of the key instead of that of the value.
 void add(model::Value value, const YamlItem& item, std::vector<model::Value>& values) {
   value.place = item.place;
   values.push_back(std::move(value));
@@ -72,6 +76,7 @@ void read_data(const YamlFile& file, const std::optional<YamlItem>& item, model:
   }
 }
 
+/// How the times between events are drawn: "uniform", {constant: T} or {list: [T1, T2]}.
 model::SamplingLaw law(const YamlFile& file, const YAML::Node& node) {
   using Kind = model::LawKind;
   static const std::vector<std::string> kWords = {"uniform",  "extremes", "sinusoid",
@@ -123,6 +128,7 @@ std::vector<model::Value> ellipsoid_of(const YamlFile& file, const YamlItem& ite
   return {value(center, "0"), value_of(file, matrix), value(level, "1")};
 }
 
+/// Where a state starts: a value, or what it is drawn from.
 model::InitialValue initial(const YamlFile& file, const YamlItem& item) {
   using Kind = model::StartKind;
   model::InitialValue result{item.key, Kind::expression, {}, item.place};
@@ -162,6 +168,7 @@ model::InitialValue initial(const YamlFile& file, const YamlItem& item) {
 /// A law, a list of laws, or those of each event: {sample: [uniform, extremes], tick: golden}.
 void read_sampling(const YamlFile& file, const YAML::Node& node, const std::string& event,
                    const model::Method& method, model::Campaign& result) {
+  // A mapping without the keys of a law has events as keys.
   const bool by_event = event.empty() && node.IsMap() && !node["constant"] && !node["list"];
   if (by_event) {
     const YamlMap map(file, node, "sampling");
@@ -178,6 +185,7 @@ void read_sampling(const YamlFile& file, const YAML::Node& node, const std::stri
   for (const auto& entry : node) add(entry);
 }
 
+/// A number of [least, most].
 double tolerance(const YamlFile& file, const YamlItem& item, double least, double most) {
   const double value = file.number(item.value, item.key);
   if (value >= least && value <= most) return value;
@@ -209,6 +217,7 @@ model::RunAccuracy accuracy(const YamlFile& file, const YamlItem& item) {
   return result;
 }
 
+/// `campaign:`; an absent one is that with the defaults.
 model::Campaign campaign(const YamlFile& file, const std::optional<YamlItem>& item,
                          const model::Method& method) {
   model::Campaign result;
@@ -391,6 +400,7 @@ model::Problem parse_problem(const std::string& text, const std::string& file,
     problem.covariances.push_back(
         {item.key, yaml.string(item.value, item.key), item.place, yaml.place(item.value)});
   map.finish(advice_on_keys(*problem.method));
+  // Settings replace values that were read, so they come last; then all files are known.
   set_values(settings, sources, problem);
   problem.files = sources.files();
   return problem;

@@ -1,3 +1,5 @@
+// A number that other data name becomes a datum of the method: "A: [[0, a], [1, 0]]" with "a: 2"
+// needs no declaration of a. The method is copied for it.
 #include "io/scalar_data.h"
 
 #include <memory>
@@ -31,6 +33,7 @@ std::set<std::string> read_beside(const model::Value& self, const model::Problem
   return names;
 }
 
+/// Whether the method has a datum or a parameter of the name.
 bool is_declared(const std::string& name, const model::Method& method) {
   return has_named(method.data, name) || has_named(method.parameters, name);
 }
@@ -50,6 +53,7 @@ void declare_scalars(model::Problem& problem) {
     if (!read_beside(value, problem).contains(value.name)) continue;
     model::Declaration scalar;
     scalar.name = value.name;
+    // A transfer function is a system; any other value is a number here.
     const char* shape = expr::makes_system(*value.value.root) ? "system" : "scalar";
     scalar.shape = model::parse_shape(expr::Text::generated(shape, value.place));
     scalar.place = value.place;
@@ -60,6 +64,7 @@ void declare_scalars(model::Problem& problem) {
   for (const model::Declaration& scalar : scalars) {
     method->data.insert(method->data.begin() + (&scalar - scalars.data()), scalar);
     try {
+      // The name may be one of the method that is no datum: an unknown, a state, a definition.
       model::check_names(*method);
     } catch (const InputError& error) {
       throw InputError(scalar.place, "the method " + method->name + " has no datum '" +

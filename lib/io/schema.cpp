@@ -1,3 +1,8 @@
+// Schemas from the tables of keys. Each level and each named form is one definition, which others
+// refer to by name. Forms are read by recursive descent:
+//   form    = one { " | " one }
+//   one     = 'word' | "[" form { ", " form } "]" [ + ] | "{" form "}" [ 1 | + | ? ] | NAME     (1)
+// Words of one form are one "enum"; rules between keys become "required" under oneOf, not, if.
 #include "io/schema.h"
 
 #include <algorithm>
@@ -38,14 +43,17 @@ std::string id(std::string_view name) {
 
 Json reference(std::string_view name) { return {{"$ref", "#/definitions/" + id(name)}}; }
 
+/// The schema of objects that have the key.
 Json has(std::string_view key) { return {{"required", Json::array({key})}}; }
 
+/// One of them at least; a single one is itself.
 Json any_of(Json alternatives) {
   if (alternatives.size() == 1) return alternatives.front();
   return {{"anyOf", std::move(alternatives)}};
 }
 
 constexpr const char* kNone = "none";
+/// Levels whose parts a problem that is `like` another may replace one by one.
 constexpr std::array kChanged = {&keys::method, &keys::component, &keys::log_plant};
 
 std::string changed_name(const Level& level) { return "changed " + std::string(level.name); }
@@ -69,8 +77,9 @@ class SchemaWriter {
     return result;
   }
 
-  /// A level that replaces parts of another one (variant_yaml.h): 'none' takes a part away, and a mapping of
-  /// names is joined with the other one's. What is in such a mapping is replaced as a whole.
+  /// A level that replaces parts of another one (variant_yaml.h): 'none' takes a part away, and a
+  /// mapping of names is joined with the other one's. What is in such a mapping is replaced as a
+  /// whole.
   Json changed(const Level& level) const {
     Json properties = Json::object();
     for (const Key& key : level.keys) {
@@ -117,6 +126,7 @@ class SchemaWriter {
             {"contains", {{"anyOf", Json::array({rows, files})}}}};
   }
 
+  /// A mapping with known keys. A key with a bracket, "f(x)", is a pattern of names.
   Json level(const Level& level) const {
     Json properties = Json::object();
     Json patterns = Json::object();
@@ -140,6 +150,7 @@ class SchemaWriter {
     return result;
   }
 
+  /// What keys ask of each other (Rule); at most one means no pair.
   static Json rule(const Rule& rule) {
     Json keys = Json::array();
     Json pairs = Json::array();
@@ -200,6 +211,7 @@ class SchemaWriter {
     return named(text.substr(begin, at - begin));
   }
 
+  /// A list of equal elements, or of as many as there are forms.
   Json list(std::string_view text, std::size_t& at) const {
     Json items = Json::array({form(text, ++at)});
     while (text[at] == ',') items.push_back(form(text, at += 2));
@@ -216,6 +228,7 @@ class SchemaWriter {
     return result;
   }
 
+  /// A mapping of the user's names.
   Json mapping(std::string_view text, std::size_t& at) const {
     Json result = {{"type", "object"}, {"additionalProperties", form(text, ++at)}};
     ++at;
@@ -227,6 +240,7 @@ class SchemaWriter {
     return result;
   }
 
+  /// Takes the mark where it is there.
   static bool is_at(std::string_view text, char mark, std::size_t& at) {
     if (at >= text.size() || text[at] != mark) return false;
     ++at;
@@ -240,6 +254,7 @@ class SchemaWriter {
     return {{"type", {"number", "string"}}, {"pattern", decimal}};
   }
 
+  /// A scalar by its word, or a reference to a level or a form.
   Json named(std::string_view name) const {
     if (name == "text")
       return {{"type", is_yaml_ ? Json{"string", "number", "boolean"} : Json("string")}};

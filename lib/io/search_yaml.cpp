@@ -1,3 +1,5 @@
+// What is searched: the largest or smallest scalar with a yes, or the best figure over scalars. The
+// figure is an expression of the results, or one of simulated runs.
 #include "io/search_yaml.h"
 
 #include <cmath>
@@ -19,6 +21,7 @@ std::optional<model::ScalarRange> extreme(const YamlFile& file, const std::optio
   return ranges.front();
 }
 
+/// From 1 to a million.
 int whole_number(const YamlFile& file, const YamlItem& item) {
   constexpr double kMost = 1e6;
   const double value = file.number(item.value, item.key);
@@ -76,6 +79,7 @@ model::Search search_from(const YamlFile& file, const YamlItem& item, const mode
   if (count && search.over.empty())
     throw InputError(count->place, "search: 'evaluations' belongs to 'over'");
   if (tolerance) search.tolerance = file.positive(tolerance->value, "tolerance");
+  // A mapping is a figure of simulated runs, a text an expression of the results.
   const bool of_runs = minimize && minimize->value.IsMap();
   if (of_runs) search.run_figure = figure_of(file, *minimize);
   if (minimize && !of_runs) search.minimize = file.expression(minimize->value, "minimize");

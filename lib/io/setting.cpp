@@ -1,3 +1,5 @@
+// Values from outside. A name is sought among data, parameters, definitions, the search and the
+// choices of `synthesis`, in this order.
 #include "io/setting.h"
 
 #include <algorithm>
@@ -30,6 +32,7 @@ void replace_item(std::vector<Item>& items, Item item, NameOf name_of) {
     *found = std::move(item);
 }
 
+/// One setting. Its text is read as a file of its own, whose name in errors is the option.
 class Setter {
  public:
   Setter(const model::Setting& setting, Sources& sources, model::Problem& problem)
@@ -136,6 +139,7 @@ class Setter {
   /// The value as an entry of a problem file; a formula by itself when it has a ';'.
   model::Value value() {
     refuse_empty();
+    // YAML would need quotes around it, which a shell takes away.
     if (setting_.value.find(';') != std::string::npos)
       return {name_, expr::parse(expr::Text(setting_.value, option_)), false, {option_, 1, 1}};
     const YamlFile file(setting_.value, option_, &sources_);
@@ -144,6 +148,7 @@ class Setter {
     return result;
   }
 
+  /// A function or a definition: "f(x)" with its body.
   void define(std::vector<model::Let>& list) {
     const model::Let let{
         expr::parse_signature(expr::Text(setting_.name, option_)), value().value, {option_, 1, 1}};

@@ -1,3 +1,5 @@
+// Files by name. Of a problem they are read from the disk. Of a gain file the texts and matrices in
+// it come first; what is on the disk beside it must have the same SHA-256.
 #include "io/sources.h"
 
 #include <algorithm>
@@ -17,6 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Bytes: 256 MiB. What is larger is hardly a file of data, and would be held in memory.
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{1} << 28U;
 
 /// "; did you mean 'B.csv'?"
@@ -69,6 +72,7 @@ const model::StatedFile* Sources::stated(const Reference& reference) const {
   const std::string path = path_of(reference.name);
   std::error_code error;
   const std::uintmax_t size = fs::is_regular_file(path, error) ? fs::file_size(path, error) : 0;
+  // A file that is gone is no difference: the gain file has what was in it.
   const bool there = !error && fs::is_regular_file(path, error);
   if (there && (size > kLargestFile || sha256(read_text(path)) != found->sha256))
     throw InputError(reference.place,
@@ -122,11 +126,13 @@ std::optional<std::string> Sources::method(const Reference& reference,
   return text;
 }
 
+/// What the gain file states of it is compared, and then it is read.
 std::string Sources::log(const Reference& reference) {
   stated(reference);
   return read(reference);
 }
 
+/// A matrix that the gain file holds has no positions: those were of the file that is not there.
 FileMatrix Sources::matrix(
     const Reference& reference, const std::string& key,
     const std::function<FileMatrix(const std::string&, const std::string&)>& read_matrix) {

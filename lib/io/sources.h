@@ -1,9 +1,9 @@
-// Internal to io: the files that a problem names, on the disk or as a gain file states them. What was
-// read is noted, with its SHA-256.
+// Internal to io: the files that a problem names, on the disk or as a gain file states them. What
+// was read is noted, with its SHA-256.
 //
 // A gain file states the problems that its own is `like`, and the matrices of files: it needs these
-// files no more. Logs are too large for that. They are expected beside it, where the problem's paths
-// lead from its folder. A file that is there must be the one that was read.
+// files no more. Logs are too large for that. They are expected beside it, where the problem's
+// paths lead from its folder. A file that is there must be the one that was read.
 #pragma once
 
 #include <filesystem>
@@ -33,7 +33,8 @@ class Sources {
   /// Of the problem that a gain file states.
   Sources(const std::string& gain_file, std::vector<model::StatedFile> stated);
 
-  /// The name of the file that `path` is in the file with the name `by`; the problem itself has none.
+  /// The name of the file that `path` is in the file with the name `by`; the problem itself has
+  /// none.
   static std::string name_of(const std::string& path, const std::string& by);
   /// Where it is on the disk.
   std::string path_of(const std::string& name) const;
@@ -57,9 +58,9 @@ class Sources {
   FileMatrix matrix(const Reference& reference, const std::string& key,
                     const std::function<FileMatrix(const std::string&, const std::string&)>& read);
 
-  /// Notes where the time of a log is 0: where a problem says (`stated`), or at its first row although
-  /// nothing says so. InputError at `place` when another log begins by itself, or this one does beside
-  /// another or does in one place only: rows would be moved against each other.
+  /// Notes where the time of a log is 0: where a problem says (`stated`), or at its first row
+  /// although nothing says so. InputError at `place` when another log begins by itself, or this one
+  /// does beside another or does in one place only: rows would be moved against each other.
   void has_origin(const std::string& log, bool stated, const Place& place);
 
   /// Notes the unit in seconds of the times of a log. InputError at `place` when they were read in

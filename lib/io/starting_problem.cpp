@@ -1,3 +1,5 @@
+// A problem to begin with, as text: comments and order are for a person, so it is put together by
+// lines and not by a writer of YAML.
 #include "io/starting_problem.h"
 
 #include <algorithm>
@@ -11,6 +13,7 @@ namespace gainsmith::io {
 
 namespace {
 
+/// A double-quoted text of YAML.
 std::string quoted(const std::string& text) {
   std::string result = "\"";
   for (const char c : text) {
@@ -65,6 +68,7 @@ std::string shape_of(const model::Declaration& datum) {
   return text;
 }
 
+/// Without their ends.
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
   for (std::size_t at = 0, end; at < text.size(); at = end + 1) {
@@ -85,6 +89,7 @@ std::string indented(const std::string& method) {
   return text;
 }
 
+/// Writes the problem; the example is parsed for its keys and copied by its lines.
 class Writer {
  public:
   explicit Writer(const std::string& example) : file_(example, "the example") {
@@ -142,6 +147,7 @@ class Writer {
       const auto first = static_cast<std::size_t>(keys_[k].Mark().line);
       auto last =
           k + 1 < keys_.size() ? static_cast<std::size_t>(keys_[k + 1].Mark().line) : lines.size();
+      // Comments at the end belong to the next key, or to nothing.
       while (last > first && (lines[last - 1].empty() || lines[last - 1].front() == '#')) --last;
       for (std::size_t at = first; at < last; ++at) text_ += lines[at] + "\n";
     }

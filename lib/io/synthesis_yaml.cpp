@@ -1,3 +1,5 @@
+// The choices for the synthesis: the margin of strict inequalities, bounds on gains, how "for all"
+// is met, and effort.
 #include "io/synthesis_yaml.h"
 
 #include <algorithm>
@@ -11,6 +13,7 @@ namespace gainsmith::io {
 
 namespace {
 
+/// How inequalities for all values of a variable are met (docs/forall.md).
 model::Way way_of(const YamlFile& file, const YamlItem& item) {
   using model::Way;
   std::vector<std::string> words;
@@ -63,6 +66,7 @@ void set_margin(const YamlFile& file, const YamlItem& item, model::SynthesisOpti
 }
 
 void set_gain_bound(const YamlFile& file, const YamlItem& item, model::SynthesisOptions& options) {
+  // A later statement, such as one of the command line, replaces an earlier one as a whole.
   options.gain_bounds.clear();
   options.gain_bound_stated = true;
   options.gain_bound = std::nullopt;

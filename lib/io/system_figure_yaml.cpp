@@ -1,3 +1,5 @@
+// Pictures of linear systems. The kind is the key that holds the systems; each kind may have a
+// range and a scalar that is scanned.
 #include "io/system_figure_yaml.h"
 
 #include "base/nearest.h"
@@ -46,6 +48,7 @@ model::SystemFigureText system_figure(const YamlFile& file, const YamlItem& item
   model::SystemFigureText figure;
   figure.name = item.key;
   figure.place = item.place;
+  // Each kind of picture is a key.
   std::optional<YamlItem> chosen;
   for (const model::SystemPictureKind& kind : model::kSystemPictures) {
     const auto found = map.find(std::string(kind.key));

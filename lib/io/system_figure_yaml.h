@@ -6,6 +6,7 @@
 
 namespace gainsmith::io {
 
+/// "loop: {bode: P*K, over: [0.1, 100], title: ...}". InputError for no or two kinds of picture.
 model::SystemFigureText system_figure(const YamlFile& file, const YamlItem& item);
 
 }  // namespace gainsmith::io

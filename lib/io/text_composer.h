@@ -12,6 +12,7 @@
 
 namespace gainsmith::io {
 
+/// Adds texts one behind the other. `positions_` has the place of each byte of the text so far.
 class TextComposer {
  public:
   explicit TextComposer(std::string file) : file_(std::move(file)) {}
@@ -41,6 +42,7 @@ class TextComposer {
     punctuation(")", part.place(part.str().size()));
   }
 
+  /// The whole text as an expression; `end` is the place of what lacks behind it.
   expr::Expression parse(const Place& end) {
     positions_.push_back({end.line, end.column});
     return expr::parse({text_, file_, std::move(positions_)});

@@ -1,3 +1,8 @@
+// Joining a problem with the one that it is `like`, as trees of nodes, before any key is read.
+//
+// The other problem is completed first, so a chain is joined from its end. A mapping that is joined
+// (is_joined) takes each entry of the other one that it does not replace or remove by `none`; any
+// other value is replaced as a whole. The result has the nodes of both files, each with its place.
 #include "io/variant_yaml.h"
 
 #include <algorithm>
@@ -21,6 +26,7 @@ namespace {
 /// The keys that lead to a node.
 using KeyPath = std::vector<std::string>;
 
+/// method.plant, method.observer, or one of method.observers.
 bool is_component(const KeyPath& path) {
   if (path.size() < 2 || path[0] != "method") return false;
   return path.size() == 2 ? path[1] == "plant" || path[1] == "observer"
@@ -67,12 +73,14 @@ int count_keys(const YAML::Node& node, const std::string& name) {
   return count;
 }
 
+/// Completes one problem. `open_` has the files that are being completed, to find circles.
 class Variant {
  public:
   explicit Variant(YamlFile& file) : file_(file) {
     open_.push_back(std::filesystem::path(file.file()).filename().string());
   }
 
+  /// The root joined with the problem that it is like; the root itself where it is like none.
   YAML::Node whole(const YAML::Node& root) {
     if (!root.IsMap() || !root["like"]) return root;
     const YAML::Node like = root["like"];
@@ -82,6 +90,7 @@ class Variant {
     open_.push_back(reference.name);
     Sources& sources = file_.sources(like);
     const std::string shown = sources.shown(reference.name);
+    // The other one first takes what it is like: `other_` and `root_` are set after it.
     const YAML::Node other = whole(file_.add(sources.problem(reference), shown, reference.name));
     if (other.IsMap() && other["gainsmith"])
       throw InputError(reference.place, "like: " + shown + " is a gain file; expected a problem");
@@ -116,6 +125,7 @@ class Variant {
   }
 
  private:
+  /// The mapping without the entries of these names.
   YAML::Node without(const YAML::Node& node, const std::vector<std::string>& names) {
     std::vector<std::pair<YAML::Node, YAML::Node>> kept;
     for (const VariantEntry& entry : entries_of(node, {"method"}))
@@ -124,6 +134,7 @@ class Variant {
     return file_.mapping(kept, file_.place(node));
   }
 
+  /// InputError for a problem that is like itself by others, and for a chain of more than 20.
   void refuse_circle(const Reference& reference) const {
     constexpr std::size_t kMost = 20;
     const bool circle = std::find(open_.begin(), open_.end(), reference.name) != open_.end();
@@ -135,6 +146,7 @@ class Variant {
                             : "like: more than " + std::to_string(kMost) + " problems in a row");
   }
 
+  /// The entries of a mapping with the names by which they replace each other.
   Entries entries_of(const YAML::Node& node, const KeyPath& path) const {
     // Two keys of one name are refused.
     const YamlMap map(file_, node, path.empty() ? "problem" : path.back());
@@ -186,11 +198,13 @@ class Variant {
     return file_.mapping(result, file_.place(own));
   }
 
+  /// The path of an entry below a path.
   static KeyPath path_of(KeyPath path, const std::string& name) {
     path.push_back(name);
     return path;
   }
 
+  /// Whether `none` removed what has this path from the other problem.
   bool was_taken(const KeyPath& path) const {
     return std::find(taken_.begin(), taken_.end(), path) != taken_.end();
   }
@@ -256,6 +270,7 @@ class Variant {
     const std::string& section = path.back();
     const bool of_method = path.size() == 2 && path[0] == "method";
     const bool is_observer = of_method && section == "observers";
+    // What is read by nothing has no effect, so its name is likely a slip.
     const bool must_be_read =
         section == "let" ||
         (of_method && (section == "inputs" || section == "noise" || section == "events"));

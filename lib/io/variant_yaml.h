@@ -10,7 +10,8 @@
 // Mappings of names are joined entry by entry: the sections, those of `method`, what `initial`,
 // `values` and `over` list, each observer and its parts. Anything below is replaced as a whole: a
 // datum, a claim, a start, the map of an event. The other one may be `like` a third. Its name and
-// what it expects are its own. Each node keeps its place, and the paths in a file are relative to it.
+// what it expects are its own. Each node keeps its place, and the paths in a file are relative to
+// it.
 //
 // By the same rules the method of a problem may be `like` one of the program:
 //

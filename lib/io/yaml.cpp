@@ -1,3 +1,8 @@
+// YAML with places. yaml-cpp counts lines and bytes from 0, and has no place of what is left out or
+// within a scalar; both are found from the text here.
+//
+// All files of a problem are one text, one below the other, so that a mark of a node says its file
+// too.
 #include "io/yaml.h"
 
 #include <yaml-cpp/depthguard.h>
@@ -26,6 +31,7 @@ namespace {
 
 bool is_space(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; }
 
+/// The byte at which each line begins.
 std::vector<std::size_t> starts_of_lines(const std::string& text) {
   std::vector<std::size_t> starts = {0};
   for (std::size_t at = 0; at < text.size(); ++at)
@@ -33,6 +39,7 @@ std::vector<std::size_t> starts_of_lines(const std::string& text) {
   return starts;
 }
 
+/// Whether a byte is the second or a later one of a character of UTF-8.
 bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
 
 /// The length of the UTF-8 character at `at`; 0 when there is none.
@@ -54,6 +61,7 @@ int count_characters(std::string_view bytes) {
   return static_cast<int>(std::ranges::count_if(bytes, [](char c) { return !is_continuation(c); }));
 }
 
+/// InputError for control characters and for bytes that are no UTF-8, with line and column.
 void refuse_non_text(const std::string& text, const std::string& file) {
   const auto refuse = [&](std::size_t at, const std::string& message) {
     const std::string_view before = std::string_view(text).substr(0, at);
@@ -100,6 +108,7 @@ class Survey : public YAML::EventHandler {
   void OnDocumentStart(const YAML::Mark& mark) override { starts.push_back(mark); }
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark&, YAML::anchor_t anchor) override { leaf(anchor); }
+  /// An alias counts as many values as its anchor has, so repeated doubling is seen at once.
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     const std::size_t nodes = nodes_[anchor];
     if (nodes == 0) refuse_(mark, "this alias is part of what it stands for");
@@ -125,6 +134,7 @@ class Survey : public YAML::EventHandler {
   void OnMapEnd() override { close(); }
 
  private:
+  /// A list or mapping that is being read.
   struct Open {
     YAML::anchor_t anchor = 0;
     std::size_t nodes = 1;  ///< with those of aliases, so far
@@ -141,6 +151,7 @@ class Survey : public YAML::EventHandler {
     open_.back().nodes += node.nodes;
   }
 
+  /// Values that aliases of a file may repeat in all: a few short lines could ask for billions.
   static constexpr std::size_t kMostAliased = 100'000;
 
   Refuse refuse_;
@@ -199,6 +210,8 @@ std::size_t escape_length(const Cursor& cursor) {
 YamlFile::YamlFile(std::string text, std::string file, Sources* sources)
     : sources_(sources), root_(add(std::move(text), file, "")) {}
 
+/// Adds the text below those that are there. Its nodes are parsed from a text with as many empty
+/// lines in front, which makes their marks those of the whole.
 YAML::Node YamlFile::add(std::string text, const std::string& file, const std::string& name) {
   refuse_control(file, "", "the name of the file", {file});
   text = without_byte_order_mark(std::move(text));
@@ -245,6 +258,7 @@ YAML::Node YamlFile::add(std::string text, const std::string& file, const std::s
   return root;
 }
 
+/// yaml-cpp gives a node that is made no mark: its place is kept beside it.
 YAML::Node YamlFile::mapping(const std::vector<std::pair<YAML::Node, YAML::Node>>& entries,
                              const Place& place) {
   YAML::Node result(YAML::NodeType::Map);
@@ -293,6 +307,7 @@ Place YamlFile::place(const YAML::Mark& mark) const {
   return place(offset(mark));
 }
 
+/// Characters before a byte: a table of every kStep-th one, and the rest counted.
 int YamlFile::characters_to(std::size_t offset) const {
   const std::size_t step = offset / kStep;
   return characters_[step] +
@@ -321,12 +336,14 @@ Place YamlFile::place(const YAML::Node& node) const {
   return place(at);
 }
 
+/// Whether the null is "~" or a word that begins with n, and not a value that is left out.
 bool YamlFile::is_written(const YAML::Node& null) const {
   if (null.Mark().line < 0) return false;
   const std::size_t at = offset(null.Mark());
   return at < text_.size() && (text_[at] == '~' || text_[at] == 'n' || text_[at] == 'N');
 }
 
+/// A scalar as it is, whatever YAML takes it for.
 std::string YamlFile::string(const YAML::Node& node, const std::string& what,
                              std::string_view allowed) const {
   if (!node.IsScalar()) {
@@ -340,6 +357,8 @@ std::string YamlFile::string(const YAML::Node& node, const std::string& what,
   return node.Scalar();
 }
 
+/// The place of each byte of a value. YAML folds lines, joins spaces and reads escapes, so the
+/// value is another text than the file's: both are walked along side by side.
 expr::Text YamlFile::scalar(const YAML::Node& node, const std::string& what) const {
   const std::string value = string(node, what);
   const Place start = place(node.Mark());
@@ -452,6 +471,7 @@ YamlMap::YamlMap(const YamlFile& file, const YAML::Node& node, std::string what,
   level_ = &level;
 }
 
+/// A key that is asked for is known, whether it is there or not.
 std::optional<YamlItem> YamlMap::find(const std::string& key) {
   if (level_ != nullptr) require_known(*level_, key);
   if (std::find(asked_.begin(), asked_.end(), key) == asked_.end()) asked_.push_back(key);
@@ -460,6 +480,7 @@ std::optional<YamlItem> YamlMap::find(const std::string& key) {
   return std::nullopt;
 }
 
+/// Where the key is missing, the error names a key here that is likely meant to be it.
 YamlItem YamlMap::require(const std::string& key) {
   if (auto item = find(key)) return *item;
   // A misspelt or shortened key explains the missing one.

@@ -1,4 +1,8 @@
 // Internal to io: YAML with places, strict about keys.
+//
+// Readers ask a YamlMap for the keys that they know, and finish() refuses what nobody asked for: a
+// misspelt key is never passed over. Scalars stay texts with the place of each character until a
+// reader says what they are, so that YAML's own types (yes, 0o7, 1_000) mean nothing.
 #pragma once
 
 #include <yaml-cpp/yaml.h>
@@ -23,7 +27,8 @@ class Sources;
 class YamlFile {
  public:
   /// InputError with the place for bytes that are no text in UTF-8, a YAML error, an empty file or
-  /// several documents, and for a name of the file with control characters. `sources`: of a problem, which may name files; it must outlive this.
+  /// several documents, and for a name of the file with control characters. `sources`: of a
+  /// problem, which may name files; it must outlive this.
   YamlFile(std::string text, std::string file, Sources* sources = nullptr);
 
   const YAML::Node& root() const { return root_; }
@@ -46,6 +51,7 @@ class YamlFile {
   Place place(const YAML::Node& node) const;
   /// The scalar with the place of each of its characters, however it is quoted or folded.
   expr::Text scalar(const YAML::Node& node, const std::string& what) const;
+  /// A formula of the language. InputError for a list or a mapping.
   expr::Expression expression(const YAML::Node& node, const std::string& what) const;
   /// Without control characters other than those of `allowed`: of a name none.
   std::string string(const YAML::Node& node, const std::string& what,
@@ -77,6 +83,7 @@ class YamlFile {
   /// Whether a node that is null is written there as a word, and is not just left out.
   bool is_written(const YAML::Node& null) const;
 
+  /// Bytes between the entries of the table of characters.
   static constexpr std::size_t kStep = 256;
 
   std::string text_;
@@ -105,7 +112,9 @@ class YamlMap {
   YamlMap(const YamlFile& file, const YAML::Node& node, std::string what, const Level& level);
 
   const std::vector<YamlItem>& items() const { return items_; }
+  /// The item of an optional key.
   std::optional<YamlItem> find(const std::string& key);
+  /// InputError where the key is missing, with a key that is likely to be meant.
   YamlItem require(const std::string& key);
   /// InputError at the first key that nobody asked for, with `advice` on it or else the nearest one
   /// that somebody did.

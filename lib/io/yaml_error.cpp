@@ -1,3 +1,6 @@
+// Causes of errors of YAML, by what people write who do not know it: tabs, formulas without quotes,
+// keys without a colon, brackets that are not closed. Most are sought on the line of the error and
+// the two above; what is found first is said.
 #include "io/yaml_error.h"
 
 #include <algorithm>
@@ -13,6 +16,7 @@ constexpr std::string_view kBlank = " \t\r";
 constexpr std::string_view kWordCharacters =
     "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
 
+/// The lines 0 to `last`, as far as they are there.
 std::vector<std::string_view> lines_of(std::string_view text, std::size_t last) {
   std::vector<std::string_view> lines;
   while (lines.size() <= last) {
@@ -87,6 +91,7 @@ std::optional<std::size_t> find_tight_colon(std::string_view line) {
   return end + 1;
 }
 
+/// A bracket and where it is.
 struct Opened {
   char bracket;
   std::size_t line, column;
@@ -130,6 +135,7 @@ std::optional<std::size_t> find_call(std::string_view line) {
   return std::nullopt;
 }
 
+/// Whether it has a sign that lists of numbers and names have not.
 bool is_formula(std::string_view text) {
   return text.find_first_of("<>;*+/^") != std::string_view::npos;
 }
@@ -152,6 +158,7 @@ YamlError explained(const std::string& text, YamlError error) {
               said + "; in { } and [ ] a formula with a bracket must be quoted, such as \"" +
                   std::string(line.substr(*call, line.find('(', *call) - *call)) + "([1, 2])\""};
     const auto list = find_value(line, "[{");
+    // A list with signs of formulas is likely a matrix of the language without its quotes.
     const bool in_list = list && line[*list] == '[' && is_formula(line.substr(*list));
     if (const auto alias = find_value(line, "*&"); alias && at == last && !in_list)
       return {at, *alias,
@@ -185,6 +192,7 @@ YamlError explained(const std::string& text, YamlError error) {
     if (is_bare(line)) return {at, line.size(), said + "; a ':' is missing behind a key"};
     break;
   }
+  // The reader names the end of the file; the bracket that lacks its end is said instead.
   if (error.message.find("flow not found") != std::string::npos)
     if (const auto open = find_open_bracket(lines))
       return {open->line, open->column,

@@ -1,4 +1,6 @@
-// Matrices of lists.
+// Matrices of lists: [1, 2] and [[1, 2], [3, 4]] become the texts [1, 2] and [1, 2; 3, 4] of the
+// language, whose elements keep their places in the file. So they are parsed and checked like any
+// other formula.
 #include <string>
 
 #include "expr/parser.h"
@@ -24,6 +26,7 @@ bool is_quoted_matrix(const YAML::Node& node) {
   return node.IsScalar() && node.Tag() == "!" && node.Scalar().starts_with('[');
 }
 
+/// One element: an expression, in brackets of its own.
 void add_scalar(const YamlFile& file, const YAML::Node& node, const std::string& what,
                 TextComposer& composer) {
   if (node.IsSequence() || node.IsMap())
@@ -98,6 +101,7 @@ expr::Expression matrix_of(const YamlFile& file, const YamlItem& item, bool colu
   return matrix(file, item, column ? ";" : ",").value;
 }
 
+/// A list of lists of rows, or of files, is a family of matrices.
 model::Value datum_of(const YamlFile& file, const YamlItem& item) {
   if (item.value.IsScalar()) refuse_bare_path(file, item);
   if (!item.value.IsSequence() || !is_list_of_matrices(item.value)) return value_of(file, item);

@@ -1,3 +1,6 @@
+// From a graph to steps: registers by a linear scan over last uses, and fewer steps by fusion. A
+// sum or product may have a constant operand, take the result of the step before from vector
+// registers, or be part of a polynomial in one step.
 #include "lanes/machine.h"
 
 #include <algorithm>
@@ -15,10 +18,11 @@ using numbers::TapeCode;
 
 namespace {
 
+/// The vector form of an operation; none: it is computed lane by lane.
 std::optional<LaneOp> lane_op(ScalarOp op) {
   switch (op) {
 #define LANE_OP(op, operands, ...) \
-  case ScalarOp::op:          \
+  case ScalarOp::op:               \
     return LaneOp::op;
 #include "numbers/scalar_ops.def"
     default:
@@ -29,7 +33,7 @@ std::optional<LaneOp> lane_op(ScalarOp op) {
 int operands_of(ScalarOp op) {
   switch (op) {
 #define SCALAR_OP(op, operands, ...) \
-  case ScalarOp::op:            \
+  case ScalarOp::op:                 \
     return operands;
 #include "numbers/scalar_ops.def"
     default:
@@ -37,6 +41,7 @@ int operands_of(ScalarOp op) {
   }
 }
 
+/// Whether finite operands may have a result that is not finite; it is then a fault of the lane.
 bool is_partial(ScalarOp op) {
   return op == ScalarOp::divide || op == ScalarOp::sqrt || op == ScalarOp::exp;
 }
@@ -99,6 +104,7 @@ class LaneCode::Maker {
     if (count > 2) visit(step.c);
   }
 
+  /// last_[v]: the last step that reads value v; 0 of none, kNever of results.
   void find_last_uses() {
     last_.assign(tape_.registers, 0);
     for (std::size_t k = 0; k < tape_.steps.size(); ++k)
@@ -119,6 +125,7 @@ class LaneCode::Maker {
     return at_[one];
   }
 
+  /// A free register, or a new one.
   std::uint32_t fresh() {
     if (free_.empty()) return static_cast<std::uint32_t>(code_.registers_++);
     const std::uint32_t one = free_.back();
@@ -126,6 +133,7 @@ class LaneCode::Maker {
     return one;
   }
 
+  /// Frees the registers of operands that step k is the last to read.
   void release(const TapeCode::Step& step, std::size_t k) {
     visit_operands(step, [&](std::uint32_t one) {
       if (one < first_ || last_[one] != k || at_[one] == kNone) return;
@@ -134,8 +142,8 @@ class LaneCode::Maker {
     });
   }
 
-  /// A result that nothing uses is there for its fault alone. One that is fed back is written to the
-  /// input at once, when nothing reads that any more.
+  /// A result that nothing uses is there for its fault alone. One that is fed back is written to
+  /// the input at once, when nothing reads that any more.
   std::uint32_t give(std::uint32_t out, std::size_t k) {
     const auto input = fed_.find(out);
     at_[out] = input != fed_.end() && last_[input->second] <= k ? input->second : fresh();
@@ -143,6 +151,8 @@ class LaneCode::Maker {
     return at_[out];
   }
 
+  /// Adds step k of the tape, with a constant operand where it has one. Operands are released
+  /// before the result gets its register, so that both may be the same.
   void add(std::size_t k) {
     const TapeCode::Step& step = tape_.steps[k];
     if (step.op == ScalarOp::block) return add_block(step, k);
@@ -204,6 +214,7 @@ class LaneCode::Maker {
     before.stores = false;
   }
 
+  /// Frees the register of a result that nothing reads.
   void drop(std::uint32_t out, std::size_t k) {
     if (last_[out] == k) free_.push_back(at_[out]);
   }
@@ -239,10 +250,13 @@ class LaneCode::Maker {
     return length;
   }
 
+  /// a of the polynomial that begins with this step, whose other factor is a constant.
   std::uint32_t argument_of(const TapeCode::Step& first) const {
     return is_constant(first.a) ? first.b : first.a;
   }
 
+  /// Whether step k multiplies the result before it by the same argument, and nothing else reads
+  /// that.
   bool continues(std::size_t first, std::size_t k) const {
     const TapeCode::Step& step = tape_.steps[k];
     const std::uint32_t before = tape_.steps[k - 1].out;
@@ -252,6 +266,8 @@ class LaneCode::Maker {
     return takes && last_[before] == k;
   }
 
+  /// sum_i c_i a^(length-i), i = 0 ... length, as one step: the intermediate values need no
+  /// registers.
   void add_polynomial(std::size_t k, std::size_t length) {
     const TapeCode::Step& first = tape_.steps[k];
     LaneStep made;
@@ -270,6 +286,7 @@ class LaneCode::Maker {
     drop(tape_.steps[end].out, end);
   }
 
+  /// An operation without a vector form.
   void add_function(const TapeCode::Step& step, std::size_t k) {
     OneByOne one;
     one.op = step.op;
@@ -348,6 +365,8 @@ LaneMachine::LaneMachine(LaneMachine&&) noexcept = default;
 LaneMachine& LaneMachine::operator=(LaneMachine&&) noexcept = default;
 LaneMachine::~LaneMachine() = default;
 
+/// Runs stretches of vector steps, with what is done lane by lane between them. A fault is any sum
+/// of 0 * value that is not 0.
 void LaneMachine::run(std::uint32_t active) {
   alignas(64) double faults[kLanes] = {};
   faults_ = 0;

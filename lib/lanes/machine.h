@@ -3,6 +3,9 @@
 // A LaneCode is made once and read by all threads; a LaneMachine has the registers of one of them.
 // A lane in which something has no value is marked (faults) and its results say nothing; the other
 // lanes are what they are without it.
+//
+// What has a vector form runs over all lanes (steps.h). Operations on matrices, powers, logarithms
+// and the like are computed lane by lane, in the lanes that are active.
 #pragma once
 
 #include <cstddef>
@@ -18,6 +21,8 @@
 
 namespace gainsmith::lanes {
 
+/// A list of steps over registers, with few of them: a register is free again after the last use of
+/// its value. Immutable.
 class LaneCode {
  public:
   /// Computes the nodes of `results` and what may have no value, from `inputs` numbers a lane.

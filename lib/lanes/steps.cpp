@@ -1,3 +1,4 @@
+// The choice of a variant, once a process. Level v2 is the least that the program runs on.
 #include "lanes/steps.h"
 
 #include "base/isa.h"

@@ -1,5 +1,8 @@
 // The operations of steps.h, included by one source a variant, which names it in GAINSMITH_VARIANT.
 // Nothing here may be shared with other sources: it is compiled for other machines than they are.
+//
+// The elementary functions reduce their argument in two or three parts (Cody and Waite 1980) and
+// take a Taylor polynomial there, without tables. They are right to four units in the last place.
 #include <immintrin.h>
 
 #include "base/sine.h"
@@ -11,12 +14,14 @@ namespace {
 
 // Vectors of the width that the machine has: wider ones would live in memory.
 #if defined(__AVX512F__)
+/// Numbers in a vector register.
 constexpr std::size_t kWidth = 8;
 #elif defined(__AVX2__)
 constexpr std::size_t kWidth = 4;
 #else
 constexpr std::size_t kWidth = 2;
 #endif
+/// Vectors in a register of the interpreter.
 constexpr std::size_t kVectors = kLanes / kWidth;
 using V = double __attribute__((vector_size(8 * kWidth)));
 using I = long long __attribute__((vector_size(8 * kWidth)));
@@ -36,11 +41,13 @@ inline U all_bits(unsigned long long x) { return (U)all(static_cast<long long>(x
 inline V bits_to_number(I x) { return __builtin_bit_cast(V, x); }
 inline I number_to_bits(V x) { return __builtin_bit_cast(I, x); }
 inline V abs_of(V x) { return bits_to_number(number_to_bits(x) & all(0x7fffffffffffffffLL)); }
+/// x >= 0 with the sign of another number.
 inline V with_sign(V x, V sign) {
   return bits_to_number(number_to_bits(x) |
                         (number_to_bits(sign) & all(-0x7fffffffffffffffLL - 1)));
 }
 
+/// a b + c, rounded once where the machine has the instruction.
 inline V multiply_add(V a, V b, V c) {
 #if defined(__AVX512F__)
   return _mm512_fmadd_pd(a, b, c);
@@ -101,8 +108,11 @@ inline V exp_reduced(V x, Rounded& k) {
          k.value * all(1.90821492927058770002e-10);
 }
 
+/// 2^k by its exponent bits, -1022 <= k <= 1023.
 inline V power_of_two(I k) { return bits_to_number((k + all(1023LL)) << 52); }
 
+/// e^x = 2^k (1 + r + r^2 q(r)); infinite above log of the largest double, 0 far below. What is not
+/// a number stays so.
 inline V exp_of(V x) {
   constexpr double largest = 709.782712893384;
   constexpr double least = -745.2;
@@ -117,7 +127,8 @@ inline V exp_of(V x) {
   return x == x ? out : x;
 }
 
-/// (e^y - 1) / (e^y + 1) of y = 2|x|.
+/// (e^y - 1)/(e^y + 1) with y = 2|x|: e^y - 1 = 2^k (e^r - 1) + 2^k - 1 loses no digits near 0.
+/// Beyond |x| = 22 it is 1 to double.
 inline V tanh_of(V x) {
   const V size = abs_of(x);
   const V y = all(2.0) * (size > all(22.0) ? all(22.0) : size);
@@ -129,6 +140,7 @@ inline V tanh_of(V x) {
   return x == x ? with_sign(out, x) : x;
 }
 
+/// Whether a lane of a mask is set; those of comparisons are all ones or all zeros.
 inline bool any(I mask) {
 #if defined(__AVX512F__)
   return _mm512_test_epi64_mask((__m512i)mask, (__m512i)mask) != 0;
@@ -161,8 +173,8 @@ inline V sin_kernel(V r) {
 /// Beyond these angles the half turns are not exact.
 constexpr double kLargestAngle = 1e6;
 
-/// x = k pi + r, with k + 1/2 for the cosine, pi in three parts (fdlibm) of which the first two have
-/// 33 bits: then sin(x) = (-1)^k sin(r) and cos(x) = -(-1)^k sin(r).
+/// x = k pi + r, with k + 1/2 for the cosine, pi in three parts (fdlibm) of which the first two
+/// have 33 bits: then sin(x) = (-1)^k sin(r) and cos(x) = -(-1)^k sin(r).
 template <bool cosine>
 inline V sine(V x) {
   const V shift = all(cosine ? 0.5 : 0.0);
@@ -207,7 +219,8 @@ inline void each(const LaneStep& step, double* registers, Last& last, const Oper
 inline V sine_of(V x) { return sine<false>(x); }
 inline V cosine_of(V x) { return sine<true>(x); }
 
-/// Even and odd powers apart, so that twice as many sums are under way: `chunk` vectors at a time.
+/// sum_i c_i a^i as E(a^2) + a O(a^2), even and odd powers apart by Horner's rule. Two sums are in
+/// progress at once, of `chunk` vectors, which hides the latency of multiply_add.
 inline void polynomial(const LaneStep& step, const double* constants, double* registers,
                        Last& last) {
   constexpr std::size_t chunk = kVectors < 4 ? kVectors : 4;
@@ -247,7 +260,7 @@ inline void polynomial(const LaneStep& step, const double* constants, double* re
   store(step, registers, last);
 }
 
-/// Of the low halves.
+/// The 64-bit products of the low halves.
 inline U multiply_low(U a, U b) {
 #if defined(__AVX512F__)
   return (U)_mm512_maskz_mul_epu32(0xFF, (__m512i)a, (__m512i)b);
@@ -258,7 +271,8 @@ inline U multiply_low(U a, U b) {
 #endif
 }
 
-/// Philox4x32-10 (base/random.h) of a vector of counters, each word in the low half of 64 bits.
+/// Philox4x32-10 (Salmon et al. 2011; base/random.h) of a vector of counters (draw, run), each word
+/// in the low half of 64 bits. The first two words give 53 bits, u = bits 2^-53.
 void uniforms(std::uint64_t key, const std::uint64_t* runs, std::uint64_t draw, double low,
               double width, double* out) {
   const U half = all_bits(0xFFFFFFFFULL);
@@ -288,12 +302,14 @@ void uniforms(std::uint64_t key, const std::uint64_t* runs, std::uint64_t draw, 
   }
 }
 
+/// Those of base/sine.h, which have the same bits on every machine.
 void sines(double* x) {
   V* const all_of = reinterpret_cast<V*>(x);
 #pragma GCC unroll 4
   for (std::size_t v = 0; v < kVectors; ++v) all_of[v] = gainsmith::sine(all_of[v]);
 }
 
+/// Comparisons that are ordered: a lane with what is not a number has reached its bound.
 std::uint32_t reached(const double* x, double bound) {
   const V* const all_of = reinterpret_cast<const V*>(x);
   std::uint32_t bits = 0;
@@ -312,6 +328,7 @@ std::uint32_t reached(const double* x, double bound) {
   return ~bits;
 }
 
+/// The interpreter: one case an operation, each a loop over the vectors of a register.
 const LaneStep* run(const LaneStep* step, const LaneStep* end, const double* constants,
                     double* registers, double* faults) {
   Last last{};

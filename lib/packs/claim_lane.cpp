@@ -24,12 +24,16 @@ double rise_at_branch(const StepSamples& samples) {
                    std::abs(samples.end.rate)});
 }
 
+/// How far rounding may lead a value astray: 8 units of it, and kTermRounding of the sum of the
+/// absolute values of its terms, which cancellation leaves visible.
 double rounding(double value, double terms) {
   return 8 * kUnitRoundoff * std::abs(value) + hybrid::kTermRounding * terms;
 }
 
 }  // namespace
 
+/// A norm that is compared once is compared by its square, which is smooth at 0: v^2 <= limit^2.
+/// The error of the limit becomes 2 |limit| times as large.
 void ClaimLane::begin(const PackClaim& claim, const PackSystem& pack, const PackAccuracy& accuracy,
                       double limit, double terms) {
   *this = ClaimLane();
@@ -50,6 +54,8 @@ void ClaimLane::begin(const PackClaim& claim, const PackSystem& pack, const Pack
   limit_ *= std::abs(limit);
 }
 
+/// (v - limit)/|limit|, or v where the limit is 0; of squares (sqrt(v) - b)/b with b =
+/// sqrt(|limit|), so that scores of a norm are those of the norm itself.
 double ClaimLane::score_of(double value) const {
   if (!claim_->squared) return (value - limit_) / scale();
   const double bound = std::sqrt(scale());
@@ -67,6 +73,8 @@ void ClaimLane::check_parting(double value, double difference, double terms) {
     open_ = true;
 }
 
+/// error = factor max(last three |fine - coarse|) + rounding + late. A whole number that rests
+/// along flows and is equal in both runs is exact.
 ClaimLane::Known ClaimLane::known(const Reading& reading, bool jumped) {
   const double difference = std::abs(reading.fine - reading.coarse);
   if (jumped) differences_.fill(0);
@@ -80,6 +88,7 @@ ClaimLane::Known ClaimLane::known(const Reading& reading, bool jumped) {
   return {sign_ * reading.fine, error};
 }
 
+/// A jump that changes the value by rounding alone is no rise.
 void ClaimLane::at(double t, const Reading& reading, std::optional<std::size_t> event) {
   const bool is_jump = event.has_value();
   Known value = known(reading, is_jump);
@@ -106,6 +115,9 @@ void ClaimLane::along(double t, const StepSamples& samples, const pieces::StepPo
   compare_within(samples, sign_ < 0 ? along.negated() : along, value, end.terms, breaks);
 }
 
+/// A claim that branches on the step is bounded by its rates there. The step says too little of
+/// `below` and `above` where this bound passes the limit, or leaves the score uncertain by half of
+/// kScore.
 bool ClaimLane::is_blurred(double t, const StepSamples& samples,
                            const pieces::StepPolynomial& along, const Reading& end) const {
   if (claim_->over || always_ || !claims::is_after(t, false, claim_->after)) return false;
@@ -204,6 +216,7 @@ claims::Finding ClaimLane::finding() const {
   return finding;
 }
 
+/// Takes over the course of a run that was made in closed form, and compares its end.
 void ClaimLane::finish(const Course& course) {
   sampled_ = course.sampled;
   violated_ = course.violated;

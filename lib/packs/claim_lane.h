@@ -1,10 +1,16 @@
 // One claim against one run of a pack, as it goes.
 //
 // The comparisons are those of claims/claim_check.h, over values at the ends and the middles of
-// steps and, between them, over the quintic through these. Twice the run is made: the error of a
-// value is PackSystem::error_factor times the largest difference of both over the last three ends of
-// steps, and
-// what its terms round. What it leaves open is left to the careful run.
+// steps and, between them, over the quintic through these. The run is made twice. The error of a
+// value is
+//
+//   error_factor max |v_fine - v_coarse| + rounding of its terms
+//
+// with the maximum over the last three ends of steps. One end alone may have a small difference by
+// chance. What the comparison leaves open is left to the careful run.
+//
+//   below   v <= limit + tolerance |limit|    nonincreasing   v(t) <= the least v before
+//   above   the same of -v                    shrinks         v(end) <= factor v(start)
 #pragma once
 
 #include <array>
@@ -25,6 +31,8 @@ struct Reading {
   double late = 0;  ///< what the value may have changed since a root that the step has passed
 };
 
+/// Begun, then given every start, jump and step of the run in order, then finished. Once open it
+/// stays so, unless the claim holds always.
 class ClaimLane {
  public:
   /// `limit`: the bound, the factor, or of a cost the value at the start with its `terms`.
@@ -40,6 +48,7 @@ class ClaimLane {
   /// Whether a step up to t on which the value branches says too little of it.
   bool is_blurred(double t, const StepSamples& samples, const pieces::StepPolynomial& along,
                   const Reading& end) const;
+  /// Compares what is known at the end alone: `shrinks`, and the scores of all kinds.
   void finish();
   /// What a run made otherwise came to; values with the sign that they are compared with.
   struct Course {
@@ -57,17 +66,22 @@ class ClaimLane {
   claims::Finding finding() const;
 
  private:
+  /// A value with the sign that it is compared with, and its estimated error.
   struct Known {
     double value = 0;
     double error = 0;
   };
+  /// The value of a reading and its error. A jump begins a new history of differences.
   Known known(const Reading& reading, bool jumped);
+  /// At one point. `same`: bit for bit as at the point before. `crowded`: the point may be so near
+  /// to the one before that a rise within a part of its error counts for nothing.
   void compare(Known value, double terms, bool same, bool crowded);
   void compare_within(const StepSamples& samples, const pieces::StepPolynomial& along, Known end,
                       double terms, bool breaks);
+  /// Leaves the claim open where both runs have parted: their difference says no more of the error.
   void check_parting(double value, double difference, double terms);
-  /// How near a value comes to what it must not exceed (claims::Finding::score), by their roots where
-  /// they are squares.
+  /// How near a value comes to what it must not exceed (claims::Finding::score), by their roots
+  /// where they are squares.
   double score_of(double value) const;
   /// What a bound is compared by, and what a tolerance forgives of it.
   double scale() const { return limit_ == 0 ? 1 : std::abs(limit_); }

@@ -11,6 +11,8 @@ using model::Dynamics;
 using numbers::ScalarGraph;
 using numbers::ScalarOp;
 
+/// x+ = g(x) for all reactions of the event, each from the values before. A symmetric state becomes
+/// (X + X')/2. Counters of jumps rise by 1, and the jump cost is evaluated before the jump.
 LaneCode jump_code(const PackSystem& pack, std::size_t event, bool lost) {
   const Dynamics& dynamics = pack.system->dynamics;
   PackGraph texts(*pack.system, pack.costs);

@@ -7,7 +7,10 @@
 
 namespace gainsmith::packs {
 
-/// All values after the maps, then what must be 0: the parts of modes that are no whole numbers. `lost`: of the plant alone.
+/// Result 0: all values after the maps, `whole` of them. Result 1: what must be 0, the fractional
+/// parts of modes. `lost`: the maps of the plant alone, where the event is lost to the observers.
+/// All maps read the values before the jump; within one component a later pass reads those of the
+/// pass before.
 lanes::LaneCode jump_code(const PackSystem& pack, std::size_t event, bool lost);
 
 }  // namespace gainsmith::packs

@@ -1,9 +1,14 @@
+// Instants of a lane: the sides of watched differences, events that are due, and the beginning of
+// flows. A side is known where the difference exceeds its estimated error. What is not certain and
+// decides something leaves the lane open, with the reason in Why.
 #include "packs/lane_set.h"
 
 #include <algorithm>
 
 namespace gainsmith::packs {
 
+/// The order at an instant: sides, branches of the flow, claims, signs of crossings, then what is
+/// due.
 bool LaneSet::settle(std::size_t l) {
   PackLane& lane = *lanes_[l];
   if (!find_sides(l)) return false;
@@ -55,6 +60,7 @@ bool LaneSet::find_sides(std::size_t l) {
   return true;
 }
 
+/// The sign of the rate where both runs agree on it.
 std::int8_t LaneSet::leaving_side(std::size_t w, std::size_t l) const {
   const std::int8_t side = sign_of(start_.at(PackSystem::watch_rates, w, l));
   return side == sign_of(coarse_start_.at(PackSystem::watch_rates, w, l)) ? side : std::int8_t{0};
@@ -123,6 +129,9 @@ bool LaneSet::has_exact_zeros(const WatchedCondition& condition, std::size_t l) 
                      [&](const WatchedCondition& part) { return has_exact_zeros(part, l); });
 }
 
+/// Events are tried in their order. A crossing is due once its side has changed in its direction, a
+/// condition while it holds and is not spent, a clock at its time. A lane is left open where a
+/// later condition holds at the same root.
 bool LaneSet::find_due(std::size_t l) {
   PackLane& lane = *lanes_[l];
   lane.due.reset();
@@ -169,6 +178,8 @@ bool LaneSet::find_due(std::size_t l) {
   return true;
 }
 
+/// Marks the watches that may decide something in this flow, and sets its stop: the horizon, the
+/// next clock, the next draw of noise, or the time from which a claim is made.
 bool LaneSet::begin_flow(std::size_t l) {
   PackLane& lane = *lanes_[l];
   // What rounding sets apart is one time.
@@ -219,6 +230,7 @@ bool LaneSet::begin_flow(std::size_t l) {
   return lane.stop > lane.t || open(Why::jumps);
 }
 
+/// x <- x + time f(x). At a root this is the first-order effect of the event's time on the state.
 void LaneSet::move(std::size_t l, LaneValues& values, const LanePoint& seen, double time) {
   for (std::size_t k = 0; k < pack_.rows.size(); ++k)
     values.at(static_cast<std::size_t>(pack_.rows[k]), l) +=
@@ -238,13 +250,15 @@ bool LaneSet::still_inside(std::size_t l) {
   return true;
 }
 
+/// Each run goes to its own root by one step of Newton's method, s = -v/v'. The coarser one takes
+/// the rates of the finer one for its move, as its own are not evaluated at ends of steps.
 bool LaneSet::arrive_at_root(std::size_t l, std::size_t target) {
   PackLane& lane = *lanes_[l];
   if (!find_due(l)) return false;
   const Watch& watch = pack_.watches[target];
   if (!lane.due && watch.branches.empty()) return true;
-  // Each run is moved to its own root: then they differ by what that makes of the time of the event,
-  // and what is left of the root is no sign of anything else that comes to 0 with it.
+  // Each run is moved to its own root: then they differ by what that makes of the time of the
+  // event, and what is left of the root is no sign of anything else that comes to 0 with it.
   const auto shift = [&](const LanePoint& seen) {
     return -seen.at(PackSystem::watch_values, target, l) /
            seen.at(PackSystem::watch_rates, target, l);
@@ -264,6 +278,7 @@ bool LaneSet::arrive_at_root(std::size_t l, std::size_t target) {
   return !lane.due || begin_jump(l);
 }
 
+/// An accumulation of jumps (hybrid/zeno.h) ends the run with what its claims are so far.
 bool LaneSet::begin_jump(std::size_t l) {
   PackLane& lane = *lanes_[l];
   if (ends_in_zeno_ && !lane.has_jumped && lane.t > lane.flow_start) {

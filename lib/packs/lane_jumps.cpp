@@ -1,3 +1,6 @@
+// Jumps of lanes: noise is drawn, `only if` is decided, then the maps are applied to both runs. The
+// second run is moved in its last places before, so that what jumps amplify shows in the
+// difference.
 #include "packs/lane_set.h"
 
 #include <algorithm>
@@ -46,6 +49,8 @@ void LaneSet::take_noise(std::size_t noise, std::size_t l) {
   }
 }
 
+/// Decided by the finer run and its error, from the values just before the maps. An event that may
+/// not jump spends its occurrence.
 std::uint32_t LaneSet::allowed(std::size_t event, std::uint32_t mask) {
   evaluate(point_, fine_, middle_, mask);
   evaluate(point_, coarse_, end_, mask);
@@ -87,6 +92,8 @@ void LaneSet::spend(std::size_t event, std::size_t l) {
   fill_clocks(l);
 }
 
+/// x+ = g(x) in both runs. A value without a result, a mode that is no whole number, or a state
+/// beyond kLargestState leaves the lane open.
 void LaneSet::jump(std::size_t event, std::uint32_t mask, LaneMachine& machine) {
   std::uint32_t bad = 0;
   for (LaneValues* values : {&fine_, &coarse_}) {

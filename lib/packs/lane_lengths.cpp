@@ -37,6 +37,8 @@ void LaneLengths::begin(std::uint64_t seed, const LaneRuns& runs) {
   due_ = first_ = length_;
 }
 
+/// Lengths between low and high: uniform, one of both ends with probability 1/2 each, the sinusoid
+/// of the time t/high, or a law that needs no draw and is the same in all lanes.
 void LaneLengths::draw_lengths(std::uint64_t number) {
   const double low = clock_->low, high = clock_->high;
   if (low == high) {
@@ -71,6 +73,7 @@ void LaneLengths::take_given() {
   }
 }
 
+/// A clock with one length is due at first + k low, without a sum that would collect rounding.
 void LaneLengths::advance() {
   if (!given_.empty()) {
     for (hybrid::EventClocks& one : given_) one.advance(0, one.due(0));

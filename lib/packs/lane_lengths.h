@@ -13,11 +13,13 @@ namespace gainsmith::packs {
 using LaneNumbers = std::array<double, lanes::kLanes>;
 using LaneRuns = std::array<std::uint64_t, lanes::kLanes>;
 
+/// Draws of all lanes at once, by counters: each is a function of (seed, run, number of the draw).
 class LaneLengths {
  public:
   /// Of event 0, which has a clock. All runs have the same law. Both must outlive it.
   LaneLengths(const hybrid::System& system, const hybrid::Scenario& scenario);
 
+  /// The first flow of these runs. They are all drawn, or all given by the scenario.
   void begin(std::uint64_t seed, const LaneRuns& runs);
   /// Of the flow that is next, and the times at which it ends.
   const LaneNumbers& length() const { return length_; }

@@ -16,6 +16,7 @@ namespace {
 /// So many lanes step without the others: a step costs the same for few.
 constexpr int kMostLanes = 7 * static_cast<int>(kLanes) / 8;
 
+/// Tried one after the other, the coarsest first: it decides most runs at the least cost.
 constexpr PackAccuracy kAccuracies[] = {{kFirstRelative, kFirstAbsolute},
                                         {kAgainRelative, kAgainAbsolute},
                                         {kLastRelative, kLastAbsolute}};
@@ -60,6 +61,7 @@ LaneSet::LaneSet(const PackSystem& pack)
   }
 }
 
+/// A run that is open is made again to the next accuracy, and left open after the last.
 void LaneSet::run(std::uint64_t seed, std::uint64_t first, std::vector<PackVerdict>& verdicts) {
   seed_ = seed;
   first_ = first;
@@ -119,6 +121,7 @@ std::size_t LaneSet::rows_of(std::size_t result) const {
   }
 }
 
+/// The elements that clocks fill: time, `since` an event, `left` to it.
 void LaneSet::find_clock_elements() {
   since_.resize(pack_.events.size());
   left_.resize(pack_.events.size());
@@ -199,6 +202,8 @@ std::uint32_t LaneSet::begin_claims(std::uint32_t mask) {
   return begin_.faults() & fresh;
 }
 
+/// Both runs are evaluated in full, also with the rates of the coarser one, which moves by them at
+/// roots.
 void LaneSet::evaluate_all(std::uint32_t mask) {
   evaluate(point_, fine_, middle_, mask);
   evaluate(point_, coarse_, end_, mask);

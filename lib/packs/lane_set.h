@@ -1,4 +1,17 @@
 // The lanes of a pack and what they do: the machinery of pack_runner.h.
+//
+// Each lane is in one of three phases. All lanes of one phase are computed together:
+//
+//   evaluate   new values at an instant: sides, branches and due events are found
+//   step       a step of both runs, its polynomials, and the first root that decides something
+//   jump       the maps of one event, in all lanes in which it is due
+//
+// A step is judged lane by lane: it is taken, taken again to a root or shorter, or the lane is left
+// open. A step costs the same for few lanes. So steps wait while fewer than 7 of 8 lanes step and
+// others have work at an instant.
+//
+//   lane_set.cpp     lanes, values at a point      lane_instants.cpp   what follows at an instant
+//   lane_jumps.cpp   noise, conditions, maps       lane_steps.cpp      steps, roots, kinks
 #pragma once
 
 #include <cmath>
@@ -13,6 +26,7 @@
 
 namespace gainsmith::packs {
 
+/// It keeps all values of 32 runs, each twice: `coarse_` from whole steps, `fine_` from half steps.
 class LaneSet {
  public:
   explicit LaneSet(const PackSystem& pack);
@@ -20,12 +34,15 @@ class LaneSet {
   void run(std::uint64_t seed, std::uint64_t first, std::vector<PackVerdict>& verdicts);
 
  private:
+  /// Runs all that is waiting to one accuracy.
   void run_waiting(const PackAccuracy& accuracy);
 
   // --- Lanes. ---
 
+  /// How many rows a result of `point` has.
   std::size_t rows_of(std::size_t result) const;
   void find_clock_elements();
+  /// The lanes in a phase, as bits.
   std::uint32_t in(Phase phase) const {
     std::uint32_t mask = 0;
     for (std::size_t l = 0; l < lanes::kLanes; ++l)
@@ -36,6 +53,7 @@ class LaneSet {
   static void each(std::uint32_t mask, const Visit& visit) {
     for (; mask != 0; mask &= mask - 1) visit(static_cast<std::size_t>(std::countr_zero(mask)));
   }
+  /// Gives empty lanes the runs that wait, each at its drawn start.
   void refill();
   void leave_open(std::size_t l);
   /// The lane is left open, for this reason.
@@ -43,10 +61,13 @@ class LaneSet {
     why_ = why;
     return false;
   }
+  /// Writes the verdict of a run that has ended, and empties its lane.
   void finish(std::size_t l);
+  /// Sets an element in both runs: what is exact, such as clocks and noise.
   void set(std::size_t element, std::size_t l, double value) {
     coarse_.at(element, l) = fine_.at(element, l) = value;
   }
+  /// Sets the time, and the times that are left to clocks, never below 0.
   void fill_clocks(std::size_t l);
 
   // --- Values at a point. ---
@@ -82,6 +103,8 @@ class LaneSet {
   static std::int8_t side_of(const Watched& watched, const PackLane& lane) {
     return static_cast<std::int8_t>(watched.factor * lane.sides[watched.watch]);
   }
+  /// The side of 0 of each watched difference: its sign where it exceeds its error, otherwise 0. A
+  /// crossing that has just changed its sign keeps its side.
   bool find_sides(std::size_t l);
   /// Not at a root, to which both runs are moved.
   bool is_exact_zero(std::size_t w, std::size_t l) const {
@@ -125,18 +148,23 @@ class LaneSet {
   void move(std::size_t l, LaneValues& values, const LanePoint& seen, double time);
   /// Whether the conditions that hung on unknown sides are as they must be, and flow sets hold.
   bool still_inside(std::size_t l);
+  /// At the end of a step that ends at a root: finds what is due, and moves both runs to their own
+  /// roots.
   bool arrive_at_root(std::size_t l, std::size_t target);
+  /// At a clock, a draw of noise, a start of claims or the horizon.
   bool arrive_at_stop(std::size_t l);
   bool has_open_branch(const PackLane& lane) const;
 
   // --- Jumps. ---
 
+  /// Jumps the lanes that have the event of the first of them due; the others wait.
   void jump_all(std::uint32_t mask);
   /// The noise of an event.
   void draw(std::size_t event, std::size_t l);
   void take_noise(std::size_t noise, std::size_t l);
   /// The lanes in which an event may jump; in the others its occurrence is spent.
   std::uint32_t allowed(std::size_t event, std::uint32_t mask);
+  /// The occurrence of an event is over: its clock goes on to the next.
   void spend(std::size_t event, std::size_t l);
   void keep_before(std::size_t l) {
     for (std::size_t w = 0; w < pack_.watches.size(); ++w)
@@ -151,7 +179,10 @@ class LaneSet {
   void step_all(std::uint32_t mask);
   /// The finer run at a quarter of the step, or at three quarters (`mirrored`), by its quintic.
   void evaluate_between(bool mirrored, LanePoint& seen, std::uint32_t active);
+  /// The length of the next step. A rest shorter than two steps is halved, so that no tiny step is
+  /// left.
   static double choose_length(PackLane& lane);
+  /// Takes the step again, by this factor shorter; false below kShortestStep of the horizon.
   bool shorten(PackLane& lane, double factor);
   /// After a step with too large an error: up to the first kink on it, or shorter.
   bool shorten_by_error(std::size_t l);
@@ -201,8 +232,8 @@ class LaneSet {
   /// How far the end of the step is from the root that it goes to.
   double time_beside_root(const PackLane& lane, std::size_t l) const;
   bool judge_claims(std::size_t l, bool& takes);
-  /// A step on which a claim has a kink ends just before it, and a short one passes it. False: it is
-  /// short already.
+  /// A step on which a claim has a kink ends just before it, and a short one passes it. False: it
+  /// is short already.
   bool stop_beside_kink(std::size_t claim, std::size_t l);
   /// Of a difference on the step; none: it does not change its sign.
   std::optional<double> root_of_extra(std::size_t k, std::size_t l) const {
@@ -216,7 +247,8 @@ class LaneSet {
   }
   /// At the end of a step that is taken.
   bool arrive(std::size_t l);
-  /// Whether on the step a claim may come to where it branches, or to a sharp turn of a square root.
+  /// Whether on the step a claim may come to where it branches, or to a sharp turn of a square
+  /// root.
   bool may_branch(std::size_t c, std::size_t l) const;
   /// Between which values an extra is on the step.
   std::pair<double, double> range_of_extra(std::size_t k, std::size_t l) const;

@@ -1,3 +1,12 @@
+// Steps of lanes. A step of length h is made once in whole (coarse) and twice in halves (fine).
+// With a method of order 8 the error of the finer run is about 2^-8 of the difference of both; what
+// is counted as its error is PackSystem::error_factor times the difference. The error control is
+// that of the whole step. Roots on the step are found on quintics (quintics.h):
+//
+//   no root     all Bernstein coefficients are on the known side of 0, by more than the error
+//   one root    they change their sign once; then the polynomial has just one root (variation
+//               diminishing property), and the step is taken again up to it
+//   otherwise   the sign is not certain: the step is halved, at most kMostHalvings times
 #include "packs/lane_set.h"
 
 #include <algorithm>
@@ -9,6 +18,7 @@ namespace gainsmith::packs {
 
 using lanes::kLanes;
 
+/// One step of length share * lengths_ in the lanes `active`; what does not move is copied.
 void LaneSet::step(const LaneValues& from, double share, LaneValues& to, std::uint32_t active,
                    std::uint32_t& faults) {
   std::copy_n(from.row(0), pack_.whole * kLanes, step_.input(0));
@@ -21,6 +31,9 @@ void LaneSet::step(const LaneValues& from, double share, LaneValues& to, std::ui
                 to.row(static_cast<std::size_t>(pack_.rows[k])));
 }
 
+/// The quintic (1) of quintics.h at s = 1/4, for the states; at s = 3/4 by exchanging the ends and
+/// the sign of the rates. What claims and watches are there tells how far their own quintics are
+/// off.
 void LaneSet::evaluate_between(bool mirrored, LanePoint& seen, std::uint32_t active) {
   const LaneValues* const values[] = {&fine_, &fine_middle_, &fine_end_};
   const LanePoint* const points[] = {&start_, &middle_, &end_};
@@ -68,6 +81,7 @@ void LaneSet::follow(std::uint32_t active) {
   polynomials_.run(active);
 }
 
+/// All lanes make the step at once; each is judged by itself.
 void LaneSet::step_all(std::uint32_t mask) {
   for (std::size_t l = 0; l < kLanes; ++l) lengths_.at(0, l) = 0;
   each(mask, [&](std::size_t l) { lengths_.at(0, l) = choose_length(*lanes_[l]); });
@@ -119,6 +133,9 @@ bool LaneSet::shorten(PackLane& lane, double factor) {
   return lane.wanted > kShortestStep * horizon_ || open(Why::steps);
 }
 
+/// A method of order 8 loses its order across a kink of the flow. So the step goes up to the first
+/// kink, the root of the quartic through five values, if this lies well inside; otherwise it is
+/// only shorter.
 bool LaneSet::shorten_by_error(std::size_t l) {
   PackLane& lane = *lanes_[l];
   double share = 1;
@@ -132,6 +149,8 @@ bool LaneSet::shorten_by_error(std::size_t l) {
   return true;
 }
 
+/// In this order: a value exists, the error is allowed, no narrow peak hides on the step, no sign
+/// is uncertain, the root is met within kAtRoot of the horizon, and the claims are decided.
 bool LaneSet::judge_step(std::size_t l, bool fault, bool& takes) {
   PackLane& lane = *lanes_[l];
   const double error = errors_.at(0, l);
@@ -169,6 +188,7 @@ bool LaneSet::judge_step(std::size_t l, bool fault, bool& takes) {
   return judge_claims(l, takes);
 }
 
+/// Collects the roots of all watches that may decide something, each with the side that is left.
 bool LaneSet::find_root(std::size_t l, int& target, double& share) {
   PackLane& lane = *lanes_[l];
   std::fill(lane.zero.begin(), lane.zero.end(), 0);
@@ -203,6 +223,9 @@ bool LaneSet::find_root(std::size_t l, int& target, double& share) {
   return roots_.empty() || choose_root(lane, target, share);
 }
 
+/// In the order of the roots: the first after which an event, a flow set or a branch is another is
+/// the target. Those before it only change their sides. Two roots that are nearer to each other
+/// than kHardly times the horizon have no certain order.
 bool LaneSet::choose_root(PackLane& lane, int& target, double& share) {
   std::sort(roots_.begin(), roots_.end(),
             [](const Root& one, const Root& other) { return one.share < other.share; });
@@ -260,6 +283,8 @@ bool LaneSet::leaves_at_once(std::span<const double> b, int side, double error) 
   return leaves;
 }
 
+/// Whether the coefficients change their sign just once after the start, at which the value may
+/// still be 0 within its error.
 bool LaneSet::crosses_once(std::span<const double> b, int side) {
   if (side * b[0] <= 0 && side * b[1] <= 0) return false;
   int changes = 0;
@@ -270,12 +295,15 @@ bool LaneSet::crosses_once(std::span<const double> b, int side) {
   return changes == 1;
 }
 
+/// |v/v'| at the end of the step: a claim may have changed by its rate times that since the true
+/// root.
 double LaneSet::time_beside_root(const PackLane& lane, std::size_t l) const {
   if (lane.target < 0) return 0;
   const auto w = static_cast<std::size_t>(lane.target);
   return std::abs(end_.at(PackSystem::watch_values, w, l) / end_.at(PackSystem::watch_rates, w, l));
 }
 
+/// A claim that stays open sees more on half a step, as long as it is not halved too often.
 bool LaneSet::judge_claims(std::size_t l, bool& takes) {
   PackLane& lane = *lanes_[l];
   const double now = end_of_step(lane);
@@ -327,6 +355,8 @@ bool LaneSet::stop_beside_kink(std::size_t claim, std::size_t l) {
   return true;
 }
 
+/// The next step: the length times the factor of the error control. A step that was shortened for
+/// another reason never makes the next one shorter.
 bool LaneSet::arrive(std::size_t l) {
   PackLane& lane = *lanes_[l];
   const bool at_stop = arrives(lane);
@@ -345,6 +375,8 @@ bool LaneSet::arrive(std::size_t l) {
   return !at_stop || arrive_at_stop(l);
 }
 
+/// The extremes of five samples and of 2 m - (a + b)/2, with a, m, b the values at the start, the
+/// middle and the end: where the samples suggest a turn beyond them.
 std::pair<double, double> LaneSet::range_of_extra(std::size_t k, std::size_t l) const {
   const double first = start_.at(PackSystem::extras, k, l);
   const double middle = middle_.at(PackSystem::extras, k, l);
@@ -381,6 +413,8 @@ void LaneSet::pass(std::size_t w, PackLane& lane) const {
       lane.signs[e] = static_cast<std::int8_t>(-side_of(*crossing, lane));
 }
 
+/// Behind the root that the step goes to, a side is the opposite one. Other sides follow from the
+/// values.
 void LaneSet::find_new_sides(std::size_t l) {
   PackLane& lane = *lanes_[l];
   for (std::size_t w = 0; w < pack_.watches.size(); ++w) {

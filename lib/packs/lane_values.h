@@ -16,6 +16,7 @@ class LaneMask {
   explicit LaneMask(std::uint32_t lanes) {
     for (std::size_t l = 0; l < lanes::kLanes; ++l) in_[l] = lanes >> l & 1U ? ~0ULL : 0;
   }
+  /// Copies the lanes of the mask by bits, so that what is no number in the others does not matter.
   void copy(const double* from, double* to) const {
     for (std::size_t l = 0; l < lanes::kLanes; ++l)
       to[l] = std::bit_cast<double>((std::bit_cast<std::uint64_t>(from[l]) & in_[l]) |
@@ -26,6 +27,7 @@ class LaneMask {
   std::array<std::uint64_t, lanes::kLanes> in_{};
 };
 
+/// rows x kLanes numbers, row after row: a row is one value of all lanes.
 class LaneValues {
  public:
   explicit LaneValues(std::size_t rows = 0) : rows_(rows), data_(rows * lanes::kLanes, 0) {}
@@ -44,6 +46,7 @@ class LaneValues {
   std::vector<double> data_;
 };
 
+/// -1, 0 or 1; 0 of what is not a number.
 inline std::int8_t sign_of(double x) {
   return static_cast<std::int8_t>(x > 0 ? 1 : x < 0 ? -1 : 0);
 }

@@ -79,6 +79,9 @@ class LaneStarts {
   const linear::LinearModel* model_;
 };
 
+/// One pack of runs after the other. A flow is one call of `step_`. Every `flows_of_block` flows
+/// `gather_` renews the error bounds and scales z by powers of 2; quadratic forms then have the
+/// unit 2^(-2 exponent).
 class LinearLanes {
  public:
   explicit LinearLanes(const linear::LinearSystem& system)
@@ -118,6 +121,7 @@ class LinearLanes {
   // Inputs of the code.
   static constexpr std::size_t kFirstXi = 1, kStepCarried = 1, kGatherCarried = 2, kLastCarried = 4;
 
+  /// The first `count` lanes hold runs; the others repeat the first of them and are not judged.
   void make(std::uint64_t seed, const LaneRuns& runs, std::size_t count) {
     check_stop();
     begin(seed, runs, count);
@@ -331,6 +335,8 @@ class LinearLanes {
   std::vector<Costs> costs_;
 };
 
+/// v' <= 0: violated where the largest certain rise is positive; held where none is possible. The
+/// score is the rise, or the change from start to end, as a part of |v(0)|.
 bool LinearLanes::judge_rise(std::size_t c, std::size_t l, claims::Finding& claim) const {
   const Known before = start(c, l), after = end(c, l);
   const bool compared = linear::is_compared(system_.model.claims[c]);
@@ -347,6 +353,7 @@ bool LinearLanes::judge_rise(std::size_t c, std::size_t l, claims::Finding& clai
   return (claim.violated() || open <= 0) && error <= kScore;
 }
 
+/// sum <= bound. The sums have terms >= 0, so their rounding is (4 flows + 8) u of the sum.
 bool LinearLanes::judge_cost(std::size_t c, std::size_t l, claims::Finding& claim) const {
   const Known bound = start(c, l);
   const double unit = unit_of(l);
@@ -362,6 +369,8 @@ bool LinearLanes::judge_cost(std::size_t c, std::size_t l, claims::Finding& clai
   return compare(cost, bound, claim) && (cost.error + bound.error) / scale <= kScore;
 }
 
+/// v(end) <= factor v(0); of norms by squares, with factor^2. The score is the ratio of both sides,
+/// in the unit of the claim, less 1.
 bool LinearLanes::judge_shrinking(std::size_t c, std::size_t l, claims::Finding& claim) const {
   const linear::LinearClaim& stated = system_.model.claims[c];
   const Known before = start(c, l), after = end(c, l);
@@ -384,6 +393,7 @@ bool LinearLanes::judge_shrinking(std::size_t c, std::size_t l, claims::Finding&
   return compare(after, goal, claim) && error <= kScore * (1 + std::abs(claim.score));
 }
 
+/// A run without a jump, with a fault or out of range is left open with the reason Why::range.
 PackVerdict LinearLanes::verdict(std::size_t l) const {
   PackVerdict verdict;
   verdict.why = Why::range;

@@ -4,6 +4,7 @@
 
 namespace gainsmith::packs {
 
+/// States that rest along flows and that some jump map assigns.
 std::vector<std::size_t> set_by_jumps(const hybrid::System& system) {
   using model::Dynamics;
   std::set<std::size_t> elements;

@@ -20,6 +20,7 @@ class Moves {
  public:
   explicit Moves(std::uint64_t run = 0) : state_((run + 1) * 0x9e3779b97f4a7c15U) {}
 
+  /// The high 52 bits as the mantissa of a number in [2, 4), less 3.
   double next() {
     state_ ^= state_ << 13;
     state_ ^= state_ >> 7;
@@ -34,8 +35,8 @@ class Moves {
 /// The elements of the states that jumps alone set: flows make the others differ.
 std::vector<std::size_t> set_by_jumps(const hybrid::System& system);
 
-/// Moves these elements of the values of some lanes by up to kMoved of their size; whole numbers are
-/// exact. `of`: the moves of a lane.
+/// Moves these elements of the values of some lanes by up to kMoved of their size; whole numbers
+/// are exact. `of`: the moves of a lane.
 template <class Of>
 void move_elements(const std::vector<std::size_t>& elements, std::uint32_t lanes_moved,
                    const Of& of, double* values) {

@@ -13,6 +13,8 @@ using model::Dynamics;
 using numbers::TracedMatrix;
 using VariableKind = Dynamics::VariableKind;
 
+/// Element (i, j), i < j, of a symmetric state is kept in element (j, i). Rows are what moves:
+/// clocks, states with a flow, and costs with one.
 PackGraph::PackGraph(const hybrid::System& system, const std::vector<RunningCost>& costs)
     : system_(&system), costs_(&costs) {
   for (int k = 0; k < static_cast<int>(system.whole); ++k) kept_.push_back(k);
@@ -76,6 +78,7 @@ TracedMatrix PackGraph::value(const expr::Program& program, const Nodes& x) {
   return numbers::trace(program, at(x, nullptr), graph_);
 }
 
+/// Forward differentiation in the one direction f(x): value and v'(x) f(x) by one trace.
 TracedMatrix PackGraph::moving(const expr::Program& program, const Nodes& x, const Nodes& rates) {
   // The rate of a rate: a jacobian that moves has no slope, its formula has one.
   TracedMatrix made = numbers::trace(expr::with_derivatives(program), at(x, &rates), graph_);
@@ -83,6 +86,8 @@ TracedMatrix PackGraph::moving(const expr::Program& program, const Nodes& x, con
   return made;
 }
 
+/// Truth as arithmetic: `and` is the product of 0 and 1, `not` is 1 - a, and `or` follows from both
+/// by De Morgan's rule. So no lane branches.
 int PackGraph::truth(const expr::Condition& condition, const Nodes& x) {
   using Is = expr::Condition::Kind;
   const int one = graph_.constant(1);
@@ -121,6 +126,8 @@ void PackGraph::complete(Nodes& x) {
   }
 }
 
+/// f(x): 1 for the time and for `since`, -1 for `left`, 0 for what rests. The rate of a symmetric
+/// state is the symmetric part (F + F')/2 of its flow. A component that is frozen has the rate 0.
 Nodes PackGraph::rates(const Nodes& x) {
   const int zero = graph_.constant(0);
   Nodes rates(x.size(), zero);

@@ -24,6 +24,8 @@ struct RunningCost {
   const expr::Program* jump = nullptr;  ///< of all events, before their jumps; nullptr: 0
 };
 
+/// Traces programs into one graph of numbers. The values of the system are numbered as in its
+/// layout, `whole` of them; a matrix is kept column by column.
 class PackGraph {
  public:
   /// The system and the costs must outlive it.
@@ -32,6 +34,7 @@ class PackGraph {
   numbers::ScalarGraph& graph() { return graph_; }
   /// The inputs: one node for each of the values, in their order; behind them others may follow.
   Nodes inputs();
+  /// An input behind those of the values, the k-th from 0.
   int beside(int k) { return graph_.input(static_cast<int>(system_->whole) + k); }
 
   /// The nodes of a program at values x, and of its rate where all values have the rates `rates`.

@@ -18,6 +18,8 @@ enum class Phase : std::uint8_t {
   jump       ///< an event is due
 };
 
+/// The state of one run in its lane, but for its values, which are in LaneSet. Times are in units
+/// of the time of the system. Vectors by watch, event or claim have the order of the PackSystem.
 struct PackLane {
   PackLane(const PackSystem& pack, std::uint64_t seed, std::uint64_t run)
       : run_number(run),

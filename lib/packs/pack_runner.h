@@ -4,11 +4,10 @@
 // run. Each run is made twice over the same steps, once in whole and once in half steps: what they
 // differ by is the error of the first, 256 times that of the second, of which values are taken.
 //
-//   steps    to clocks and the horizon exactly; a step on which a watched difference comes to 0, and
-//            decides something by that, is taken again to its root
-//   roots    the finer run jumps where it is; the other one is moved along its flow to its own root,
-//            jumps there, and is moved back, to first order: so their difference knows of the error
-//            of the event's time
+//   steps    to clocks and the horizon exactly; a step on which a watched difference comes to 0,
+//            and decides something by that, is taken again to its root
+//   roots    each run is moved along its flow to its own root, jumps there, and is moved back, to
+//            first order: so their difference knows of the error of the event's time
 //   open     whatever is unusual ends the lane, and the run is left to the careful simulator: signs
 //            that are not certain, two events at nearly one time, chains of jumps, short steps,
 //            texts without a value, claims next to their bounds
@@ -42,16 +41,18 @@ std::string to_string(Why why);
 struct PackVerdict {
   bool open = true;  ///< what follows says nothing but why
   Why why = Why::claim;
-  /// Of the claims that are stated: judgement, score, floor and whether it is sampled; of linear runs
-  /// value, bound and rounding too.
+  /// Of the claims that are stated: judgement, score, floor and whether it is sampled; of linear
+  /// runs value, bound and rounding too.
   std::vector<claims::Finding> findings;
   std::vector<char> happened;  ///< by event
 
+  /// Whether one of the findings is a violation; of no use where `open`.
   bool violated() const;
 };
 
 class LaneSet;
 
+/// Runs packs of one PackSystem. It holds the registers of one thread.
 class PackRunner {
  public:
   /// One for each thread. The system must outlive it.

@@ -24,12 +24,15 @@ using numbers::ScalarOp;
 
 // --- What packs run. ---
 
+/// False where a jump repeats a pass until a condition holds: lanes would need different numbers of
+/// passes.
 bool runs_jumps(const Dynamics& dynamics) {
   return std::none_of(dynamics.reactions.begin(), dynamics.reactions.end(), [](const auto& one) {
     return std::ranges::any_of(one.passes, &Dynamics::Pass::repeats);
   });
 }
 
+/// False where the value of a stated claim is no number.
 bool runs_claims(const std::vector<claims::Claim>& claims) {
   return std::none_of(claims.begin(), claims.end(), [](const claims::Claim& one) {
     return one.stated() && one.value.shape().size() != 1;
@@ -45,6 +48,17 @@ std::optional<std::size_t> cost_element(const claims::Claim& claim, const hybrid
 
 // --- A step. ---
 
+/// One step of the method of Dormand and Prince, order 8 (DOP853; Hairer, Norsett and Wanner,
+/// Solving Ordinary Differential Equations I, II.5, 1993):
+///
+///   k_i = f(x + h sum_{j<i} a_ij k_j),   x+ = x + h sum_j b_j k_j
+///   e5, e3 = sum_j w_j k_j, the differences to embedded methods of order 5 and 3
+///   err = h S5 / sqrt(n max(S5 + 0.01 S3, 1e-200)),   S = sum_i (e_i / allowed_i)^2
+///   allowed_i = absolute_i + relative max(|x_i|, |x+_i|)
+///
+/// The sums run over the n values that are integrated; clocks are exact. A step may be taken where
+/// err is at most 1. All stages are one list of operations, so that they share what they have in
+/// common.
 class StepCode {
  public:
   explicit StepCode(const PackSystem& pack) : pack_(pack), texts_(*pack.system, pack.costs) {}
@@ -81,6 +95,7 @@ class StepCode {
   }
 
  private:
+  /// Whether a value has an error of integration: states that flow, and costs.
   bool is_integrated(int row) const {
     if (std::any_of(pack_.costs.begin(), pack_.costs.end(),
                     [row](const RunningCost& one) { return index(row) == one.element; }))
@@ -94,6 +109,7 @@ class StepCode {
     return false;
   }
 
+  /// The weights of e3: those of x+ less those of the embedded method of order 3.
   static ode::StageWeights error_of_order_3() {
     ode::StageWeights weights = ode::kStageWeights.back();
     weights[0] -= ode::kOrder3Of1;
@@ -102,6 +118,7 @@ class StepCode {
     return weights;
   }
 
+  /// sum_j weights_j k_j of one row.
   int weighted(int row, const ode::StageWeights& weights) {
     ScalarGraph& graph = texts_.graph();
     int sum = graph.constant(0);
@@ -111,6 +128,7 @@ class StepCode {
     return sum;
   }
 
+  /// x + h sum_j weights_j k_j, with kinks and mirrored elements set anew.
   Nodes moved(const Nodes& x, const ode::StageWeights& weights) {
     ScalarGraph& graph = texts_.graph();
     Nodes at = x;
@@ -120,6 +138,7 @@ class StepCode {
     return at;
   }
 
+  /// err from S5 and S3; 0 where nothing is integrated.
   int error(int sum5, int sum3, int count) {
     ScalarGraph& graph = texts_.graph();
     if (count == 0) return graph.constant(0);
@@ -139,6 +158,10 @@ class StepCode {
 
 // --- Claims and what is watched. ---
 
+/// The code of a point: rates, claims, and watched differences with their rates along the flow. The
+/// rate of v(x) is the directional derivative v'(x) f(x), formed with the value by forward
+/// differentiation. Terms are the sums of the absolute values of the terms of a value, which
+/// rounding is measured by.
 class PointCode {
  public:
   explicit PointCode(PackSystem& pack)
@@ -262,12 +285,14 @@ class PointCode {
     }
   }
 
+  /// The same code without some results, and without what these alone need.
   LaneCode without(std::initializer_list<PackSystem::PointResult> left_out) {
     auto results = results_;
     for (const PackSystem::PointResult one : left_out) results[one].clear();
     return {texts_.graph(), results, pack_.whole, {}, numbers::Computed::needed};
   }
 
+  /// A cost is a value of the state already: its element, its rate and its size.
   void add_cost(const claims::Claim& claim) {
     const std::size_t element = *cost_element(claim, *pack_.system);
     push(PackSystem::claim_values, x_[element]);
@@ -275,6 +300,8 @@ class PointCode {
     push(PackSystem::claim_terms, texts_.graph().apply(ScalarOp::abs, x_[element]));
   }
 
+  /// Notes once each quantity beside which the value at a node has a narrow peak
+  /// (SharpParts::flats).
   void watch_peaks(int node) {
     for (const int flat : sharp_.flats(node)) {
       auto& extras = results_[PackSystem::extras];
@@ -286,6 +313,7 @@ class PointCode {
     }
   }
 
+  /// The watch whose value is this node. Equal nodes are one, so that indices are compared.
   std::optional<std::size_t> known(int node) const {
     const auto& all = results_[PackSystem::watch_values];
     const auto found = std::find(all.begin(), all.end(), node);
@@ -293,6 +321,7 @@ class PointCode {
     return static_cast<std::size_t>(found - all.begin());
   }
 
+  /// The node of -d; for a difference a - b the node of b - a, which the graph may have already.
   int opposite_of(int node) {
     const ScalarGraph::Node one = texts_.graph().nodes()[index(node)];
     return one.op == ScalarOp::subtract ? texts_.graph().subtract(one.b, one.a)
@@ -328,6 +357,7 @@ lanes::LaneCode start_code(const PackSystem& pack, const std::vector<claims::Cla
   return {texts.graph(), results, pack.whole};
 }
 
+/// Watches what an event is due by. False: packs do not decide its condition.
 bool add_event(const Dynamics::Event& event, PointCode& point, PackSystem& pack) {
   PackEvent& made = pack.events.emplace_back();
   if (event.condition && !point.add(*event.condition, made.when.emplace())) return false;

@@ -6,6 +6,8 @@ namespace {
 
 using Is = expr::Condition::Kind;
 
+/// All elements must be on the side that is asked for. One that certainly is not decides; one that
+/// is unknown leaves the whole unknown otherwise.
 Truth of_comparison(const WatchedCondition& condition, const std::vector<Watch>& watches,
                     const Sides& sides, Zeros zeros) {
   Truth result = Truth::yes;

@@ -18,6 +18,8 @@ enum class Zeros : std::uint8_t {
   still   ///< nothing, and nothing of all else that moves
 };
 
+/// The truth of a condition for these sides. It is unknown where a comparison of it hangs on a side
+/// that is 0 of a difference that moves, unless the other parts decide.
 Truth truth(const WatchedCondition& condition, const std::vector<Watch>& watches,
             const Sides& sides, Zeros zeros = Zeros::unknown);
 

@@ -8,10 +8,16 @@ namespace {
 
 using Coefficients = std::array<double, 6>;
 
-/// A search for a root ends so near to it.
+/// A search for a root ends so near to it, in quarters of a step: some units in the last place.
 constexpr double kRootWithin = 2e-15;
 }  // namespace
 
+/// The coefficients by (1), and the error of each quintic
+///
+///   max(0.15 |Delta^5 b|/32, 2 max(|p(1/4) - v|, |p(3/4) - v|))
+///
+/// The fifth difference Delta^5 b is the leading coefficient; quintic() says what both parts
+/// estimate. All values of all lanes are one list of operations.
 lanes::LaneCode StepPolynomials::code(std::size_t count) {
   using numbers::ScalarOp;
   numbers::ScalarGraph graph;
@@ -55,6 +61,7 @@ lanes::LaneCode StepPolynomials::code(std::size_t count) {
   return {graph, results, 1 + count * inputs};
 }
 
+/// Ends are read from the inputs, the inner coefficients and the error from the results.
 pieces::StepPolynomial quintic(lanes::LaneMachine& made, std::size_t value, std::size_t lane) {
   Coefficients b{};
   b[0] = made.input(StepPolynomials::input_of(value, StepPolynomials::start))[lane];
@@ -63,6 +70,8 @@ pieces::StepPolynomial quintic(lanes::LaneMachine& made, std::size_t value, std:
   return {b, made.result(value, 4)[lane]};
 }
 
+/// Bisection in the first quarter whose ends differ in sign, on Newton's form of the quartic with
+/// nodes 0, 1, 2, 3, 4. The result is a share of the step.
 std::optional<double> first_root(const std::array<double, 5>& values) {
   std::size_t after = 1;
   while (after < values.size() && (values[after] > 0) == (values[0] > 0)) ++after;

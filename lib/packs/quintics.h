@@ -1,5 +1,12 @@
 // The quintic through a value and its rate at the start, the middle and the end of a step, in
-// Bernstein form.
+// Bernstein form. With the share s of the step in [0, 1], its length h, values v and rates r:
+//
+//   b_0 = v_0,   b_5 = v_1,   b_1 = b_0 + h r_0/5,   b_4 = b_5 - h r_1/5
+//   (b_2 + b_3)/2 = (32 v_m - b_0 - b_5 - 5 (b_1 + b_4))/20
+//   (b_3 - b_2)/2 = (16 h r_m/5 + b_0 - b_5 + 3 (b_1 - b_4))/4                             (1)
+//
+// from p(1/2) = v_m and p'(1/2) = h r_m. Its error is of order h^6. Maxima, rises and roots come
+// from the coefficients (pieces/step_polynomial.h), so that no dense output of the steps is needed.
 #pragma once
 
 #include <array>
@@ -52,9 +59,9 @@ struct StepPolynomials {
   static lanes::LaneCode code(std::size_t count);
 };
 
-/// That of a value in one lane, of a machine that has run StepPolynomials::code. Its error is an estimate
-/// with a margin: twice what it is off at the quarters of the step; at least what the quartic without
-/// the rate at the end would miss, times 0.15.
+/// That of a value in one lane, of a machine that has run StepPolynomials::code. Its error is an
+/// estimate with a margin: twice what it is off at the quarters of the step; at least what the
+/// quartic without the rate at the end would miss, times 0.15.
 pieces::StepPolynomial quintic(lanes::LaneMachine& made, std::size_t value, std::size_t lane);
 
 /// Where the quartic through values at 0, 1/4, 1/2, 3/4 and 1 first changes its sign between two of

@@ -41,6 +41,8 @@ void SharpParts::visit(int node, const Visit& seen_by) const {
   }
 }
 
+/// A norm near 0 bends as sqrt(x) does. Singular values bend where two of them meet; the squares of
+/// their differences do not.
 std::vector<int> SharpParts::roots(int node) {
   std::vector<int> found;
   visit(node, [&](const ScalarGraph::Node& one, int) {
@@ -77,6 +79,8 @@ bool SharpParts::depends_on_states(int node) const {
   return depends;
 }
 
+/// Peaks of exp, tanh, log, powers and angles of states, and of quotients by them; not of clocks
+/// alone.
 std::vector<int> SharpParts::flats(int node) {
   std::vector<std::pair<ScalarGraph::Node, int>> found;
   visit(node, [&](const ScalarGraph::Node& one, int at) {
@@ -92,6 +96,8 @@ std::vector<int> SharpParts::flats(int node) {
   return flats;
 }
 
+/// A quantity >= 0 that is small beside its largest value just where the peak is: b^2 of a/b, x^2 +
+/// y^2 of the angle of (x, y), x of log x and of x^c, e^x of tanh x, the value itself of e^x.
 int SharpParts::flat_beside(const ScalarGraph::Node& one, int at) {
   switch (one.op) {
     case ScalarOp::divide:

@@ -9,8 +9,8 @@
 
 namespace gainsmith::packs {
 
-/// Each result is a node that is never negative where the value exists, and is near 0 beside its largest
-/// value where the value bends.
+/// Each result is a node that is never negative where the value exists, and is near 0 beside its
+/// largest value where the value bends.
 class SharpParts {
  public:
   /// Both must outlive it. The inputs of the graph are the values of the system.

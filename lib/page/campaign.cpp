@@ -1,3 +1,4 @@
+// The section of a campaign: its verdict, a row for each claim, and how to repeat the worst runs.
 #include <algorithm>
 
 #include "base/number.h"
@@ -8,6 +9,7 @@ namespace gainsmith::page {
 
 namespace {
 
+/// A violated run counts more than an undecided one; "held" is said of what was sampled.
 std::string verdict_of(const model::ClaimRecord& check) {
   if (!check.stated) return "not stated";
   if (!check.sampled) return "never checked";
@@ -16,8 +18,10 @@ std::string verdict_of(const model::ClaimRecord& check) {
   return "held";
 }
 
+/// A number, or a dash for none.
 std::string shown(const std::optional<double>& value) { return value ? brief(*value) : "\u2014"; }
 
+/// A row; of a claim that is not stated the data that it lacks.
 std::string claim_line(const model::ClaimRecord& check) {
   std::string line;
   const auto add = [&](const std::string& text) { line += text_element("td", text); };
@@ -35,6 +39,7 @@ std::string claim_line(const model::ClaimRecord& check) {
       missing += (missing.empty() ? "no value for " : ", ") + name;
     line += text_element("td", missing, "colspan=\"4\"");
   }
+  // Such a row has the colour of a no.
   const bool bad = check.violations > 0 || check.undecided > 0;
   return element("tr", line, bad ? "class=\"bad\"" : "");
 }
@@ -46,6 +51,7 @@ std::string claims_table(const model::CampaignRecord& campaign) {
   return headed_table({"claim", "", "", "worst run", "value", "bound", "(t, j)"}, lines);
 }
 
+/// The bound on the probability of a violation, and its confidence. Nothing where it says nothing.
 std::string confidence_text(const model::CampaignRecord& campaign) {
   if (campaign.different_runs)
     return "Nothing is drawn at random: no run says anything of another.";
@@ -70,6 +76,7 @@ std::vector<std::uint64_t> worst_runs(const model::CampaignRecord& campaign) {
   return runs;
 }
 
+/// Commands that repeat the worst runs and draw them.
 std::string replay_text(const model::CampaignRecord& campaign) {
   std::string commands;
   for (const std::uint64_t run : worst_runs(campaign))
@@ -81,6 +88,7 @@ std::string replay_text(const model::CampaignRecord& campaign) {
 
 }  // namespace
 
+/// The verdict of a page is yes, no or undecided; a campaign held, is violated or is undecided.
 std::string campaign_section(const Results& results) {
   if (!results.campaign)
     return results.no_campaign.empty()

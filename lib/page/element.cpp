@@ -18,6 +18,7 @@ std::string text_element(std::string_view tag, std::string_view text, std::strin
   return element(tag, report::escaped(text), attributes);
 }
 
+/// Line by line: report::escaped() makes spaces of ends of lines.
 std::string preformatted(std::string_view text, std::string_view attributes) {
   std::string lines;
   for (;;) {

@@ -20,7 +20,7 @@ std::string text_element(std::string_view tag, std::string_view text,
 std::string preformatted(std::string_view text, std::string_view attributes = {});
 
 /// A table of rows, markup, with the heads of its columns; each cell has its head too, for narrow
-/// pages, where a cell is not below it.
+/// pages, where a cell is not below it. No cell contains a table.
 std::string headed_table(const std::vector<std::string_view>& heads, std::string_view rows);
 
 /// A heading and what is below it; nothing without content.

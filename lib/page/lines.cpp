@@ -1,3 +1,9 @@
+// Breaking a formula into lines, by estimated widths in em.
+//
+// The markup is read back as a tree of boxes. A row without fences, and one with fences that is too
+// wide, is taken apart into parts; each part knows how loose the operator before it is. A formula
+// that is too wide is broken at all of its loosest operators, and then each line in the same
+// manner.
 #include "page/lines.h"
 
 #include <algorithm>
@@ -18,11 +24,14 @@ constexpr double kNarrow = 15;  // em: a phone has room for it
 constexpr double kLeast = 4;    // em: what is shorter is no line
 constexpr int kNever = 1'000'000;
 
-/// Operators at which lines break, from the loosest: behind a comma, before the others.
+/// Operators at which lines break, from the loosest: behind a comma, before the others. The rows
+/// are lists, logic, relations, signs and factors.
 constexpr std::array<std::string_view, 5> kBreaks = {",", "∧∨", "=≺⪯≻⪰&lt;≤&gt;≥≠∼∈", "+−±",
                                                      "\u2062·×⊗∘⊘"};
+/// The row of the signs in `kBreaks`.
 constexpr int kSigns = 3;
 
+/// An element of the markup, with views into it; `markup` is its own copy, which may change.
 struct Box {
   std::string_view tag, text;
   std::string markup;
@@ -38,6 +47,8 @@ int level_of(const Box& box) {
   return box.tag == "mspace" ? kSigns + 1 : kNever;
 }
 
+/// In em, of an element whose inside has its widths: scripts count 0.75, fractions and accents as
+/// their widest part, a table as its widest columns.
 double width_of(const Box& box) {
   double width = box.tag == "msqrt" || box.tag == "mtable" ? 0.7 : 0;
   if (box.tag == "mtable") {
@@ -48,6 +59,7 @@ double width_of(const Box& box) {
     }
     return width;
   }
+  // What is raised or lowered is smaller; what is above each other is as wide as its widest part.
   const bool is_script = box.tag == "msub" || box.tag == "msup";
   const bool is_stacked = box.tag == "mfrac" || box.tag == "mover" || box.tag == "munder";
   for (const Box& one : box.inside) {
@@ -58,6 +70,7 @@ double width_of(const Box& box) {
   if (level == 0) return 0.5;
   if (level != kNever) return box.text.empty() || box.text == "\u2062" ? 0.3 : 1.4;
   if (!box.inside.empty() && level_of(box.inside[0]) == kSigns) width -= 0.5;  // of one operand
+  // Characters of UTF-8, without their later bytes.
   const auto letters = std::count_if(box.text.begin(), box.text.end(), [](char c) {
     return (static_cast<unsigned char>(c) >> 6) != 2;
   });
@@ -102,6 +115,7 @@ void add(Box& box, int before, int depth, std::vector<Box>& parts) {
   }
 }
 
+/// The lines of parts; what has no break gets its width, for the style sheet to shrink it.
 std::string lines(std::span<Box> parts) {
   std::string markup;
   double left = 0;
@@ -111,6 +125,7 @@ std::string lines(std::span<Box> parts) {
     left += part.width;
     if (&part != parts.data()) loosest = std::min(loosest, part.before);
   }
+  // What fits into one line is one, however many breaks it has.
   if (left <= kNarrow) return element("math", markup);
   if (loosest == kNever)
     return element("math", markup, "style=\"--w:" + std::to_string(std::lround(left + 0.5)) + "\"");
@@ -120,6 +135,7 @@ std::string lines(std::span<Box> parts) {
   for (std::size_t k = 0; k < parts.size(); left -= parts[k++].width) {
     if (k > 0 && parts[k].before == loosest) {
       parts[k].before = kNever;
+      // Neither line may be too short to be one.
       if (std::min(width, left) >= kLeast) {
         markup += lines(parts.subspan(begin, k - begin));
         begin = k;
@@ -134,6 +150,7 @@ std::string lines(std::span<Box> parts) {
 
 }  // namespace
 
+/// The whole formula is one element where it fits.
 std::string formula(std::string_view mathml) {
   const std::string whole = row(mathml);
   std::string_view rest = whole;

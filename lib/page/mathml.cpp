@@ -1,3 +1,5 @@
+// Printing of expressions: each node becomes a piece of markup with the level of its outermost
+// operation. A part whose level is looser than its place needs is put between parentheses.
 #include "page/mathml.h"
 
 #include <algorithm>
@@ -46,10 +48,12 @@ struct Piece {
   Edge last = Edge::letter;
 };
 
+/// The markup, in parentheses where it is looser than `least`.
 std::string enclosed(const Piece& piece, Level least) {
   return piece.level < least ? fenced(piece.markup) : piece.markup;
 }
 
+/// The edge of a symbol: long words touch no letter beside them.
 Edge edge_of(std::string_view name) { return is_word(name) ? Edge::word : Edge::letter; }
 
 /// Fractions and blocks are too tall for the raised place of an exponential.
@@ -60,12 +64,15 @@ bool is_flat(const Node& node) {
   return node.height <= 6;
 }
 
+/// Signs of numbers, or those of the Loewner order of symmetric matrices.
 std::string relation_text(Relation relation, bool of_matrices) {
   constexpr auto kLast = Relation::not_equal;
   if (of_matrices) return word_of<kLast>(relation, {"≺", "⪯", "≻", "⪰", "=", "≠"});
   return word_of<kLast>(relation, {"<", "≤", ">", "≥", "=", "≠"});
 }
 
+/// Prints nodes. `of_matrices`: comparisons are orders of symmetric matrices unless a side is a
+/// scalar.
 class Printer {
  public:
   Printer(const Notation& notation, bool of_matrices)
@@ -137,6 +144,7 @@ class Printer {
   Piece name(const std::string& text) const { return with_indices(text, {}); }
 
  private:
+  /// A child, in parentheses where it is looser than `least`.
   std::string part(const Node& node, std::size_t child, Level least) const {
     return enclosed(piece(*node.children[child]), least);
   }
@@ -146,6 +154,7 @@ class Printer {
     return row(part(node, child, Level::condition));
   }
 
+  /// A name with further indices. "observer.xh" keeps its component; an estimate gets its hat.
   Piece with_indices(const std::string& text, const std::vector<std::string>& below) const {
     if (const std::size_t dot = text.rfind('.'); dot != std::string::npos)
       return {row(text_element("mi", text.substr(0, dot)) + mo(".") +
@@ -158,6 +167,7 @@ class Printer {
     return {symbol(text, below), Level::atom, edge, edge};
   }
 
+  /// The children from one on, as operands of a list.
   std::vector<std::string> parts(const Node& node, std::size_t from) const {
     std::vector<std::string> found;
     for (std::size_t k = from; k < node.children.size(); ++k)
@@ -170,31 +180,38 @@ class Printer {
     return row(function + fenced(listed(parts(node, from))));
   }
 
+  /// The first child to a power or with a sign of that place: ⊤, -1, +.
   Piece raised(const Node& node, const std::string& above) const {
     const Piece base = piece(*node.children[0]);
     return {element("msup", row(enclosed(base, Level::atom)) + above), Level::power, base.first};
   }
 
+  /// A product has no sign: a dot before a figure, a space beside a word. A sign at its left needs
+  /// no parentheses: -a b.
   Piece product(const Node& node) const {
     const Piece left = piece(*node.children[0]);
     const Piece right = piece(*node.children[1]);
+    // Parentheses of the right factor keep the two apart already.
     const bool fences = right.level < Level::product;
     std::string between = "<mo>\u2062</mo>";
     if (!fences && right.first == Edge::figure)
       between = mo("·");
     else if (!fences && (left.last == Edge::word || right.first == Edge::word))
       between = R"(<mspace width="0.2em"/>)";
+    // -a times b is -(a b), which needs no parentheses.
     const bool has_sign = left.level == Level::sign;
     return {row((has_sign ? left.markup : enclosed(left, Level::product)) + between +
                 enclosed(right, Level::product)),
             has_sign ? Level::sign : Level::product, left.first, right.last};
   }
 
+  /// a ∘ b and a ⊘ b, which are looser than products and tighter than sums.
   Piece elementwise(const Node& node, std::string_view sign) const {
     return {row(part(node, 0, Level::elementwise) + mo(sign) + part(node, 1, Level::product)),
             Level::elementwise};
   }
 
+  /// Children are row by row.
   Piece block(const Node& node) const {
     const int columns = node.columns;
     const int rows = static_cast<int>(node.children.size()) / std::max(columns, 1);
@@ -203,7 +220,9 @@ class Printer {
     })};
   }
 
+  /// A chain a < b <= c. In an inequality of matrices its signs are those of the Loewner order.
   Piece comparison(const Node& node) const {
+    // A literal, such as the 0 of P > 0, says nothing of the other side.
     bool numbers = !of_matrices_;
     for (const NodePtr& child : node.children)
       numbers = numbers || (child->kind != NodeKind::number && is_scalar(*child, notation_));
@@ -213,6 +232,7 @@ class Printer {
     return {row(markup), Level::comparison};
   }
 
+  /// Conditions with "and" or "or" between them.
   Piece joined(const Node& node, std::string_view word, Level level) const {
     std::string markup;
     for (std::size_t k = 0; k < node.children.size(); ++k)
@@ -220,6 +240,7 @@ class Printer {
     return {row(markup), level};
   }
 
+  /// Whether the call gives a function, which the brackets behind it apply.
   bool is_function(const Node& node) const {
     if (node.kind != NodeKind::call) return false;
     return node.text == "derivative" ||
@@ -233,6 +254,8 @@ class Printer {
     return {element("msub", row(part(node, 0, Level::atom)) + row(listed(parts(node, 1))))};
   }
 
+  /// A member of a family has its index below; a function is applied; what is neither is an
+  /// element.
   Piece call(const Node& node) const {
     const std::string& text = node.text;
     if (notation_.families.contains(text)) return with_indices(text, parts(node, 0));
@@ -262,6 +285,7 @@ class Printer {
     return Piece{applied(word, node, 0), Level::atom, Edge::word};
   }
 
+  /// e with a raised argument; none where it is too tall, which leaves exp( ).
   std::optional<Piece> exponential(const Node& node) const {
     if (!is_flat(*node.children[0])) return std::nullopt;
     return Piece{element("msup", "<mi>e</mi>" + inline_part(node, 0)), Level::power};
@@ -271,6 +295,7 @@ class Printer {
     return Piece{element("msqrt", part(node, 0, Level::condition))};
   }
 
+  /// I, 1 or 0 with its size below.
   std::optional<Piece> sized(const Node& node) const {
     std::string sizes;
     for (const std::string& size : parts(node, 0)) sizes += (sizes.empty() ? "" : mo("×")) + size;
@@ -280,6 +305,7 @@ class Printer {
     return Piece{element("msub", letter + row(sizes))};
   }
 
+  /// a ⊗ b, which binds like a product.
   std::optional<Piece> kronecker(const Node& node) const {
     return Piece{row(part(node, 0, Level::product) + mo("⊗") + part(node, 1, Level::power)),
                  Level::product};
@@ -303,12 +329,14 @@ class Printer {
     return Piece{row(element("munder", sign + row(listed(runs))) + of), Level::sum};
   }
 
+  /// jacobian(f, x) as the fraction ∂f / ∂x.
   std::optional<Piece> derivative(const Node& node) const {
     return Piece{element("mfrac", row(mo("∂") + part(node, 0, Level::product)) +
                                       row(mo("∂") + part(node, 1, Level::atom))),
                  Level::power};
   }
 
+  /// where(c, a, b) as two lines: a if c, b otherwise.
   std::optional<Piece> cases(const Node& node) const {
     const auto line = [&](const std::string& what, const std::string& when) {
       return element("mtr",
@@ -322,12 +350,14 @@ class Printer {
                  Level::sum};
   }
 
+  /// Functions of one argument that are written between signs.
   struct Fences {
     std::string_view name, open, close;
   };
   static constexpr std::array kFences = {Fences{"norm", "‖", "‖"}, Fences{"abs", "|", "|"},
                                          Fences{"floor", "⌊", "⌋"}, Fences{"ceil", "⌈", "⌉"}};
 
+  /// Functions that are written as a power.
   struct Raised {
     std::string_view name;
     std::string (*above)();
@@ -335,6 +365,7 @@ class Printer {
   static constexpr std::array kRaised = {Raised{"inv", [] { return row(mo("−") + "<mn>1</mn>"); }},
                                          Raised{"pinv", [] { return mo("+"); }}};
 
+  /// Functions with a printer of their own; where it gives none, they are printed as f(a, b).
   using Special = std::optional<Piece> (Printer::*)(const Node&) const;
   static constexpr std::array<std::pair<std::string_view, Special>, 12> kSpecial = {{
       {"exp", &Printer::exponential},
@@ -351,6 +382,7 @@ class Printer {
       {"where", &Printer::cases},
   }};
 
+  /// Functions that mathematics calls otherwise.
   static constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kWords = {
       {{"trace", "tr"}, {"log", "ln"}, {"lambda_max", "lambda_max"}, {"lambda_min", "lambda_min"}}};
 

@@ -1,3 +1,5 @@
+// Dynamics, claims and starts as rows: rates with a dot, values after a jump with a plus, outputs
+// and definitions as equations; what mathematics has no sign for is a remark behind them.
 #include "page/motion.h"
 
 #include <filesystem>
@@ -19,6 +21,7 @@ using report::escaped;
 
 std::string quoted(const std::string& name) { return text_element("b", name); }
 
+/// How values are drawn, in the order in which they are shown.
 std::string drawn_text(NoiseKind kind, bool covariance) {
   const std::string spread = covariance ? "covariance" : "standard deviation";
   if (kind == NoiseKind::normal) return "normal: mean, " + spread;
@@ -28,10 +31,13 @@ std::string drawn_text(NoiseKind kind, bool covariance) {
                                     : "one of these, in turn";
 }
 
+/// The rows of one problem; `notation` must outlive it.
 class Motion {
  public:
   explicit Motion(const Notation& notation) : notation_(notation) {}
 
+  /// A plant or an observer: outputs, definitions, rates, jumps, where it flows and rests, its
+  /// events.
   std::string component(const model::Component& one, const std::string& title) const {
     std::string rows;
     for (const model::Output& output : one.outputs)
@@ -51,6 +57,7 @@ class Motion {
     return group(title, rows);
   }
 
+  /// What an event is due by, and besides its first time, its condition and its losses.
   std::string event(const model::EventText& one) const {
     std::string math;
     std::string how;
@@ -85,10 +92,12 @@ class Motion {
     return formula_row(one.name, math, how);
   }
 
+  /// "w ~ (0, 0.03)" with its law and when it is drawn anew.
   std::string noise(const model::NoiseText& one) const {
     std::string how = drawn_text(one.kind, one.covariance);
     if (!one.event.empty()) how += ", new at " + quoted(one.event);
     if (one.every) how += ", new every " + formula(of(*one.every));
+    // A range has brackets, the parameters of a law parentheses.
     const bool plain = one.kind == NoiseKind::uniform;
     std::string math = one.values.empty() ? ""
                                           : range_mathml(one.values, notation_, plain ? "[" : "(",
@@ -107,6 +116,7 @@ class Motion {
     return equation(name(left), of(right));
   }
 
+  /// The inequality of a claim; `shrinks` is V at the end <= factor V at the start.
   std::string claim(const model::Claim& one) const {
     using model::ClaimKind;
     std::string math = of(one.value);
@@ -143,6 +153,7 @@ class Motion {
     return formula_row(one.name, math, remark);
   }
 
+  /// z(0) = a value, or what it is drawn from.
   std::string start(const model::InitialValue& one) const {
     using model::StartKind;
     std::vector<std::string> values;
@@ -188,12 +199,14 @@ class Motion {
                        remark);
   }
 
+  /// x with a plus: the value after the event.
   std::string jump(const model::Named& next, const std::string& event) const {
     return formula_row("",
                        equation(element("msup", row(name(next.name)) + mo("+")), of(next.value)),
                        "at " + quoted(event));
   }
 
+  /// Definitions, then new values, then the end of a loop.
   std::string pass_rows(const model::PassText& pass, const std::string& event) const {
     std::string rows;
     for (const model::Let& let : pass.let) rows += definition(let, "at " + quoted(event));
@@ -203,6 +216,7 @@ class Motion {
     return rows;
   }
 
+  /// integral of the flow cost dt + sum over jumps of the jump cost <= V at the start.
   std::string cost(const model::Claim& one) const {
     std::string sum;
     if (one.flow_cost) sum = mo("∫") + row(factor(*one.flow_cost) + "<mi>d</mi><mi>t</mi>");
@@ -215,6 +229,7 @@ class Motion {
   const Notation& notation_;
 };
 
+/// How campaigns draw the times between events.
 std::string laws(const model::Campaign& campaign, const Notation& notation) {
   std::string rows;
   for (const model::SamplingLaw& law : campaign.sampling) {
@@ -227,6 +242,7 @@ std::string laws(const model::Campaign& campaign, const Notation& notation) {
 
 }  // namespace
 
+/// In the order in which a person reads them: what moves first, then what disturbs and shows it.
 std::string dynamics(const model::Problem& problem, const Notation& notation) {
   const model::Method& method = *problem.method;
   if (!method.has_dynamics) return "";

@@ -1,3 +1,5 @@
+// What names represent, from declarations, signatures and, for definitions, from their formulas: a
+// name is a scalar where its formula is one for certain.
 #include "page/notation.h"
 
 #include <algorithm>
@@ -17,6 +19,7 @@ using expr::NodeKind;
 constexpr std::array<std::string_view, 5> kCalled = {"derivative", "count", "since", "passes",
                                                      "rate"};
 
+/// Functions whose value is a number whatever their arguments are.
 constexpr std::array<std::string_view, 12> kNumbersOfMatrices = {
     "norm",    "trace", "det",  "lambda_max", "lambda_min", "maximum",
     "minimum", "cond",  "rank", "count",      "since",      "passes"};
@@ -26,6 +29,7 @@ bool holds(const Names& names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+/// Collects the names of a problem.
 class Reader {
  public:
   explicit Reader(const model::Problem& problem) : problem_(problem), method_(*problem.method) {
@@ -45,6 +49,7 @@ class Reader {
     for (const auto& observer : method_.observers) component(observer);
     for (const auto& observer : method_.observers) estimates(observer);
     for (const auto& signal : method_.signals) learn(signal.name, signal.value);
+    // The hybrid time.
     found.scalars.insert({"t", "j"});
     // The order of definitions is free.
     for (int pass = 0; pass < 2; ++pass) {
@@ -68,6 +73,7 @@ class Reader {
     if (!signature.indices.empty()) found.families.insert(signature.name);
   }
 
+  /// Notes a scalar by its formula.
   void learn(const std::string& name, const expr::Expression& value) {
     if (value.root && is_scalar(*value.root, found)) found.scalars.insert(name);
   }
@@ -87,6 +93,7 @@ class Reader {
       for (const auto& pass : reaction.passes) lets(pass.let);
   }
 
+  /// States of an observer that are called as a state or output of the plant with "h" or "_hat".
   void estimates(const model::Component& observer) {
     const auto estimate = [&](const std::string& of) {
       for (const char* ending : {"h", "_hat"})
@@ -111,6 +118,7 @@ bool has_range(const Node& node) {
                      [](const auto& child) { return child->kind == NodeKind::range; });
 }
 
+/// Functions of elements give a number where all arguments are numbers.
 bool scalar_call(const Node& node, const Notation& notation) {
   constexpr std::array<std::string_view, 14> kElementwise = {"exp", "log", "log10", "sqrt", "sin",
                                                              "cos", "tan", "abs",   "sign", "floor",
@@ -141,6 +149,7 @@ bool is_scalar(const Node& node, const Notation& notation) {
       const Node& of = *node.children.front();
       const bool called = of.kind == NodeKind::call && notation.functions.contains(of.text);
       if (called) return notation.scalars.contains(of.text);
+      // A(i, j): the matrix and two indices.
       return node.children.size() == 3 && !has_range(node);
     }
     case NodeKind::negate:

@@ -19,6 +19,7 @@ struct Notation {
   std::map<std::string, std::string, std::less<>> estimates;
 };
 
+/// Of a problem with its method, which must be there.
 Notation notation_of(const model::Problem& problem);
 
 /// Whether the value of an expression is a number for certain.

@@ -11,6 +11,7 @@ namespace gainsmith::page {
 
 namespace {
 
+/// The target of a link from the table, counted from 1.
 std::string id_of(std::size_t k) { return "p" + std::to_string(k + 1); }
 
 /// "yes", "no", "undecided", for the colour of a line of the table.
@@ -20,6 +21,7 @@ std::string colour_of(const Results& results) {
   return results.mark == "ok" ? "yes" : results.mark == "UNDECIDED" ? "undecided" : "no";
 }
 
+/// A row of the table of all problems; of one without results the error in its place.
 std::string line_of(const Results& results, std::size_t k, bool marks) {
   std::string line;
   const auto add = [&](const std::string& text) { line += text_element("td", text); };
@@ -37,6 +39,7 @@ std::string line_of(const Results& results, std::size_t k, bool marks) {
   return element("tr", line);
 }
 
+/// The table of all problems, with a column of marks where one has a mark.
 std::string table_of(const std::vector<Results>& all) {
   const bool marks =
       std::any_of(all.begin(), all.end(), [](const Results& one) { return !one.mark.empty(); });
@@ -63,6 +66,7 @@ std::string counts_of(const std::vector<Results>& all) {
   return text + parts;
 }
 
+/// Values side by side, then the pictures of all designs in one.
 std::string comparison_of(const Comparison& comparison) {
   std::vector<std::string_view> heads = {""};
   heads.insert(heads.end(), comparison.names.begin(), comparison.names.end());
@@ -76,6 +80,7 @@ std::string comparison_of(const Comparison& comparison) {
   return headed_table(heads, lines) + figures_of(comparison.figures);
 }
 
+/// The page: of several problems each is folded below the table.
 std::string whole(const std::vector<Results>& all, const std::string& title,
                   const Comparison* comparison) {
   std::string body = text_element("h1", title) + "\n";
@@ -115,6 +120,7 @@ void leave_out_pictures(std::vector<Results>& all, std::size_t excess) {
 
 }  // namespace
 
+/// The page is made twice where it is too large, the second time with fewer pictures.
 std::string page(const std::vector<Results>& results, const std::string& title) {
   std::string text = whole(results, title, nullptr);
   if (results.size() == 1 || text.size() <= page_size) return text;

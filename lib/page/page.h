@@ -1,4 +1,13 @@
 // The whole page: one file that needs no other, no network and no script.
+//
+// It shows what a gain file, a campaign and a run say, and the problem in mathematics beside it. It
+// computes no result and proves nothing again. Formulas are MathML Core, pictures are SVG; the page
+// is HTML that is well-formed XML, and the same results give the same bytes.
+//
+// page puts the sections of all problems together; results and campaign write those of one.
+// statement and motion print problem and dynamics, squares the sums of squares, by mathml for
+// expressions and symbol for names, numbers and matrices. notation says what names represent. rows
+// and lines lay formulas out, element makes markup, style is the style sheet.
 #pragma once
 
 #include <string>

@@ -1,3 +1,5 @@
+// The sections of one problem, in their order on the page: verdict, gains, margins, certificate,
+// campaign, pictures, problem, provenance.
 #include "page/results.h"
 
 #include <algorithm>
@@ -23,6 +25,7 @@ std::string paragraph(const std::string& text, std::string_view attributes = {})
   return text.empty() ? "" : text_element("p", text, attributes) + "\n";
 }
 
+/// What a yes rests on: sums of squares, or bounds of every inequality at the unknowns.
 std::string proof_of_yes(const model::Gains& gains) {
   if (gains.margins.empty())
     return "The problem has no inequalities: its gains are formulas, evaluated in double "
@@ -48,6 +51,7 @@ std::string proof_of_yes(const model::Gains& gains) {
          "again.";
 }
 
+/// What a no rests on: moments, an algebraic certificate in fractions, or multipliers.
 std::string proof_of_no(const model::Gains& gains) {
   if (!gains.certificate) return "";
   const model::CertificateRecord& certificate = *gains.certificate;
@@ -81,6 +85,7 @@ std::string rests_on(const model::Gains& gains) {
   return "";
 }
 
+/// Which of the reported values are no bounds.
 std::string estimates_text(const model::Gains& gains) {
   std::string names;
   for (const auto& [name, kind] : gains.estimates)
@@ -89,6 +94,7 @@ std::string estimates_text(const model::Gains& gains) {
   return "Maxima over boxes were found by a search and are estimates, no proof: " + names + ".";
 }
 
+/// The verdict, its reasons, a warning for an edited file, and differences from what is expected.
 std::string verdict_section(const Results& results) {
   const model::Gains& gains = results.gains;
   std::string text = text_element("p", results.verdict_line,
@@ -120,6 +126,7 @@ bool is_eigenvalues(const Results& results, const std::string& name) {
   return false;
 }
 
+/// F(s) = F_0 + F_1 s + F_2 s^2 + ..., without the matrices that are 0; a formula as its text.
 std::string function_row(const model::GainFunction& gain) {
   std::string sum;
   for (std::size_t k = 0; k < gain.coefficients.size(); ++k) {
@@ -136,11 +143,13 @@ std::string function_row(const model::GainFunction& gain) {
                      text_element("code", gain.formula) + " with the unknowns of the gain file");
 }
 
+/// Matrices by their names; eigenvalues, n x 2, as complex numbers.
 std::string matrices(const Results& results, const model::NamedMatrices& named) {
   std::string rows;
   for (const auto& [name, value] : named) {
     const auto estimate = results.gains.estimates.find(name);
     const bool poles = value.cols() == 2 && is_eigenvalues(results, name);
+    // A name with a space is a sentence beside the formula, not its left side.
     const bool says = poles || name.find(' ') != std::string::npos;  // it is no symbol
     const std::string right = poles ? eigenvalues(value) : matrix(value);
     rows += formula_row(says ? name : "", says ? right : equation(symbol(name), right),
@@ -149,6 +158,7 @@ std::string matrices(const Results& results, const model::NamedMatrices& named) 
   return rows;
 }
 
+/// Gains first, then what the search found, functions, reports, and the unknowns folded.
 std::string gains_section(const Results& results, const Notation& notation) {
   const model::Gains& gains = results.gains;
   std::string functions;
@@ -173,6 +183,7 @@ std::string cells(std::initializer_list<std::string> texts) {
   return line;
 }
 
+/// Margins as a table, with those of gain bounds, and the sums of squares.
 std::string margins_section(const Results& results, const Notation& notation) {
   const model::Gains& gains = results.gains;
   if (gains.margins.empty() && gains.bounds.empty()) return "";
@@ -205,12 +216,14 @@ std::string margins_section(const Results& results, const Notation& notation) {
 
 /// The requirement that a multiplier "flow at tau = 0.7" or "bounds.2" belongs to.
 const model::Requirement* requirement_of(const model::Problem& problem, const std::string& name) {
+  // Of "flow at tau = 0.7" the part before " at ".
   const std::string base = name.substr(0, name.find(" at "));
   for (const model::Requirement& one : problem.method->require)
     if (one.name == base || base.starts_with(one.name + ".")) return &one;
   return nullptr;
 }
 
+/// Each inequality that has a multiplier once; only its name where the problem is not readable.
 std::string conflict_rows(const Results& results, const Notation& notation,
                           const model::NamedMatrices& multipliers) {
   std::string rows;
@@ -239,6 +252,7 @@ std::string certificate_part(const Results& results, const Notation& notation,
          folded("Multipliers", multipliers);
 }
 
+/// The certificate of a no, and that of the value beyond the best one of a search.
 std::string certificate_section(const Results& results, const Notation& notation) {
   const model::Gains& gains = results.gains;
   std::string text;
@@ -254,6 +268,7 @@ std::string certificate_section(const Results& results, const Notation& notation
   return section("Certificate", text);
 }
 
+/// A text folded under its title.
 std::string text_of_file(std::string_view title, const std::string& text) {
   constexpr std::size_t kMost = 50'000;  // bytes: longer ones are matrices, which nobody reads
   if (text.empty()) return "";
@@ -262,6 +277,8 @@ std::string text_of_file(std::string_view title, const std::string& text) {
                            : paragraph(count_of(text.size(), "byte") + ", in the gain file."));
 }
 
+/// The mathematics of the problem with its texts folded below; the texts alone where these cannot
+/// be read.
 std::string problem_section(const Results& results, const Notation& notation) {
   const model::Statement& statement = results.gains.statement;
   const std::string source = text_of_file("Problem file", statement.problem_text) +
@@ -279,6 +296,7 @@ std::string problem_section(const Results& results, const Notation& notation) {
   return section("Problem", text + source);
 }
 
+/// Versions, hashes, precision and times: what is needed to repeat the result.
 std::string provenance_section(const Results& results) {
   const model::Gains& gains = results.gains;
   std::string lines;
@@ -298,6 +316,7 @@ std::string provenance_section(const Results& results) {
   return section("Provenance", element("table", element("tbody", lines)));
 }
 
+/// The picture of a run, or a sentence where it was left out.
 std::string picture_of(const Results& results) {
   if (results.picture.empty())
     return results.picture_title.empty()

@@ -27,7 +27,7 @@ std::string equation(const std::string& left, const std::string& right,
 /// The value of a datum, of a start, of an end of a box.
 std::string value_mathml(const model::Value& value, const Notation& notation);
 
-/// "[a, b]", or the one value.
+/// "[a, b]"; one value without brackets, unless `open` is another bracket.
 std::string range_mathml(const std::vector<expr::Expression>& ends, const Notation& notation,
                          std::string_view open = "[", std::string_view close = "]");
 
@@ -35,7 +35,7 @@ std::string range_mathml(const std::vector<expr::Expression>& ends, const Notati
 std::string declared(const std::string& name, const std::vector<expr::Index>& indices,
                      const Notation& notation);
 
-/// ", i = 1, …, N" behind a formula, as markup of a line of text; empty without indices.
+/// "for i = 1, …, N" as markup of a line of text; empty without indices.
 std::string for_all_text(const std::vector<expr::Index>& indices, const Notation& notation);
 
 }  // namespace gainsmith::page

@@ -38,6 +38,7 @@ std::string fraction(const std::string& text) {
   return above && below ? value(*above / *below) : report::escaped(text);
 }
 
+/// A symmetric matrix from the rows of its lower triangle.
 std::string gram(const std::vector<std::vector<std::string>>& rows) {
   const int n = static_cast<int>(rows.size());
   return table(n, n, [&](int i, int j) {
@@ -53,6 +54,7 @@ std::string of_record(const Record& record, const Notation& notation) {
   for (std::size_t k = 0; k < record.squares.size(); ++k) {
     const Record::Square& square = record.squares[k];
     const std::string z = below("z", k), Q = below("Q", k);
+    // times 0 is the square without a factor: g_0 = 1.
     add((square.times > 0 ? below("g", static_cast<std::size_t>(square.times)) : "") +
         element("msup", row(z) + mo("⊤")) + Q + z);
     parts += formula_row("", row(equation(z, column(square.basis, notation)) + mo(",") +

@@ -30,6 +30,8 @@ std::string shape_text(const model::ShapeText& shape, const Notation& notation) 
   return kind + formula(rows + mo("×") + columns);
 }
 
+/// The rows of what is given. A value found by a search precedes that of the problem, and that its
+/// default.
 class Given {
  public:
   Given(const model::Problem& problem, const model::Gains& gains, const Notation& notation)
@@ -72,6 +74,7 @@ class Given {
       right = mathml(*datum.fallback, notation_);
     }
     if (right.empty()) return "";  // a function: it is shown below the data
+    // A family that is a list of matrices is A_{1,...} = its members.
     const bool listed_members = !datum.indices.empty() &&
                                 find_named(problem_.data, datum.name) != nullptr &&
                                 !find_named(problem_.data, datum.name)->value.root;
@@ -80,6 +83,7 @@ class Given {
     return formula_row("", equation(left, right), remark);
   }
 
+  /// The value of the result precedes that of the problem, and that the default.
   std::string row_of(const model::Parameter& parameter) const {
     std::string remark = help_of(parameter.help);
     std::string right = searched(parameter.name);
@@ -106,6 +110,7 @@ class Given {
   const Notation& notation_;
 };
 
+/// An unknown with its arguments, shape, degree, family and help.
 std::string unknown_row(const model::UnknownDeclaration& unknown, const Notation& notation) {
   std::string left = declared(unknown.name, unknown.indices, notation);
   if (!unknown.variable.empty()) left = row(left + fenced(symbol(unknown.variable)));
@@ -124,6 +129,7 @@ std::string unknown_row(const model::UnknownDeclaration& unknown, const Notation
   return formula_row("", left, remark);
 }
 
+/// tau ∈ [a, b], {a, b}, conv{A, B} or R^n.
 std::string domain(const model::Forall& forall, const Notation& notation) {
   if (forall.over == model::Over::reals) {
     const std::string reals = "<mi>ℝ</mi>";
@@ -167,6 +173,7 @@ std::string holds_for(const model::Requirement& requirement, const Notation& not
   return text;
 }
 
+/// A gain that is a function of a scalar has it in parentheses at its left side.
 std::string wanted(const model::Problem& problem, const Notation& notation) {
   const model::Method& method = *problem.method;
   std::string unknowns;

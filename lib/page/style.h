@@ -5,7 +5,8 @@
 
 namespace gainsmith::page {
 
-/// A style sheet without "<" and "&".
+/// A style sheet without "<" and "&", which XML would have to escape. --w is the width of a formula
+/// in em, which shrinks it to its column; --yes, --no and --open colour verdicts.
 inline constexpr std::string_view style = R"(
 :root{color-scheme:light dark;--math:1.08rem;--text:#202020;--dim:#606060;--line:#d0d0d0;--back:#fff;--soft:#f4f4f2;--yes:#00664b;--no:#a03000;--open:#7a5c00;--link:#005a94}
 @media(prefers-color-scheme:dark){:root{--text:#e4e4e0;--dim:#a0a09c;--line:#484846;--back:#181818;--soft:#242423;--yes:#4fc79b;--no:#ff9466;--open:#e0b84a;--link:#7cc0f0}}

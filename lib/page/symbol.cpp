@@ -64,11 +64,13 @@ bool is_one_element(std::string_view markup) {
   return false;
 }
 
+/// A Greek letter by its name, any other name as it is.
 std::string stem_markup(std::string_view stem) {
   const Letter* letter = greek(stem);
   return text_element("mi", letter == nullptr ? stem : letter->second);
 }
 
+/// Figures as a number, a name as a symbol.
 std::string index_markup(std::string_view index) {
   if (std::all_of(index.begin(), index.end(), is_digit)) return text_element("mn", index);
   return symbol(index);
@@ -76,6 +78,7 @@ std::string index_markup(std::string_view index) {
 
 std::string with_hat(const std::string& markup) { return element("mover", markup + "<mo>^</mo>"); }
 
+/// Indices below the base, the name's own first.
 std::string with_indices(const std::string& base, std::vector<std::string> below,
                          std::string_view own) {
   if (!own.empty()) below.insert(below.begin(), index_markup(own));
@@ -147,6 +150,8 @@ std::string value(double value) {
   return number(brief(value, kDigits));
 }
 
+/// Of a long side the indices 0 to 5 and the last one are shown, with a row or column of dots
+/// before it.
 std::string table(int rows, int columns, const std::function<std::string(int, int)>& element_of) {
   const auto shown = [](int count) {
     std::vector<int> indices;

@@ -23,8 +23,8 @@ std::string fenced(const std::string& markup, std::string_view open = "(",
 /// Operands with commas between them.
 std::string listed(const std::vector<std::string>& operands);
 
-/// A name as engineers write it: Greek letters by their names (alpha, Omega), figures at the end and
-/// what follows "_" below the line (P1, a_max), "x_hat" with a hat, "observer.xh" as it is.
+/// A name as engineers write it: Greek letters by their names (alpha, Omega), figures at the end
+/// and what follows "_" below the line (P1, a_max), "x_hat" with a hat, "observer.xh" as it is.
 /// `below`: further indices, markup.
 std::string symbol(std::string_view name, const std::vector<std::string>& below = {});
 
@@ -40,9 +40,9 @@ std::string number(std::string_view decimal);
 /// Six significant digits; what is not finite by its name.
 std::string value(double value);
 
-/// A matrix, of its elements' markup; the style sheet draws its brackets, which no font need stretch.
-/// Of more than ten rows or columns the first six and
-/// the last one, with dots for the others.
+/// A matrix, of its elements' markup; the style sheet draws its brackets, which no font need
+/// stretch. Of more than ten rows or columns the first six and the last one, with dots for the
+/// others.
 std::string table(int rows, int columns, const std::function<std::string(int, int)>& element);
 
 /// The same of numbers; a 1 x 1 matrix without brackets.

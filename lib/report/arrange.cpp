@@ -1,3 +1,5 @@
+// Changes of a figure before it is drawn. Cuts interpolate linearly between the samples beside an
+// end.
 #include "report/arrange.h"
 
 #include <algorithm>
@@ -24,6 +26,7 @@ bool is_jump(const Series& series, std::size_t k) {
   return std::binary_search(series.jumps->begin(), series.jumps->end(), k);
 }
 
+/// Samples within [from, to], and one at an end that a line crosses. No line leads across a jump.
 void cut(const Series& series, double from, double to) {
   const std::vector<double> t = *series.t;
   std::vector<double> times;
@@ -51,7 +54,8 @@ void cut(const Series& series, double from, double to) {
   for (std::size_t i = 0; i < values.size(); ++i) *series.values[i] = std::move(values[i]);
 }
 
-/// `moments`: those of all jumps. What has none of its own, such as a bound, takes them by the time.
+/// `moments`: those of all jumps. What has none of its own, such as a bound, takes them by the
+/// time.
 void spread(const Series& series, double width, const std::vector<double>& moments) {
   const bool own = !series.jumps->empty();
   std::ptrdiff_t jumps = 0;
@@ -87,6 +91,7 @@ void cut_across(Curve& curve, double from, double to) {
   curve = std::move(part);
 }
 
+/// All curves and bands over the axis below: those of planes have other quantities there.
 void for_each_series(Figure& figure, const std::function<void(const Series&)>& act) {
   for (Panel& panel : figure.panels) {
     if (panel.across) continue;
@@ -95,6 +100,7 @@ void for_each_series(Figure& figure, const std::function<void(const Series&)>& a
   }
 }
 
+/// All texts of a figure but its title.
 void for_each_name(Figure& figure, const std::function<void(std::string&)>& act) {
   act(figure.axis);
   for (Panel& panel : figure.panels) {

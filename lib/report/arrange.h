@@ -8,8 +8,8 @@
 
 namespace gainsmith::report {
 
-/// Of the panels that are no planes, what lies between two places of the axis below; lines that cross
-/// them are cut there. Of a figure of planes alone what lies between two places across.
+/// Of the panels that are no planes, what lies between two places of the axis below; lines that
+/// cross them are cut there. Of a figure of planes alone what lies between two places across.
 void cut(Figure& figure, double from, double to);
 
 /// Hybrid time t + width*j on the axis below: jump j takes a part of it, where lines lead from the

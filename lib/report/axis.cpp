@@ -1,3 +1,5 @@
+// Ends of axes: the extent of the values and a margin, taken by halves, since the difference of two
+// large doubles may be infinite.
 #include "report/axis.h"
 
 #include <algorithm>
@@ -21,6 +23,7 @@ int decade_below(double value) {
   return decade;
 }
 
+/// low, high = middle -+ half (1 + margin), half at least 5e-11 of the greatest size and 1e-300.
 void set_ends(const Extent& values, double margin, Axis& axis) {
   if (values.empty()) return;
   constexpr double smallest = 1e-300, largest = std::numeric_limits<double>::max();
@@ -88,6 +91,7 @@ Axis linear_axis(const Extent& values, double margin, int most) {
   return axis;
 }
 
+/// On a logarithmic axis the margin is a share of half its decades.
 Axis close_axis(const Extent& values, bool logarithmic, double margin, int most) {
   if (!logarithmic || values.empty()) return linear_axis(values, margin, most);
   constexpr double least_width = 1e-9;  // decades
@@ -99,6 +103,7 @@ Axis close_axis(const Extent& values, bool logarithmic, double margin, int most)
   axis.low = (low + high) / 2 - half;
   axis.high = (low + high) / 2 + half;
   const Ticks decades = ticks(axis.low, axis.high, most, 0);
+  // Fewer powers of ten say too little: then 1, 2 and 5 times them are labelled.
   constexpr std::int64_t few = 3;
   if (decades.count() >= few) {
     for (auto k = decades.first; k <= decades.last; ++k)
@@ -128,6 +133,7 @@ Axis logarithmic_axis(const Extent& values, int most) {
   const Ticks shown = ticks(axis.low, axis.high, most, 0);
   for (auto k = shown.first; k <= shown.last; ++k)
     axis.ticks.push_back({(shown.value(k) - axis.low) / decades, "10", shown.label(k)});
+  // Lines of so many decades would fill the panel.
   if (decades > 50) return axis;
   const int digits = decades <= 4 ? 9 : 1;
   for (int decade = 0; decade < decades; ++decade)

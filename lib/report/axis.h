@@ -18,12 +18,14 @@ struct Extent {
   void add(double value);
 };
 
+/// A labelled place on an axis.
 struct Tick {
   double share = 0;  ///< of the axis, from its low end
   std::string text;
   std::string power;  ///< raised behind the text
 };
 
+/// A scale from low to high, linear or of decimal logarithms, with its labels.
 struct Axis {
   bool logarithmic = false;
   double low = 0;  ///< ends; of a logarithmic axis their decimal logarithms

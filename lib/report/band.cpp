@@ -17,6 +17,8 @@ struct Ends {
   Polyline high;
 };
 
+/// The parts of a band between gaps and, where they are few, jumps. Values beyond an end of the
+/// axis are moved to it.
 std::vector<Ends> ends_of(const Band& band, const Axis& time, const Axis& values, const Box& box) {
   const bool parted = band.jumps.size() <= single_jumps;
   const auto place = [&](std::size_t k, double value) {
@@ -50,6 +52,7 @@ Polyline spare(const Polyline& line) { return coarser(thinned({line}).front()); 
 std::string drawn(const Band& band, const Axis& time, const Axis& values, const Box& box) {
   std::string shapes;
   for (const Ends& ends : ends_of(band, time, values, box)) {
+    // The upper end from left to right, then the lower one back.
     Polyline around = spare(ends.high);
     const Polyline low = spare(ends.low);
     around.insert(around.end(), low.rbegin(), low.rend());

@@ -30,15 +30,18 @@ std::string colour_of(double hue, double low, double high) {
   return text;
 }
 
+/// The length of a dash, in pixels.
 constexpr int dash = 6;
 
-/// Where the dashes of the next curve begin, and when dashes repeat: what is drawn later covers half
-/// of those before at most.
+/// Where the dashes of the next curve begin, and when dashes repeat: what is drawn later covers
+/// half of those before at most.
 struct Steps {
   int step = 0;
   int period = 0;
 };
 
+/// One: 6 on, 4 off. Two: each fills the gaps of the other. More: each begins 4 behind the one
+/// before.
 Steps steps_of(int turns) {
   if (turns < 2) return {0, dash + 4};
   return turns == 2 ? Steps{dash, 2 * dash} : Steps{4, 4 * turns};
@@ -67,7 +70,8 @@ std::string heading(const std::string& title, double width) {
 std::string colour_name(int colour) {
   constexpr int size = static_cast<int>(palette.size());
   if (colour < size) return std::string(palette[static_cast<std::size_t>(std::max(colour, 0))]);
-  // Neighbours lie far apart in hue, and are dark, medium and light in turn.
+  // Neighbours lie far apart in hue, by the golden section of the circle, and are dark, medium and
+  // light in turn.
   constexpr double golden = 0.381966;
   constexpr std::array<std::pair<double, double>, 3> shades = {
       {{0.05, 0.55}, {0.25, 0.8}, {0.45, 0.85}}};
@@ -153,6 +157,7 @@ std::string pixels(double pixels) {
   return report::pixels(static_cast<int>(std::lround(10 * pixels)));
 }
 
+/// Differences need fewer characters than places; a minus sign separates numbers by itself.
 std::string path(const Polyline& line) {
   std::string text = "M" + pixels(line.front().x) + "," + pixels(line.front().y) + "l";
   for (std::size_t k = 1; k < line.size(); ++k) {

@@ -1,3 +1,7 @@
+// The layout of a figure: heights of panels, their axes, and what is drawn where.
+//
+// All panels have one left end, behind the widest labels. Those that are no planes share the axis
+// below, whose labels are under the last of them.
 #include "report/figure.h"
 
 #include <fmt/format.h>
@@ -22,6 +26,7 @@ void check(const std::vector<double>& t, std::size_t values) {
     throw std::logic_error(fmt::format("a curve with {} times and {} values", t.size(), values));
 }
 
+/// std::logic_error where a curve or a band has not one value for each time.
 void check(const Figure& figure) {
   for (const Panel& panel : figure.panels) {
     for (const Curve& curve : panel.curves) check(curve.t, curve.value.size());
@@ -32,8 +37,10 @@ void check(const Figure& figure) {
   }
 }
 
+/// Whether both axes are of quantities; bars are none in this sense.
 bool is_plane(const Panel& panel) { return panel.across && !panel.bars; }
 
+/// In pixels: lower the more panels there are, 24 a row of words, 440 for a plane.
 double height_of(const Panel& panel, std::size_t panels) {
   constexpr double heights[] = {320, 220, 180, 150}, of_row = 24, of_plane = 440;
   if (!panel.rows.empty()) return of_row * static_cast<double>(panel.rows.size());
@@ -96,6 +103,7 @@ Extent widened(const Extent& values, double half) {
   return {middle - half, middle + half, false};
 }
 
+/// Half the width of an axis that shows the values with this margin, in their unit.
 double half_of(const Extent& values, double margin) {
   return (values.high - values.low) / 2 * (1 + margin);
 }
@@ -108,6 +116,8 @@ Extent equal_up(const Panel& plane, double height, double width) {
   return widened(up, half / (1 + kMarginUp));
 }
 
+/// The horizontal axis of a plane. With equal units its half is that of the vertical one times
+/// width / height.
 Axis across_axis(const Panel& plane, const Axis& up, const Box& box) {
   Extent values = extents_of(plane).first;
   values.degrees = plane.degrees;
@@ -132,6 +142,7 @@ Extent with_bands(const Panel& panel, const Axis& shown, const Extent& curves) {
   return all;
 }
 
+/// The axis beside a panel, with a tick for about 22 pixels of its height, 5 to 10 in all.
 Axis value_axis(const Panel& panel, double height, double width) {
   if (!panel.rows.empty()) return axis_of_rows(panel.rows);
   Axis shown;
@@ -151,6 +162,7 @@ Axis value_axis(const Panel& panel, double height, double width) {
 std::pair<std::string, double> drawn_panels(const Figure& figure,
                                             const std::vector<double>& heights) {
   std::vector<Axis> values;
+  // Pixels for labels, at least.
   double beside = 30;
   bool named = false;
   for (std::size_t k = 0; k < figure.panels.size(); ++k) {
@@ -201,6 +213,7 @@ std::string svg(const Figure& figure) {
   std::vector<double> heights;
   for (const Panel& panel : figure.panels)
     heights.push_back(height_of(panel, figure.panels.size() - planes));
+  // What is not panels has a height that is known only when it is drawn.
   auto [text, end] = drawn_panels(figure, heights);
   if (figure.height) {
     fit(heights, *figure.height - end);

@@ -1,5 +1,14 @@
 // Figures of signals over hybrid time, over a scalar, and in planes, as SVG pictures, alone or
 // inside of a page.
+//
+// Hybrid time is (t, j): at a jump j grows while t stays, so a signal has two values at one t. A
+// curve lists its samples in order and says between which of them a jump lies. A value v is at the
+// share (v - low) / (high - low) of its axis, of logarithms on a logarithmic one. Places on the
+// picture are in pixels, y downwards, rounded to tenths.
+//
+// figure lays out panels; panel, legend, band, marks and map draw their parts. axis and ticks
+// choose ends and round numbers. trace and thinning make few points of many samples. arrange
+// changes a figure before it is drawn; drawing and text hold elements of SVG, styles and widths.
 #pragma once
 
 #include <cstddef>
@@ -37,6 +46,7 @@ struct Band {
   int colour = 0;
 };
 
+/// One frame with its axes. Curves and bands share the value axis at the left.
 struct Panel {
   std::string title;         ///< above the panel
   std::string axis;          ///< beside it: quantity and unit
@@ -69,13 +79,13 @@ struct Figure {
   std::optional<double> height{};  ///< none: as the panels need
 };
 
-/// The figure in colours that colour-blind people tell
-/// apart (Okabe and Ito), on white. All texts are UTF-8 and become well-formed XML, whatever they
-/// hold. The same figure gives the same bytes. Curves are drawn to a tenth of a pixel: of dense
-/// ones each column of pixels shows the first, least, greatest and last value, a few thousand
-/// points in all. Where estimates agree with the only curve that is none, it shows below them
-/// as a wider line, and dashes of several take turns. No ids and no style sheets, so that several figures fit in one page.
-/// std::logic_error for a curve or band with as many values as times not.
+/// The figure in colours that colour-blind people tell apart (Okabe and Ito), on white. All texts
+/// are UTF-8 and become well-formed XML, whatever they hold. The same figure gives the same bytes.
+/// Curves are drawn to a tenth of a pixel: of dense ones each column of pixels shows the first,
+/// least, greatest and last value, a few thousand points in all. Where estimates agree with the
+/// only curve that is none, it shows below them as a wider line, and dashes of several take turns.
+/// No ids and no style sheets, so that several figures fit in one page. std::logic_error for a
+/// curve or band with as many values as times not.
 std::string svg(const Figure& figure);
 
 }  // namespace gainsmith::report

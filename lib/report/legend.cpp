@@ -12,8 +12,10 @@ namespace gainsmith::report {
 
 namespace {
 
+/// In pixels: a row, the line of an entry, from it to its label, from there to the next entry.
 constexpr double row_height = 18, sample_width = 24, to_label = 6, to_next = 18;
 
+/// Line and label, in pixels.
 double width_of(const LegendEntry& entry) {
   return sample_width + to_label + text_width(entry.label, label_size);
 }
@@ -80,6 +82,7 @@ Legend legend(const Panel& panel, double width) {
   for (const Band& band : panel.bands) add(band.label, nullptr, {band.colour});
   const double beside =
       made.title.empty() ? 0 : text_width(made.title, panel_title_size * bold_widening) + to_next;
+  // Behind the last entry no distance is needed.
   const bool one_row = total - to_next + beside <= width;
   double last = fill_rows(row_height / 2 + (one_row || made.title.empty() ? 0 : row_height), width,
                           made.entries);

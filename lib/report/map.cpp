@@ -1,3 +1,8 @@
+// Maps of a quantity over a grid: a cell for each point, coloured by its value or filled by its
+// kind.
+//
+// The border of two neighbours is midway between them on the scale of the axis: at their geometric
+// mean on a logarithmic one. The outer cells reach as far beyond their points.
 #include "report/map.h"
 
 #include <fmt/format.h>
@@ -17,13 +22,16 @@ namespace gainsmith::report {
 
 namespace {
 
+/// In pixels: a map, the scale of colours beside it and its distance, the head above the map.
 constexpr double map_height = 340, bar_width = 16, to_bar = 16, head_of_map = 26;
+/// Of a scalar; a map of more has cells below two pixels.
 constexpr std::size_t most_values = 400;
 
 /// Of viridis (Smith and van der Walt 2015): its lightness grows evenly.
 constexpr std::array<std::array<double, 3>, 6> ramp = {
     {{68, 1, 84}, {65, 68, 135}, {42, 120, 142}, {34, 168, 132}, {122, 209, 81}, {253, 231, 37}}};
 
+/// Linear between the six colours of the ramp; a share outside [0, 1] has the colour of its end.
 std::string colour_at(double share) {
   const double at = std::clamp(share, 0.0, 1.0) * (ramp.size() - 1);
   const std::size_t k = std::min(static_cast<std::size_t>(at), ramp.size() - 2);
@@ -73,6 +81,7 @@ Columns columns_of(const GridAxis& grid) {
 
 /// The colours of the values of a map.
 std::optional<Axis> scale_of(const Map& map) {
+  // The ratio from which positive values are shown on a logarithmic scale.
   constexpr double wide = 30;
   constexpr int most_ticks = 8;
   Extent values;
@@ -85,6 +94,7 @@ std::optional<Axis> scale_of(const Map& map) {
 /// Rectangles, neighbours in a row of one colour in one, and marks where cells have room for them.
 std::string cells_of(const MapFigure& figure, const Map& map, const Columns& across,
                      const Columns& up, const std::optional<Axis>& scale, const Box& box) {
+  // Pixels that a mark needs in both directions.
   constexpr double room = 12;
   std::string text, marks;
   const auto x = [&](std::size_t k) { return box.left + across.borders[k] * box.width; };
@@ -112,6 +122,7 @@ std::string cells_of(const MapFigure& figure, const Map& map, const Columns& acr
   return "<g shape-rendering=\"crispEdges\">\n" + text + "</g>\n" + marks;
 }
 
+/// The scale of colours in 64 steps, the least value at the bottom.
 std::string bar(const Axis& scale, const Box& box) {
   constexpr int steps = 64;
   std::string text = "<g shape-rendering=\"crispEdges\">\n";

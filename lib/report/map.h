@@ -23,6 +23,7 @@ struct CellKind {
   Mark mark = Mark::none;
 };
 
+/// What is at one point of the grid: a value, or a reason why there is none.
 struct Cell {
   std::size_t kind = 0;         ///< of MapFigure::kinds
   std::optional<double> value;  ///< finite; by a scale of colours, whatever the kind

@@ -1,3 +1,4 @@
+// What is inside and around the frame of one panel: grid, labels, field, bands, curves, marks.
 #include "report/panel.h"
 
 #include <fmt/format.h>
@@ -15,6 +16,7 @@ namespace gainsmith::report {
 
 namespace {
 
+/// From the frame to the labels beside it, in pixels.
 constexpr double to_labels = 7;
 
 std::string power_of_ten(int factor) {
@@ -35,6 +37,7 @@ std::string label_at(double x, double y, const Tick& tick, std::string_view anch
                      anchor, raised(tick.text, tick.power));
 }
 
+/// What labels are to be multiplied by, at the end of the axis.
 Tick factor_label(int factor) {
   return {0,
           "\xC3\x97"
@@ -42,6 +45,7 @@ Tick factor_label(int factor) {
           power_of_ten(factor)};
 }
 
+/// Lines at the ticks, and paler ones between them on a logarithmic axis.
 std::string grid(const Axis& time, const Axis& values, const Box& box) {
   std::string strong, light;
   const auto across = [&](double share) {
@@ -69,6 +73,7 @@ std::string frame(const Box& box) {
       pixels(box.left), pixels(box.top), pixels(box.width), pixels(box.height));
 }
 
+/// Labels, factor and name at the left of a frame.
 std::string beside(const std::string& quantity, const Axis& values, const Box& box) {
   std::string text;
   for (const Tick& tick : values.ticks)
@@ -90,11 +95,13 @@ std::string circle(const Point& at, std::string_view radius, std::string_view fi
                      pixels(at.y), radius, fill);
 }
 
+/// Of its vertical, in tenths of a pixel.
 int length(const JumpTrace& jump) { return std::abs(jump.after.y - jump.before.y); }
 
 /// Open where a jump begins and filled where it ends. Of short jumps, whose circles would overlap,
 /// none, and none at all where most of the jumps that one sees are short.
 std::string circles(const std::vector<JumpTrace>& jumps, std::string_view colour) {
+  // In tenths of a pixel: jumps that one sees, and those on which two circles of radius 2 fit.
   constexpr int seen = 20, clear = 45;
   const auto longer = [&](int least) {
     return std::count_if(jumps.begin(), jumps.end(),
@@ -136,6 +143,7 @@ std::string end_marks(const Curve& curve, const Axis& across, const Axis& values
   return text;
 }
 
+/// Jumps as thin dots, flows in the style of the curve, samples alone as filled circles.
 std::string lines(const Trace& trace, const Style& style) {
   std::string jumps, flows, text;
   for (const JumpTrace& jump : trace.jumps) jumps += path({jump.before, jump.after});
@@ -153,9 +161,11 @@ std::string lines(const Trace& trace, const Style& style) {
   return text;
 }
 
-/// Arrows on a grid, as long as their rates relative to the fastest; slow ones are drawn larger, so
-/// that their directions are seen.
+/// Arrows on a grid of about 30 pixels, each with its middle at its place. The length is 22 cbrt(s
+/// / s_max) pixels with the speed s on the picture: slow ones are drawn larger, so that their
+/// directions are seen. Where a rate is 0 or not finite there is none.
 std::string field_of(const Panel& panel, const Axis& across, const Axis& up, const Box& box) {
+  // In pixels: cells of the grid, the fastest arrow, its two barbs.
   constexpr double spacing = 30, longest = 22, head = 4;
   struct Arrow {
     double x, y, right, down, speed;
@@ -205,6 +215,7 @@ double label_width(const Axis& axis) {
   return widest + to_labels;
 }
 
+/// Value 0 is in the topmost row: the axis runs downwards, from -0.5 to n - 0.5.
 Axis axis_of_rows(const std::vector<std::string>& rows) {
   Axis axis;
   const auto count = static_cast<double>(rows.size());

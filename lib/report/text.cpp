@@ -1,3 +1,5 @@
+// UTF-8 as RFC 3629 has it: overlong forms, surrogates and what lies above U+10FFFF are no
+// characters.
 #include "report/text.h"
 
 #include <cstdint>
@@ -6,6 +8,7 @@ namespace gainsmith::report {
 
 namespace {
 
+/// The replacement character, U+FFFD.
 constexpr char32_t unreadable = 0xFFFD;
 constexpr std::string_view unreadable_bytes = "\xEF\xBF\xBD";
 constexpr std::string_view ellipsis = "\xE2\x80\xA6";
@@ -15,6 +18,7 @@ struct Character {
   std::size_t bytes = 1;
 };
 
+/// Whether XML 1.0 has the character (production 2 of its grammar).
 bool in_xml(char32_t code) {
   if (code < 0x20) return code == '\t' || code == '\n' || code == '\r';
   return code <= 0x10FFFF && !(code >= 0xD800 && code <= 0xDFFF) && code != 0xFFFE &&
@@ -91,6 +95,7 @@ double text_width(std::string_view utf8, double size) {
   return width * size;
 }
 
+/// Characters are never cut in two.
 std::string shortened(std::string_view utf8, double size, double width) {
   if (text_width(utf8, size) <= width) return std::string(utf8);
   const double room = width - text_width(ellipsis, size);

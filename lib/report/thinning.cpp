@@ -1,3 +1,10 @@
+// Fewer points for the same picture, by two rules.
+//
+// Over time: of each column of pixels the first, lowest, highest and last point. A line through
+// them covers the same pixels as one through all (M4; Jugel, Jerzak, Hackenbroich, Markl 2014).
+// In any direction: the line between two kept points is within the tolerance of all points between
+// them; the farthest one is kept otherwise, and both parts are treated alike (Douglas, Peucker
+// 1973).
 #include "report/thinning.h"
 
 #include <algorithm>
@@ -12,6 +19,7 @@ namespace gainsmith::report {
 
 namespace {
 
+/// A point of all lines together; a line begins at those that start one.
 struct Vertex {
   Point at;
   bool starts = false;  ///< a line
@@ -19,6 +27,7 @@ struct Vertex {
 
 int column_of(const Vertex& vertex) { return vertex.at.x / 10; }
 
+/// Adds the first, lowest, highest and last of some points, in their order.
 void append_extremes(std::span<const Vertex> points, std::vector<Polyline>& lines) {
   if (points.empty()) return;
   const auto [least, greatest] =
@@ -49,6 +58,7 @@ struct Extremes {
 
 /// What is left of whole lines within one column.
 void append_joined(std::span<const Vertex> points, std::vector<Polyline>& lines) {
+  // Tenths of a pixel: boxes nearer than this above each other become one.
   constexpr int near = 20;
   constexpr std::size_t most = 4;
   std::vector<Extremes> boxes;
@@ -190,6 +200,7 @@ Polyline coarser(const Polyline& line, double tolerance) {
 }
 
 std::vector<Polyline> simplified(const Polyline& line) {
+  // Points of a line in a plane: up to `many` it is kept, and of others at most `most` are left.
   constexpr std::size_t many = 20000, most = 50000;
   if (line.empty()) return {};
   const Polyline fine = coarser(spaced(line, 2), kFine);

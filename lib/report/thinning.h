@@ -24,8 +24,8 @@ std::vector<Polyline> thinned(const std::vector<Polyline>& lines);
 /// What a picture may be off, in tenths of a pixel.
 constexpr double kShown = 2;
 
-/// The line with as few of its points as show it to within `tolerance` tenths of a pixel (Douglas and
-/// Peucker 1973), in pieces of 1,000. Its ends stay.
+/// The line with few of its points that show it to within `tolerance` tenths of a pixel (Douglas
+/// and Peucker 1973), in pieces of 1,000: the time grows with the square of a piece. Its ends stay.
 Polyline coarser(const Polyline& line, double tolerance = kShown);
 
 /// Of a line in any direction the points without which the others would not show it to within 0.3

@@ -11,12 +11,13 @@ namespace {
 
 constexpr const char* minus = "\xE2\x88\x92";
 
+/// The double nearest to mantissa 10^exponent: a product would round twice.
 double decimal(std::int64_t mantissa, int exponent) {
   const auto value = parse_decimal(std::to_string(mantissa) + "e" + std::to_string(exponent));
   return value.value_or(mantissa > 0 ? HUGE_VAL : -HUGE_VAL);
 }
 
-/// The multiples within [low, high]. Halves, since the difference of large ends has no double.
+/// The multiples within [low, high], a ten-thousandth of a step outside included.
 Ticks within(double low, double high, int multiplier, int exponent) {
   constexpr double nearly = 1e-4;
   const double step = decimal(multiplier, exponent);
@@ -46,6 +47,7 @@ std::string Ticks::label(std::int64_t k, int factor) const {
 }
 
 Ticks ticks(double low, double high, int most, int smallest_exponent) {
+  // Halves, since the difference of large ends has no double.
   const double half = high / 2 - low / 2;
   const int start = static_cast<int>(std::floor(std::log10(half / most)));
   for (int exponent = std::max(start, smallest_exponent);; ++exponent)

@@ -1,3 +1,4 @@
+// Samples to places on the picture. A part of a line ends at a gap, and at a jump that is seen.
 #include "report/trace.h"
 
 #include <algorithm>
@@ -46,6 +47,7 @@ class Parts {
   std::optional<Point> last_;
 };
 
+/// The parts of a curve in tenths of a pixel. Samples that an axis cannot show leave gaps.
 Parts parts_of(const Curve& curve, const Axis& time, const Axis& values, const Box& box) {
   const auto place = [&](std::size_t k) -> std::optional<Point> {
     if (!time.shows(curve.t[k]) || !values.shows(curve.value[k])) return std::nullopt;
@@ -62,6 +64,7 @@ Parts parts_of(const Curve& curve, const Axis& time, const Axis& values, const B
   return parts;
 }
 
+/// A line, or a dot where it has one point alone.
 void add(const Polyline& line, Trace& trace) {
   if (line.size() > 1)
     trace.flows.push_back(line);
@@ -80,11 +83,13 @@ Trace trace(const Curve& curve, const Axis& time, const Axis& values, const Box&
 }
 
 Trace trace_in_plane(const Curve& curve, const Axis& across, const Axis& values, const Box& box) {
+  // More jumps in a plane cover everything else.
   constexpr std::size_t most_jumps = 2000;
   const Parts parts = parts_of(curve, across, values, box);
   Trace drawn;
   for (const Polyline& line : parts.lines)
     for (const Polyline& part : simplified(line)) add(part, drawn);
+  // Whole pixels of both ends: equal jumps of a periodic run are drawn once.
   std::set<std::array<int, 4>> seen;
   for (const JumpTrace& jump : parts.jumps) {
     const auto& [before, after] = jump;

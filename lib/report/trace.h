@@ -20,6 +20,7 @@ struct Box {
   double bottom() const { return top + height; }
 };
 
+/// A jump from its value before to that after; verticals of several have their two ends.
 struct JumpTrace {
   Point before;
   Point after;
@@ -40,8 +41,8 @@ constexpr std::size_t single_jumps = 60;
 /// The curve on a panel that fills the box.
 Trace trace(const Curve& curve, const Axis& time, const Axis& values, const Box& box);
 
-/// The curve in a plane, where t is another quantity. Jumps that begin and end in the same pixels are one;
-/// of more than 2,000 others none is drawn.
+/// The curve in a plane, where t is another quantity. Jumps that begin and end in the same pixels
+/// are one; of more than 2,000 others none is drawn.
 Trace trace_in_plane(const Curve& curve, const Axis& across, const Axis& values, const Box& box);
 
 }  // namespace gainsmith::report

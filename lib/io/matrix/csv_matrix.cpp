@@ -1,3 +1,4 @@
+// A matrix of CSV. Elements are counted before the table is read: a wrong file may be large.
 #include "io/matrix/csv_matrix.h"
 
 #include <algorithm>

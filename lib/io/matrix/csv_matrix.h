@@ -1,5 +1,5 @@
-// A matrix as CSV: a row of numbers a line. A first line without any number names the columns and is
-// left out.
+// A matrix as CSV: a row of numbers a line. A first line without any number names the columns and
+// is left out.
 #pragma once
 
 #include <string>

@@ -57,12 +57,15 @@ void add_stored(char kind, std::string_view bytes, bool big_endian, const std::s
                              : std::bit_cast<double>(word);
     return add_element(value, what, place, matrix);
   }
+  // Shifted up and down, a whole number keeps its sign.
   const auto unused = static_cast<unsigned>(64 - 8 * bytes.size());
   matrix.elements.push_back(
       kind == 'i' ? std::to_string(static_cast<std::int64_t>(word << unused) >> unused)
                   : std::to_string(word));
 }
 
+/// A sign "+" and zeros at the front go; a digit is put before a point, and a point without digits
+/// behind it goes.
 std::string spelt_as_json(const std::string& text) {
   const auto is_digit = [&](std::size_t at) {
     return at < text.size() && std::isdigit(static_cast<unsigned char>(text[at])) != 0;

@@ -15,6 +15,7 @@ namespace gainsmith::io {
 /// A problem has matrices of some hundred rows at most; more is a mistake in what is named.
 constexpr int kMostElements = 250'000;
 
+/// A matrix as its file has it: decimals of its elements, row by row.
 struct FileMatrix {
   model::StatedMatrix matrix;
   std::vector<expr::Position> positions{};  ///< of the elements, where the file is a text
@@ -33,8 +34,8 @@ void add_element(double value, const std::string& what, const Place& place,
 /// Up to 8 bytes as a whole number.
 std::uint64_t word_of(std::string_view bytes, bool big_endian);
 
-/// Adds the element that `bytes` store: `kind` f, a number of IEEE 754 of 4 or 8 bytes, as add_element does; i and u, a
-/// whole number with a sign and without.
+/// Adds the element that `bytes` store: `kind` f, a number of IEEE 754 of 4 or 8 bytes, as
+/// add_element does; i and u, a whole number with a sign and without, with all its digits.
 void add_stored(char kind, std::string_view bytes, bool big_endian, const std::string& what,
                 const Place& place, model::StatedMatrix& matrix);
 

@@ -11,6 +11,7 @@ namespace gainsmith::io {
 
 namespace {
 
+/// Finds a value of a document and reads it as a matrix. Errors name its path and its place.
 class JsonMatrixReader {
  public:
   JsonMatrixReader(const std::string& text, const std::string& path, std::string name)
@@ -33,6 +34,7 @@ class JsonMatrixReader {
                                 (keys.empty() ? "" : suggestion(name, keys)));
   }
 
+  /// A number, a list (flat), or rows of equal lengths.
   FileMatrix read(const Json& value) const {
     FileMatrix result;
     if (value.is_object()) refuse_object(value);
@@ -72,6 +74,7 @@ class JsonMatrixReader {
     refuse("", "expected a matrix, found an object; say which of it by 'name': " + names);
   }
 
+  /// Adds an element with its decimal.
   void add(const Json& value, const std::string& at, FileMatrix& result) const {
     if (!is_number(value)) refuse(at, "expected a number");
     result.matrix.elements.push_back(spelt_as_json(decimal_of(value)));

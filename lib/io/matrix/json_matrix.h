@@ -8,8 +8,8 @@
 namespace gainsmith::io {
 
 /// The matrix that `name` leads to, "gains.L"; empty: the document itself. InputError for a name
-/// that is not there, with the nearest one (`place`: where the name is given), and with the line and
-/// column in the file for all that is no matrix.
+/// that is not there, with the nearest one (`place`: where the name is given), and with the line
+/// and column in the file for all that is no matrix.
 FileMatrix json_matrix(const std::string& text, const std::string& path, const std::string& name,
                        const Place& place);
 

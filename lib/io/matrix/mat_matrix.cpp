@@ -1,3 +1,8 @@
+// The container of MAT files of version 5: a header of 128 bytes, then elements, each of which is a
+// tag (type and length, 4 bytes each) and its bytes, filled up to 8.
+//
+// All headers are read first, of compressed variables from their first 4096 bytes; the numbers of
+// the one that is wanted follow. Every length is compared with what is there before it is used.
 #include "io/matrix/mat_matrix.h"
 
 #include <zlib.h>
@@ -31,6 +36,7 @@ bool is_big_endian(std::string_view bytes, const std::string& path, const Place&
                        ": save it again, in MATLAB or Octave by save('-v7', 'file.mat', 'A')");
 }
 
+/// Without the tag at the beginning.
 std::string_view behind_tag(std::string_view bytes) {
   return bytes.substr(std::min(kTag, bytes.size()));
 }
@@ -59,7 +65,7 @@ class PartReader {
   }
 
   MatNumbers next() {
-    // Up to four bytes stand in the tag itself, which has their number in the upper half of the type.
+    // Up to four bytes are in the tag itself, which has their number in the upper half of the type.
     const std::uint32_t first = word(rest_), few = first >> 16U;
     const std::size_t size = few > 0 ? few : word(rest_, 4), begin = few > 0 ? 4 : kTag;
     whole_ = whole_ && rest_.size() >= kTag && few <= 4 && size <= rest_.size() - begin;
@@ -95,8 +101,10 @@ class PartReader {
 
 }  // namespace
 
+/// Two passes: the headers of all variables, then the numbers of one.
 FileMatrix mat_matrix(const std::string& bytes, const std::string& path, const std::string& name,
                       const Place& place) {
+  // Flags, dimensions and name of a variable need less than this.
   constexpr std::size_t kLongestHeader = 4096;
   // Of a full matrix 8 bytes an element, of a sparse one a row besides; a header.
   constexpr std::size_t kLongest = std::size_t{16} * kMostElements;
@@ -133,6 +141,7 @@ FileMatrix mat_matrix(const std::string& bytes, const std::string& path, const s
     if (found[index].values.type == mat::kCompressed) {
       const std::string tag = inflated(body, kTag);
       const std::size_t length = kTag + PartReader(tag, big_endian).word(tag, 4);
+      // One byte more than is said shows that there are more.
       if (length <= kLongest) text = inflated(body, length + 1);
       if (text.size() != length)
         refuse("damaged: " + found[index].name + " cannot be decompressed");

@@ -1,3 +1,5 @@
+// Matrices of MAT variables: full ones column after column, sparse ones as compressed columns, that
+// is rows of the stored values and, for each column, where its values begin.
 #include "io/matrix/mat_variable.h"
 
 #include <algorithm>
@@ -16,7 +18,8 @@ struct StoredFormat {
   std::size_t width = 0;  ///< bytes; 0 of what are no numbers
 };
 
-/// The types are counted: int8, uint8, int16, uint16, int32, uint32, single, -, double, -, -, int64, uint64.
+/// The types are counted: int8, uint8, int16, uint16, int32, uint32, single, -, double, -, -,
+/// int64, uint64.
 StoredFormat format_of(int type) {
   constexpr std::string_view kKinds = " iuiuiuf f  iu", kWidths = "01122444080088";
   const auto at = static_cast<std::size_t>(type);
@@ -24,8 +27,8 @@ StoredFormat format_of(int type) {
   return {kKinds[at], static_cast<std::size_t>(kWidths[at] - '0')};
 }
 
-/// Whether numbers of a class may have the type: that of the class, double of a sparse matrix, or whole numbers of fewer
-/// bytes.
+/// Whether numbers of a class may have the type: that of the class, double of a sparse matrix, or
+/// whole numbers of fewer bytes.
 bool may_have(int kind, int type) {
   constexpr std::array kTypes = {9, 9, 7, 1,  2, 3,
                                  4, 5, 6, 12, 13};  // sparse, double, single, int8, ...
@@ -35,6 +38,7 @@ bool may_have(int kind, int type) {
          (format.width > 0 && format.kind != 'f' && format.width < format_of(own).width);
 }
 
+/// Numbers of 4 bytes; empty where the type is another one.
 std::vector<std::uint64_t> whole_numbers(const MatNumbers& numbers) {
   std::vector<std::uint64_t> result;
   if (numbers.type != mat::kInt32 && numbers.type != mat::kUint32) return result;
@@ -43,6 +47,7 @@ std::vector<std::uint64_t> whole_numbers(const MatNumbers& numbers) {
   return result;
 }
 
+/// Of an element of a sparse matrix that is not stored: it is 0.
 constexpr std::size_t kNothing = static_cast<std::size_t>(-1);
 
 /// Which of the stored values the elements are, row by row; empty when they do not fit.
@@ -52,6 +57,7 @@ std::vector<std::size_t> places(const MatVariable& variable, std::size_t rows, s
     return {};
   const std::size_t stored = variable.values.bytes.size() / width;
   std::vector<std::size_t> at(rows * cols, kNothing);
+  // Element (i, j), k = i cols + j, is the stored value j rows + i.
   if (variable.kind != mat::kSparseClass) {
     for (std::size_t k = 0; k < at.size(); ++k) at[k] = k % cols * rows + k / cols;
     return stored == at.size() ? at : std::vector<std::size_t>{};
@@ -62,12 +68,14 @@ std::vector<std::size_t> places(const MatVariable& variable, std::size_t rows, s
     return {};
   for (std::size_t j = 0; j < cols; ++j)
     for (std::size_t k = begin[j]; k < begin[j + 1]; ++k) {
+      // Rows of a column ascend: so no element is stored twice.
       if (row[k] >= rows || (k > begin[j] && row[k] <= row[k - 1])) return {};
       at[row[k] * cols + j] = k;
     }
   return at;
 }
 
+/// The variable of the name, or the only one. InputError with what there is.
 std::size_t index_of(const std::vector<MatVariable>& found, const std::string& name,
                      const std::string& path, const Place& place) {
   if (found.empty())

@@ -1,5 +1,5 @@
-// Internal to io: a variable of a MAT file, and the matrix that it is. Nothing in it is believed: it comes from a
-// stranger's file.
+// Internal to io: a variable of a MAT file, and the matrix that it is. Nothing in it is believed:
+// it comes from a stranger's file.
 #pragma once
 
 #include <functional>
@@ -33,19 +33,22 @@ struct MatNumbers {
   bool big_endian = false;
 };
 
+/// A variable; its bytes belong to the file or to what was decompressed.
 struct MatVariable {
   std::string name;
   int kind = 0;  ///< mat::Class, or another code
   bool complex = false;
   std::vector<double> dimensions;
   MatNumbers values;  ///< column after column; of a sparse matrix those that are stored
-  // Of a sparse matrix: the row of each stored value, and of each column where its values begin; then where the last ends.
+  // Of a sparse matrix: the row of each stored value, and of each column where its values begin;
+  // then where the last ends.
   MatNumbers rows, columns;
 };
 
-/// The matrix under `name`; with an empty name that of the only variable. `found`: all variables, without numbers, which
-/// `read` gives. It is asked for a real matrix of a size that a matrix may have only. InputError at `place` for any other
-/// variable, and where types, lengths and places do not fit together.
+/// The matrix under `name`; with an empty name that of the only variable. `found`: all variables,
+/// without numbers, which `read` gives. It is asked for a real matrix of a size that a matrix may
+/// have only. InputError at `place` for any other variable, and where types, lengths and places do
+/// not fit together.
 model::StatedMatrix matrix_of_variable(const std::vector<MatVariable>& found,
                                        const std::string& name, const std::string& path,
                                        const Place& place,

@@ -1,3 +1,5 @@
+// Files of NumPy (NEP 1): "\x93NUMPY", the version, the length of the header in 2 bytes or, from
+// version 2 on, in 4; then the header as a mapping of Python, and the elements.
 #include "io/matrix/npy_matrix.h"
 
 #include <cctype>
@@ -54,6 +56,7 @@ class NpyReader {
     throw InputError(place_, path_ + ": " + message);
   }
 
+  /// The order of elements, their type and the shape, all of which the header must have.
   Layout header() const {
     constexpr auto kMagic = "\x93NUMPY"sv;
     if (!bytes_.starts_with(kMagic))
@@ -85,6 +88,7 @@ class NpyReader {
     return text.substr(begin);
   }
 
+  /// A type such as "<f8": order of bytes, kind, bytes of an element.
   std::string type_of(const std::string& value) const {
     if (value[0] == '[') refuse("the array has named fields; save the field that is the matrix");
     const std::string type = value.substr(1, value.find('\'', 1) - 1);
@@ -109,6 +113,7 @@ class NpyReader {
     return 0;
   }
 
+  /// A tuple of Python, at most two whole numbers: "(3, 2)", "(3,)", "()".
   std::vector<double> shape_of(const std::string& value) const {
     std::vector<double> shape;
     const std::size_t close = value.find(')');

@@ -9,7 +9,8 @@ namespace gainsmith::io {
 
 /// The matrix of an array with at most two dimensions, of real numbers, whole numbers or truth
 /// values, in either order of its elements and of its bytes. An array with one dimension is a list.
-/// InputError at `place` for any other array, for a file that is cut off, and for elements that are not finite.
+/// InputError at `place` for any other array, for a file that is cut off, and for elements that are
+/// not finite.
 FileMatrix npy_matrix(const std::string& bytes, const std::string& path, const Place& place);
 
 }  // namespace gainsmith::io
