@@ -108,15 +108,11 @@ int Binder::output_matrix(const Expression& expression, const Node& argument, in
   return c;
 }
 
-<<<<<<< HEAD
+/// With as many digits as it needs, so that it is exact in every number type.
 int Binder::power_of_two(const Emitter& make, int exponent) {
   return make.number(fmt::format("{:.{}e}", std::ldexp(1.0, exponent), std::abs(exponent)));
 }
 
-=======
-/// Powers of 2 as decimals with as many digits as they need, so that they are exact in every number
-/// type.
->>>>>>> comments
 Bound Binder::units(const Expression& expression, const Node& node) {
   const int a = square_argument(expression, node, node.text);
   const Node& outputs = *node.children[1];
