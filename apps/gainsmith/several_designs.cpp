@@ -143,7 +143,8 @@ std::vector<std::string> names_of_files(const std::vector<std::string>& files) {
   if (are_different(stems)) return stems;
   const auto folders =
       parts_of(files, [](const fs::path& path) { return path.parent_path().filename(); });
-  return are_different(folders) ? folders : files;
+  const bool named = std::ranges::none_of(folders, &std::string::empty);
+  return named && are_different(folders) ? folders : files;
 }
 
 void require_same_plant(const std::vector<LoadedGains>& designs,
