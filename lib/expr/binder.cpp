@@ -89,7 +89,7 @@ Bound Binder::bind_kind(const Expression& expression, const Node& node) {
       return bind_call(expression, node);
     case NodeKind::index:
       if (const auto derivative = bind_derivative(expression, node)) return *derivative;
-      if (const auto value = bind_member_call(expression, node)) return *value;
+      if (const auto member = bind_member_call(expression, node)) return *member;
       return index(expression, node, child(0), 1);
     case NodeKind::negate: {
       const Bound a = value(0);
