@@ -201,6 +201,7 @@ void add_nichols(const std::vector<DrawnSystem>& systems, report::Figure& figure
   panel.across = "phase, degrees";
   panel.degrees = true;
   report::Curve critical = points(report::Mark::cross, 6);
+  critical.t = {-180};
   int colour = 0;
   for (const DrawnSystem& drawn : systems) {
     report::Curve made = curve(drawn.label, colour++);
@@ -210,8 +211,10 @@ void add_nichols(const std::vector<DrawnSystem>& systems, report::Figure& figure
       if (!(std::abs(size) <= kFar)) continue;
       made.t.push_back(phases[k]);
       made.value.push_back(size);
+      // -1 is at each of these phases.
       const double near = -180 + 360 * std::round((phases[k] + 180) / 360);
-      if (std::ranges::find(critical.t, near) == critical.t.end()) critical.t.push_back(near);
+      if (std::abs(phases[k] - near) < 90 && !std::ranges::count(critical.t, near))
+        critical.t.push_back(near);
     }
     panel.curves.push_back(std::move(made));
   }

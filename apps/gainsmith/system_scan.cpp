@@ -204,7 +204,7 @@ void add_scan(const SystemFigure& figure, const LoadedGains& loaded, SystemResul
                  result);
   }
   if (all.values.size() < all.tried)
-    result.facts.push_back(fmt::format("{} of {} values of {} without gains",
+    result.facts.push_back(fmt::format("no gains at {} of {} values of {}",
                                        all.tried - all.values.size(), all.tried, name));
 }
 

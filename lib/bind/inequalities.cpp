@@ -9,7 +9,6 @@
 #include "bind/inequalities.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <memory>
 #include <utility>

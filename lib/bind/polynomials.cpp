@@ -1,6 +1,5 @@
 #include "bind/polynomials.h"
 
-#include <cmath>
 
 #include "base/number.h"
 #include "bind/formulas.h"

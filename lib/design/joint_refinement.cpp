@@ -102,10 +102,6 @@ class SmoothDesign {
     double scale = 1;
   };
 
-  std::size_t unknown_variable(int i) const {
-    return scalars_.size() + static_cast<std::size_t>(i) - 1;
-  }
-
   /// The design at values of its scalars, with the request's own figure as its objective.
   model::Instance instance_at(const model::Overrides& values) const {
     model::Instance instance = bind::evaluate(design_, values);

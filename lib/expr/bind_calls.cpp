@@ -73,39 +73,30 @@ Bound Binder::bind_call(const Expression& expression, const Node& node) {
 
 namespace {
 
-/// A tree whose nodes are all at the place of one.
-NodePtr at_place(const Node& tree, const Node& place) {
+/// The tree of a text of the table as if it stood in a call: parameters are at the places of their
+/// arguments, all else at that of the call.
+NodePtr in_call(const Node& tree, const Node& call, const std::vector<std::string>& parameters) {
+  const auto parameter = std::ranges::find(parameters, tree.text);
+  const Node& place =
+      tree.kind != NodeKind::name || parameter == parameters.end()
+          ? call
+          : *call.children[static_cast<std::size_t>(parameter - parameters.begin())];
   auto copy = std::make_shared<Node>(tree);
   copy->begin = place.begin;
   copy->end = place.end;
-  for (NodePtr& child : copy->children) child = at_place(*child, place);
+  for (NodePtr& child : copy->children) child = in_call(*child, call, parameters);
   return copy;
 }
 
-/// The parameters and the tree of a text of the table.
-struct Parsed {
-  struct Parameter {
-    std::string name;
-    bool number = false;
-  };
-  std::vector<Parameter> parameters;
-  NodePtr tree;
-};
-
-/// Texts of the table are parsed once a process.
-const Parsed& parsed(const Written& written) {
-  static const std::map<std::string_view, Parsed> all = [] {
-    std::map<std::string_view, Parsed> made;
+const Definition& definition_of(const Written& written) {
+  static const std::map<std::string_view, Definition> all = [] {
+    std::map<std::string_view, Definition> made;
     for (const Function& function : functions())
       if (const Written* one = std::get_if<Written>(&function.what)) {
-        Parsed& to = made[one->text];
-        for (const auto part : std::views::split(one->parameters, std::string_view(", "))) {
-          constexpr std::string_view kNumber = "number ";
-          const std::string_view name(part.begin(), part.end());
-          const bool number = name.starts_with(kNumber);
-          to.parameters.push_back({std::string(name.substr(number ? kNumber.size() : 0)), number});
-        }
-        to.tree = parse(Text(std::string(one->text), std::string(function.name))).root;
+        Definition& to = made[one->text];
+        for (const auto part : std::views::split(one->parameters, std::string_view(", ")))
+          to.parameters.emplace_back(part.begin(), part.end());
+        to.body = parse(Text(std::string(one->text), std::string(function.name)));
       }
     return made;
   }();
@@ -114,20 +105,16 @@ const Parsed& parsed(const Written& written) {
 
 }  // namespace
 
-/// The text is bound like a definition, with all its nodes at the place of the call for messages.
 Bound Binder::bind_written(const Expression& expression, const Node& node, const Written& written) {
-  const Parsed& of = parsed(written);
+  const Definition& of = definition_of(written);
   Environment arguments;
   for (std::size_t i = 0; i < of.parameters.size(); ++i) {
     const Node& argument = *node.children[i];
-    const Bound value = bind(expression, argument);
-    arguments[of.parameters[i].name] = {of.parameters[i].number
-                                            ? materialise(expression, argument, value, {})
-                                            : sized(expression, argument, value)};
+    arguments[of.parameters[i]] = {sized(expression, argument, bind(expression, argument))};
   }
   std::swap(environment_, arguments);
   const std::string outer = std::exchange(fault_, std::string(written.fault));
-  const Bound value = bind(expression, *at_place(*of.tree, node));
+  const Bound value = bind(expression, *in_call(*of.body.root, node, of.parameters));
   fault_ = outer;
   std::swap(environment_, arguments);
   return value;

@@ -108,9 +108,13 @@ int Binder::output_matrix(const Expression& expression, const Node& argument, in
   return c;
 }
 
-/// With as many digits as it needs, so that it is exact in every number type.
-int Binder::power_of_two(const Emitter& make, int exponent) {
-  return make.number(fmt::format("{:.{}e}", std::ldexp(1.0, exponent), std::abs(exponent)));
+/// With as many digits as they need, so that they are exact in every number type.
+int Binder::powers_of_two(const Emitter& make, const std::vector<int>& exponents, int sign) {
+  std::vector<int> powers;
+  for (const int one : exponents)
+    powers.push_back(
+        make.number(fmt::format("{:.{}e}", std::ldexp(1.0, sign * one), std::abs(one))));
+  return make(Op::diagonal_matrix, {make.blocks(std::move(powers), 1)});
 }
 
 Bound Binder::units(const Expression& expression, const Node& node) {
@@ -121,10 +125,7 @@ Bound Binder::units(const Expression& expression, const Node& node) {
   const Program A = known_program(expression, *node.children[0], a, why);
   const Program C = known_program(expression, outputs, c, why);
   const Emitter make(*this, expression, node);
-  std::vector<int> diagonal;
-  for (const int exponent : scope_.known->units(A, C))
-    diagonal.push_back(power_of_two(make, exponent));
-  return {make(Op::diagonal_matrix, {make.blocks(diagonal, 1)})};
+  return {powers_of_two(make, scope_.known->units(A, C), 1)};
 }
 
 /// The rank r is decided now: orth has r columns and null n - r. The values of the columns are

@@ -64,7 +64,7 @@ Bound Binder::placed(const Expression& expression, const Node& node) {
     inputs.push_back(make.zeros({m, 1}));
   }
   const int x = make(Op::inverse, {make.blocks(std::move(columns), n)}, {},
-                     "place: the eigenvectors, since a pole of A cannot be moved by B,");
+                     "place: the matrix of eigenvectors, since a pole of A cannot be moved by B,");
   return {make.multiply(make.blocks(std::move(inputs), n), x)};
 }
 

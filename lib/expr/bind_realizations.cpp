@@ -1,7 +1,5 @@
 // Other realizations of a linear system: without hidden states, and sampled.
 #include <algorithm>
-#include <cmath>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -13,9 +11,8 @@ namespace gainsmith::expr {
 namespace {
 
 /// What counts as 0 beside the largest singular value, unless minreal gets another tolerance: far
-/// above the rounding of some ten products, and below what data say. The smaller ones are for
-/// systems whose poles or gains are farther apart.
-constexpr const char* kHidden[] = {"1e-9", "1e-11", "1e-13"};
+/// above the rounding of some ten products, and below what data say.
+constexpr const char* kHidden = "1e-9";
 /// By what minreal may change a transfer function, relative.
 constexpr double kUnchanged = 1e-6;
 
@@ -75,16 +72,10 @@ Bound Binder::in_near_units(const Expression& expression, const Node& node, cons
   const std::string why = "the system of minreal";
   const int a = make.blocks({of.a, of.b, make.zeros({m, n}), make.zeros({m, m})}, 2);
   const int c = make.blocks({of.c, make.zeros({p, m})}, 2);
-  const std::vector<int> exponents = scope_.known->units(known_program(expression, node, a, why),
-                                                         known_program(expression, node, c, why));
-  std::vector<int> units, inverses;
-  for (int k = 0; k < n; ++k)
-    for (const bool inverse : {false, true}) {
-      const int exponent = (inverse ? -1 : 1) * exponents[static_cast<std::size_t>(k)];
-      (inverse ? inverses : units).push_back(power_of_two(make, exponent));
-    }
-  const int to = make(Op::diagonal_matrix, {make.blocks(std::move(units), 1)});
-  const int from = make(Op::diagonal_matrix, {make.blocks(std::move(inverses), 1)});
+  std::vector<int> exponents = scope_.known->units(known_program(expression, node, a, why),
+                                                   known_program(expression, node, c, why));
+  exponents.resize(static_cast<std::size_t>(n));
+  const int to = powers_of_two(make, exponents, 1), from = powers_of_two(make, exponents, -1);
   return {make.blocks({make.multiply(from, make.multiply(of.a, to)), make.multiply(from, of.b),
                        make.multiply(of.c, to), of.d},
                       2),
@@ -94,11 +85,13 @@ Bound Binder::in_near_units(const Expression& expression, const Node& node, cons
 /// Whether two systems have one transfer function, at real points beside the size of A.
 bool Binder::is_same_function(const Expression& expression, const Node& node, const Emitter& make,
                               const Bound& one, const Bound& other) {
-  const int size = largest_gain(make, parts_of(make, one).a);
   const auto norm = [&](int at) {
     return scope_.known->number(
         known_program(expression, node, make(Op::norm, {at}), "the system of minreal"));
   };
+  int size = largest_gain(make, parts_of(make, one).a);
+  if (norm(size) == 0) size = make.number("1");
+  bool seen = false;
   for (const char* share : {"2.7e-12", "1.9e-9", "3.1e-6", "2.3e-3", "0.71"}) {
     // (s I - A)^-1 and C (s I - A)^-1 B + D
     const auto value = [&](const Bound& system) {
@@ -116,10 +109,11 @@ bool Binder::is_same_function(const Expression& expression, const Node& node, co
       const double outputs = norm(make.multiply(of.c, inverse));
       const double rounding = outputs * states * norm(of.a) + norm(of.c) * states;
       if (!(norm(difference) <= kUnchanged * norm(wanted) + kRounding * rounding)) return false;
+      seen = true;
     } catch (const EvaluationError&) {  // a pole
     }
   }
-  return true;
+  return seen;
 }
 
 /// The states that inputs reach and outputs see, in orthonormal coordinates.
@@ -134,12 +128,8 @@ Bound Binder::minimal_realization(const Expression& expression, const Node& node
     least = reduced(expression, node, make, scaled,
                     materialise(expression, second, bind(expression, second), {}));
   } else {
-    for (const char* hidden : kHidden) {
-      const Bound made = reduced(expression, node, make, scaled, make.number(hidden));
-      if (!is_same_function(expression, node, make, scaled, made)) continue;
-      least = made;
-      break;
-    }
+    const Bound made = reduced(expression, node, make, scaled, make.number(kHidden));
+    if (is_same_function(expression, node, make, scaled, made)) least = made;
   }
   if (least.states == system.states) return system;
   if (least.states == 0) return {parts_of(make, least).d, false, 0, -1};

@@ -253,8 +253,8 @@ class Binder {
   Bound basis(const Expression& expression, const Node& node, Op op);
   /// The rank as a number.
   Bound rank(const Expression& expression, const Node& node);
-  /// The decimal of 2^exponent.
-  static int power_of_two(const Emitter& make, int exponent);
+  /// diag(2^(sign exponent)).
+  static int powers_of_two(const Emitter& make, const std::vector<int>& exponents, int sign);
   /// Diagonal of powers of 2, n x n, of the units of the states (KnownValues::units).
   Bound units(const Expression& expression, const Node& node);
   /// Of the instruction `at`, the first argument of f(M, tol).

@@ -19,15 +19,9 @@ constexpr int count_of(std::string_view parameters) {
   Function{Op::op, name, operands, operands, usage, meaning, example, value},
 #define COMPOSED(name, method, fewest, most, usage, meaning, example, value) \
   Function{Composed::name, #name, fewest, most, usage, meaning, example, value},
-#define WRITTEN(name, parameters, text, fault, usage, meaning, example, value) \
-  Function{Written{parameters, text, fault},                                   \
-           #name,                                                              \
-           count_of(parameters),                                               \
-           count_of(parameters),                                               \
-           usage,                                                              \
-           meaning,                                                            \
-           example,                                                            \
-           value},
+#define WRITTEN(name, parameters, text, fault, ...)                                             \
+  Function{Written{parameters, text, fault}, #name, count_of(parameters), count_of(parameters), \
+           __VA_ARGS__},
 constexpr std::array kFunctions = {
 #include "expr/operations.def"
 };

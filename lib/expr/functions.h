@@ -20,7 +20,7 @@ enum class Composed {
 
 /// The functions that are texts of the language.
 struct Written {
-  std::string_view parameters;  ///< "x, lo, hi", or "M, number r"
+  std::string_view parameters;  ///< "x, lo, hi"
   std::string_view text;
   std::string_view fault;  ///< what a message says where a part has no value; may be empty
 };

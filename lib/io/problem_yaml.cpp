@@ -2,7 +2,6 @@
 // first, then data, choices, search, campaign, and settings from outside last.
 #include "io/problem_yaml.h"
 
-#include <algorithm>
 #include <map>
 #include <memory>
 

@@ -3,7 +3,6 @@
 #include "io/sources.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <system_error>
 #include <utility>
 

@@ -2,6 +2,10 @@
 // range and a scalar that is scanned.
 #include "io/system_figure_yaml.h"
 
+#include <fmt/ranges.h>
+
+#include <ranges>
+
 #include "base/nearest.h"
 #include "io/search_yaml.h"
 
@@ -10,6 +14,9 @@ namespace gainsmith::io {
 namespace {
 
 using model::SystemPicture;
+
+constexpr auto kKeys =
+    std::views::transform(model::kSystemPictures, &model::SystemPictureKind::key);
 
 /// A text, a list of them, or texts with labels.
 std::vector<model::SystemFigureText::System> systems(const YamlFile& file, const YamlItem& item) {
@@ -29,16 +36,6 @@ std::vector<model::SystemFigureText::System> systems(const YamlFile& file, const
     throw InputError(file.place(item.value),
                      item.key + ": expected a system, such as tf(1, [1, 2])");
   return found;
-}
-
-/// "bode, ..., poles or margins".
-std::string all_kinds() {
-  std::string text;
-  for (const model::SystemPictureKind& kind : model::kSystemPictures) {
-    const bool last = &kind == &model::kSystemPictures.back();
-    text += (text.empty() ? "" : last ? " or " : ", ") + std::string(kind.key);
-  }
-  return text;
 }
 
 }  // namespace
@@ -63,8 +60,8 @@ model::SystemFigureText system_figure(const YamlFile& file, const YamlItem& item
   const auto over = map.find("over"), scan = map.find("scan"), title = map.find("title");
   map.finish();
   if (!chosen)
-    throw InputError(item.place,
-                     "figures: " + item.key + ": expected " + all_kinds() + ", and a system");
+    throw InputError(item.place, fmt::format("figures: {}: expected one of {}, with its system",
+                                             item.key, fmt::join(kKeys, ", ")));
   if (title) figure.title = file.string(title->value, title->key);
   if (scan) {
     const std::vector<YamlItem> scalars = items_of(file, *scan, "scan");

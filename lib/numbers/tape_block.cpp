@@ -1,6 +1,5 @@
 #include "numbers/tape_block.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "numbers/block_slope.h"

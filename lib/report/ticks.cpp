@@ -58,18 +58,12 @@ Ticks ticks(double low, double high, int most, int smallest_exponent) {
 }
 
 Ticks ticks_of_degrees(double low, double high, int most) {
-  Ticks found = ticks(low, high, most);
-  const double step = found.value(1);
-  if (step <= 10 || step > 1e6) return found;
-  for (const int step : {15, 30, 45, 90, 180}) {
-    found = within(low, high, step, 0);
-    if (found.count() <= most) return found;
-  }
-  for (int exponent = 0;; ++exponent)
-    for (const int turns : {1, 2, 5}) {
-      found = within(low, high, 360 * turns, exponent);
-      if (found.count() <= most) return found;
-    }
+  constexpr int kSteps[] = {15, 30, 45, 90, 180, 360, 720, 1800, 3600, 7200, 18000, 36000};
+  const Ticks decimal = ticks(low, high, most);
+  if (decimal.value(1) <= 10 || decimal.value(1) > kSteps[std::size(kSteps) - 1]) return decimal;
+  for (const int step : kSteps)
+    if (const Ticks found = within(low, high, step, 0); found.count() <= most) return found;
+  return decimal;
 }
 
 }  // namespace gainsmith::report

@@ -26,7 +26,7 @@ struct Ticks {
 /// ends with high - low >= 1e-300 and >= 1e-10 times the greater size of both.
 Ticks ticks(double low, double high, int most, int smallest_exponent = -310);
 
-/// The same of degrees: between 10 and 10^6 the step is 15, 30, 45, 90, 180 or a number of turns.
+/// The same of degrees: between 10 and 36000 the step is 15, 30, 45, 90, 180 or a number of turns.
 Ticks ticks_of_degrees(double low, double high, int most);
 
 }  // namespace gainsmith::report

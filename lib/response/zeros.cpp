@@ -3,11 +3,8 @@
 //   eig(A - B D^-1 C).
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
-#include <vector>
 
 #include "numerics/balance.h"
 #include "response/state_space.h"

@@ -1,5 +1,4 @@
 // What the equations of a program say of the unknowns u alone.
-#include <algorithm>
 #include <map>
 
 #include "base/stop.h"

@@ -178,7 +178,8 @@ TEST_F(PlotTest, MistakesHaveTheirPlaces) {
   says(gainsmith({"plot", alike, "-o", folder.path("p.svg")}), "two pictures would be");
   says(plot_with("{poles: T}", "{pole: T}"), "changed.yaml:15:12: ");
   says(plot_with("{poles: T}", "{poles: T, bode: T}"), "two pictures have two names");
-  says(plot_with("{poles: T}", "{}"), "expected bode, singular values, nyquist, nichols, step");
+  says(plot_with("{poles: T}", "{}"),
+       "expected one of bode, singular values, nyquist, nichols, step");
   says(plot_with("{poles: T}", "{poles: T, over: [1, 2]}"), "poles have no range");
   says(plot_with("{poles: T}", "{poles: Q}"), "changed.yaml:15:19: unknown name 'Q'");
   says(plot_with("{poles: T}", "{nyquist: \"append(L, T)\"}"), "one input and one output");

@@ -198,7 +198,7 @@ TEST_F(Messages, BothShapesAreShown) {
   expect("min(B)", 5, {"smallest element of a vector"});
   expect("max(zeros(0, 1))", 5, {"max of an empty vector"});
   expect("skew(A)", 6, {"a vector of 3 elements, not A (2 x 2)"});
-  expect("sat(A, B)", 8, {"B (2 x 3)", "expected 1 x 1"});
+  expect("sat(A, B)", 1, {"cannot divide by B (2 x 3)", "only by a number"});
   expect("complement(B, 1)", 1, {"of B (2 x 3) there are 0 columns, not 1"});
   expect("complement(A(:, 1), delta)", 21, {"the number of columns must be a whole number"});
   expect("mod(A, B)", 8, {"B (2 x 3)", "expected 2 x 2"});

@@ -153,7 +153,9 @@ TEST_P(Systems, HaveMinimalRealizations) {
                                     {"tf(1e12, [1, 1e3, 1e8, 1e12])", 3},
                                     {"ss([-1, 0; 0, -2], [1; 1e-10], [1, 1e10], 0)", 2},
                                     {"tf([1, 1], [1, 0])*tf(1, [1, 1])", 1},
-                                    {"tf([1, 1], [1, 0, 0])*tf(1, [1, 1])", 2}})
+                                    {"tf([1, 1], [1, 0, 0])*tf(1, [1, 1])", 2},
+                                    {"tf(1, [1, 0]) + tf(1, [1, 0])", 1},
+                                    {"tf(1, [1, 0]) - tf(1, [1, 0])", 0}})
     EXPECT_EQ(states(std::string("minreal(") + text + ")"), least) << text;
   expect_least(
       "ss(U'*[La, zeros(3, 2); ones(2, 3), Ha]*U, U'*[Lb; Hb(:, 1), Hb(:, 2)], [Lc, zeros(3, "

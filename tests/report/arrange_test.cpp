@@ -10,7 +10,7 @@ namespace {
 /// A line of slope 1 from 0 to 2, which falls by 1 at t = 1, and a bound without samples between.
 Figure figure() {
   Curve line{"x", {0, 1, 1, 2}, {0, 1, 0, 1}, {1}};
-  Curve bound{"bound", {0, 2}, {3, 3}};
+  Curve bound{"bound", {0, 2}, {3, 3}, {}};
   Figure made;
   made.panels = {{"states", "", false, {line, bound}}};
   made.panels.front().bands = {{"band", {0, 2}, {-1, 1}, {1, 3}, {}}};
@@ -45,7 +45,7 @@ TEST(Arrange, BeginsAtAJump) {
 
 TEST(Arrange, CutsPlanesAcross) {
   Figure made;
-  made.panels = {{"plane", "", false, {Curve{"c", {0, 4, 0}, {0, 4, 8}}}}};
+  made.panels = {{"plane", "", false, {Curve{"c", {0, 4, 0}, {0, 4, 8}, {}}}}};
   made.panels.front().across = "x";
   cut(made, 1, 3);
   const Curve& curve = made.panels[0].curves[0];
