@@ -56,13 +56,19 @@ class Surveyor {
       figures_.push_back(std::make_unique<BoundFigure>(figure, setup));
   }
 
+  /// A stop amid the run adds nothing of it.
   void add(std::uint64_t run) {
     const claims::TwinRun made = runs_(seed_, run, claims::kAccuracyOfOne);
+    std::vector<Estimate> estimates;
+    estimates.reserve(figures_.size());
+    for (const std::unique_ptr<BoundFigure>& figure : figures_)
+      estimates.push_back(figure->of(made));
+    check_stop();
     ++survey_.runs;
     if (const hybrid::Trajectory& one = made.run; !is_complete(one.ending))
       count({1, run, to_string(one.ending) + (one.message.empty() ? "" : ": " + one.message)},
             survey_.early);
-    for (std::size_t k = 0; k < figures_.size(); ++k) add(k, run, made);
+    for (std::size_t k = 0; k < estimates.size(); ++k) add(k, run, estimates[k]);
   }
 
   FigureSurvey result() {
@@ -71,22 +77,21 @@ class Surveyor {
   }
 
  private:
-  void add(std::size_t k, std::uint64_t run, const claims::TwinRun& made) {
+  void add(std::size_t k, std::uint64_t run, const Estimate& estimate) {
     FigureSummary& summary = survey_.figures[k];
-    const Estimate found = figures_[k]->of(made);
-    if (!found.known()) {
-      count({1, run, found.why}, summary.unknown);
+    if (!estimate.known()) {
+      count({1, run, estimate.why}, summary.unknown);
       return;
     }
     if (summary.squares.elements > 0) summary.squares.add(figures_[k]->squares());
-    if (!found.value) {
+    if (!estimate.value) {
       ++summary.without;
       return;
     }
-    values_[k].push_back(*found.value);
-    summary.error = std::max(summary.error, found.error);
-    keep_least(OfRun{*found.value, run, found.error}, summary.least);
-    keep_largest(OfRun{*found.value, run, found.error}, summary.largest);
+    values_[k].push_back(*estimate.value);
+    summary.error = std::max(summary.error, estimate.error);
+    keep_least(OfRun{*estimate.value, run, estimate.error}, summary.least);
+    keep_largest(OfRun{*estimate.value, run, estimate.error}, summary.largest);
   }
 
   std::uint64_t seed_;

@@ -1,12 +1,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <random>
 #include <string>
+#include <thread>
 #include <vector>
 
+#include "base/stop.h"
 #include "bind/bind.h"
 #include "bind/stated.h"
 #include "io/problem_text.h"
@@ -15,6 +18,7 @@
 #include "statistics/figure_survey.h"
 #include "statistics/quantiles.h"
 #include "statistics/value_sketch.h"
+#include "support/stop.h"
 
 namespace gainsmith::statistics::figures_over_runs {
 namespace {
@@ -221,6 +225,39 @@ TEST(FigureSurvey, OfPartsIsThatOfTheWhole) {
     EXPECT_EQ(figure.values.count() + figure.without, 200U) << figure.title;
   EXPECT_GT(whole.figures[3].without, 0U) << "not all runs have five samples";
   EXPECT_GT(whole.figures[4].squares.improper, 0U);
+}
+
+/// Wherever a stop comes, amid a run or its figures: what is told is that of the runs before it.
+TEST(FigureSurvey, OfAStopIsThatOfTheRunsBeforeIt) {
+  const model::Instance instance = bind::bind(io::read_problem(R"(problem: p
+method:
+  method: m
+  plant: {state: {x: {shape: 3}}, flow: {x: "[x(2); x(3); -x(1) - x(2) - x(3)]"}}
+  claims: {c: {below: norm(x), bound: 99}}
+campaign: {runs: 200, horizon: 1, initial: {x: {box: [[-1, -1, -1], [1, 1, 1]]}}}
+compare: [{nees: x, covariance: "(1 + x(1)^2)*I + x*x'", at: {t: 0.5}}, {rms: norm(x), over: [0, 1]}]
+)"));
+  const auto setup = claims::make_run_setup(bind::run_texts(instance, {}));
+  const auto survey = [&](std::uint64_t runs) {
+    return survey_figures(*setup, instance.design->compare, 3, {runs}, 1);
+  };
+  std::mt19937_64 random(1);
+  int amid = 0;
+  for (int k = 0; k < 100; ++k) {
+    FigureSurvey stopped;
+    {
+      const tests::StopInTest stop;
+      const std::chrono::microseconds wait(random() % 20000);
+      const std::jthread impatient([&] {
+        std::this_thread::sleep_for(wait);
+        request_stop();
+      });
+      stopped = survey(200);
+    }
+    if (stopped.runs > 0 && stopped.runs < 200) ++amid;
+    EXPECT_EQ(stopped, survey(stopped.runs));
+  }
+  EXPECT_GT(amid, 10);
 }
 
 /// In every second run y is chaotic: its figures are known up to some time, or not at all.
