@@ -4,9 +4,9 @@
 
 #include <Eigen/Core>
 
-#include "sdp/factor.h"
-#include "sdp/kernels.h"
-#include "sdp/schur.h"
+#include "sdp/schur/factor.h"
+#include "sdp/schur/kernels.h"
+#include "sdp/schur/schur.h"
 
 namespace gainsmith::sdp {
 namespace {

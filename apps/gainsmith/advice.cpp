@@ -9,7 +9,7 @@
 #include "base/number.h"
 #include "design/hautus.h"
 #include "design/search_request.h"
-#include "expr/program.h"
+#include "expr/program/program.h"
 #include "model/stated_file.h"
 
 namespace gainsmith::app {

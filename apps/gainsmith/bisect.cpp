@@ -26,7 +26,7 @@
 #include "gainsmith/summary.h"
 #include "gainsmith/terminal.h"
 #include "gainsmith/units.h"
-#include "io/gains_json.h"
+#include "io/json/gains_json.h"
 #include "model/names.h"
 #include "model/stated_file.h"
 #include "verify/campaign.h"

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "io/json_reader.h"
-#include "io/json_text.h"
+#include "io/json/json_reader.h"
+#include "io/json/json_text.h"
 #include "verify/campaign_part.h"
 
 namespace gainsmith::app {

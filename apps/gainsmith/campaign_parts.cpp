@@ -11,7 +11,7 @@
 #include "gainsmith/campaign_text.h"
 #include "gainsmith/figures_text.h"
 #include "gainsmith/terminal.h"
-#include "io/campaign_json.h"
+#include "io/json/campaign_json.h"
 #include "verify/campaign.h"
 
 namespace gainsmith::app {

@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "gainsmith/part_file.h"
-#include "io/json_text.h"
+#include "io/json/json_text.h"
 #include "verify/campaign_part.h"
 
 namespace gainsmith::app {
@@ -26,8 +26,8 @@ io::Json campaign_statement(const verify::CampaignFacts& facts, const std::strin
 io::Json document_of(const PartFile& file);
 
 /// The whole campaign of its parts, in any order. InputError that names the file which is no part,
-/// damaged, of another campaign than the first, or has runs that another one has; and where runs are
-/// missing.
+/// damaged, of another campaign than the first, or has runs that another one has; and where runs
+/// are missing.
 PartFile merged_campaign(const std::vector<std::string>& files);
 
 /// Concludes a campaign and prints the report; as JSON also into `output`, unless that is empty, or

@@ -20,7 +20,7 @@
 #include "gainsmith/terminal.h"
 #include "hybrid/doubts.h"
 #include "hybrid/idle.h"
-#include "io/json_text.h"
+#include "io/json/json_text.h"
 #include "lmi/compile.h"
 
 namespace gainsmith::app {

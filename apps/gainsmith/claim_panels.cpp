@@ -17,7 +17,7 @@ constexpr double kFar = 30;
 
 /// A claim of one run where it is made, and what it must not pass.
 struct ShownClaim {
-  report::Curve value;
+  drawing::Curve value;
   std::optional<double> bound;
 };
 
@@ -30,7 +30,7 @@ struct ClaimOfRuns {
   double most = 0;        ///< the largest size
 };
 
-std::optional<double> bound_of(const ClaimScope& scope, const report::Curve& value) {
+std::optional<double> bound_of(const ClaimScope& scope, const drawing::Curve& value) {
   if (scope.bound || !scope.factor) return scope.bound;
   const auto first = std::find_if(value.value.begin(), value.value.end(),
                                   [](double one) { return std::isfinite(one); });
@@ -91,10 +91,10 @@ std::vector<std::vector<ClaimOfRuns>> grouped(std::vector<ClaimOfRuns> claims, b
 }
 
 /// Whether its values are worth a logarithmic axis.
-bool is_wide(const report::Panel& panel) {
+bool is_wide(const drawing::Panel& panel) {
   double least = std::numeric_limits<double>::infinity();
   double most = 0;
-  for (const report::Curve& curve : panel.curves)
+  for (const drawing::Curve& curve : panel.curves)
     for (const double value : curve.value) {
       if (!std::isfinite(value)) continue;
       least = std::min(least, value);
@@ -103,13 +103,13 @@ bool is_wide(const report::Panel& panel) {
   return least >= 0 && most > kFar * least;
 }
 
-report::Panel panel_of(const std::vector<ClaimOfRuns>& group, const std::vector<DrawnRun>& runs) {
-  report::Panel panel;
+drawing::Panel panel_of(const std::vector<ClaimOfRuns>& group, const std::vector<DrawnRun>& runs) {
+  drawing::Panel panel;
   panel.axis = group.front().unit;
   const bool overlaid = runs.size() > 1;
   for (std::size_t c = 0; c < group.size(); ++c)
     for (std::size_t r = 0; r < runs.size(); ++r) {
-      report::Curve curve = group[c].runs[r].value;
+      drawing::Curve curve = group[c].runs[r].value;
       curve.colour = static_cast<int>(overlaid ? r : c + 1);
       if (overlaid) curve.label = "run " + std::to_string(runs[r].number);
       if (!overlaid && group.size() == 1) curve.label.clear();  // the title names it
@@ -117,7 +117,7 @@ report::Panel panel_of(const std::vector<ClaimOfRuns>& group, const std::vector<
       const auto& bound = group[c].runs[r].bound;
       if (!bound || (overlaid && r > 0 && bound == group[c].runs[0].bound)) continue;
       const ClaimScope& scope = runs[r].replay.columns[group[c].column].scope;
-      report::Curve limit;
+      drawing::Curve limit;
       limit.t = {scope.after, runs[r].replay.run.end};
       limit.value = {*bound, *bound};
       limit.limit = true;
@@ -130,11 +130,11 @@ report::Panel panel_of(const std::vector<ClaimOfRuns>& group, const std::vector<
 
 }  // namespace
 
-std::vector<report::Panel> claim_panels(const std::vector<std::size_t>& claims,
+std::vector<drawing::Panel> claim_panels(const std::vector<std::size_t>& claims,
                                         const std::vector<DrawnRun>& runs, const RunView& view) {
   std::vector<ClaimOfRuns> all;
   for (const std::size_t column : claims) all.push_back(claim_of(column, runs, view));
-  std::vector<report::Panel> panels;
+  std::vector<drawing::Panel> panels;
   for (const auto& group : grouped(std::move(all), runs.size() > 1)) {
     panels.push_back(panel_of(group, runs));
     const std::string& name = runs.front().replay.columns[group.front().column].name;

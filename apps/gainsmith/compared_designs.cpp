@@ -169,7 +169,7 @@ page::SystemFigure runs_of(const std::vector<NamedDesign>& designs,
   add_numbers(numbers, designs.size(), table);
   const auto view = [](const model::Design& design) { return view_of(design); };
   return {fmt::format("Run 0 of seed {} of each", seed),
-          report::svg(figure_of_designs(runs, view)),
+          drawing::svg(figure_of_designs(runs, view)),
           {}};
 }
 
@@ -206,7 +206,7 @@ page::Comparison compared(const std::vector<std::string>& paths,
   for (const SystemResult& one : figures) {
     numbers.insert(numbers.end(), one.numbers.begin(), one.numbers.end());
     comparison.figures.push_back(
-        {one.figure.title, one.missing.empty() ? report::svg(one.figure) : "", one.facts});
+        {one.figure.title, one.missing.empty() ? drawing::svg(one.figure) : "", one.facts});
   }
   add_numbers(numbers, designs.size(), table);
   try {

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "expr/assembly.h"
+#include "expr/program/assembly.h"
 #include "hybrid/affine.h"
 #include "hybrid/state_layout.h"
 

@@ -6,7 +6,7 @@
 
 #include "base/number.h"
 #include "bind/stated.h"
-#include "expr/evaluate.h"
+#include "expr/program/evaluate.h"
 
 namespace gainsmith::app {
 

@@ -16,7 +16,7 @@ constexpr std::size_t kBuckets = 512;   // of each line and time: quantiles of f
 constexpr std::size_t kMostFresh = 64;  // runs
 
 /// After the jumps at a time; on the line between the points of a flow. None beyond its end.
-double value_at(const report::Curve& curve, double t) {
+double value_at(const drawing::Curve& curve, double t) {
   const auto next = std::upper_bound(curve.t.begin(), curve.t.end(), t);
   if (next == curve.t.begin()) return kNone;
   const auto k = static_cast<std::size_t>(next - curve.t.begin()) - 1;
@@ -51,7 +51,7 @@ void EnvelopeFigure::add(const verify::Replay& run) {
   std::size_t line = 0;
   for (const PlannedPanel& panel : panels_)
     for (const PlannedLine& planned : panel.lines) {
-      const report::Curve curve = curve_of(run, planned);
+      const drawing::Curve curve = curve_of(run, planned);
       // The last time is that of the horizon, whatever the rounding of the step.
       for (std::size_t k = 0; k < kTimes; ++k) {
         const bool last = k + 1 == kTimes && is_complete(run.run.ending);
@@ -70,15 +70,15 @@ void EnvelopeFigure::settle() {
   fresh_ = 0;
 }
 
-report::Panel EnvelopeFigure::panel_of(const PlannedPanel& planned, std::size_t first) const {
-  report::Panel panel;
+drawing::Panel EnvelopeFigure::panel_of(const PlannedPanel& planned, std::size_t first) const {
+  drawing::Panel panel;
   panel.title = planned.title;
   panel.axis = planned.unit;
   panel.logarithmic = planned.logarithmic;
   for (std::size_t k = 0; k < planned.lines.size(); ++k) {
     const PlannedLine& line = planned.lines[k];
-    report::Curve median, least, largest;
-    report::Band band;
+    drawing::Curve median, least, largest;
+    drawing::Band band;
     for (std::size_t at = 0; at < kTimes; ++at) {
       const statistics::ValueSketch& values = lines_[first + k].values[at];
       const bool none = values.count() == 0;
@@ -97,15 +97,15 @@ report::Panel EnvelopeFigure::panel_of(const PlannedPanel& planned, std::size_t 
     least.limit = largest.limit = true;
     median.colour = least.colour = largest.colour = band.colour = line.colour;
     panel.bands.push_back(std::move(band));
-    for (report::Curve* curve : {&median, &least, &largest})
+    for (drawing::Curve* curve : {&median, &least, &largest})
       panel.curves.push_back(std::move(*curve));
   }
   return panel;
 }
 
-report::Figure EnvelopeFigure::figure(const std::string& title) {
+drawing::Figure EnvelopeFigure::figure(const std::string& title) {
   settle();
-  report::Figure figure;
+  drawing::Figure figure;
   figure.title = title;
   figure.axis = axis_;
   std::size_t line = 0;

@@ -23,7 +23,7 @@ class EnvelopeFigure {
 
   /// For each line of the usual panels, or of those of the view, but claims and planes: its
   /// median, the band from 5 to 95 % of the runs, the least and the largest value.
-  report::Figure figure(const std::string& title);
+  drawing::Figure figure(const std::string& title);
 
  private:
   /// Of a line of a panel, by time.
@@ -33,7 +33,7 @@ class EnvelopeFigure {
   };
 
   void settle();
-  report::Panel panel_of(const PlannedPanel& planned, std::size_t first) const;
+  drawing::Panel panel_of(const PlannedPanel& planned, std::size_t first) const;
 
   static constexpr std::size_t kTimes = 401;
 

@@ -1,8 +1,8 @@
 // Numbers in JSON that are read back to the same bits, whatever they are.
 #pragma once
 
-#include "io/json_reader.h"
-#include "io/json_text.h"
+#include "io/json/json_reader.h"
+#include "io/json/json_text.h"
 
 namespace gainsmith::app {
 

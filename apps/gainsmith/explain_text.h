@@ -4,7 +4,7 @@
 #include <string>
 
 #include "design/explain.h"
-#include "io/json_text.h"
+#include "io/json/json_text.h"
 
 namespace gainsmith::app {
 

@@ -20,7 +20,7 @@
 #include "gainsmith/output.h"
 #include "gainsmith/run_figure.h"
 #include "gainsmith/terminal.h"
-#include "io/gains_json.h"
+#include "io/json/gains_json.h"
 #include "model/names.h"
 #include "model/stated_file.h"
 
@@ -112,8 +112,8 @@ void advise(const ExportOptions& options, const LoadedGains& loaded) {
                   synth_command_with(*remedy, options, loaded.gains)));
 }
 
-/// The gains at single precision, with the margins that were shown there; none after a word on what was
-/// not shown.
+/// The gains at single precision, with the margins that were shown there; none after a word on what
+/// was not shown.
 std::optional<model::Gains> rounded(const ExportOptions& options, const LoadedGains& loaded,
                                     ExitCode& exit) {
   LoadedGains single{design::rounded_to_single(loaded.stated, loaded.gains), loaded.stated};
@@ -133,8 +133,8 @@ std::optional<model::Gains> rounded(const ExportOptions& options, const LoadedGa
   return std::nullopt;
 }
 
-/// False, after a word on it, for gains whose file says yes and for which an inequality does not hold:
-/// they were changed.
+/// False, after a word on it, for gains whose file says yes and for which an inequality does not
+/// hold: they were changed.
 bool hold(const ExportOptions& options, const LoadedGains& loaded) {
   if (loaded.gains.verdict != model::Verdict::yes) return true;
   const design::GainCheck check = check_gains(loaded);

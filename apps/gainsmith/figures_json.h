@@ -1,8 +1,8 @@
 // Figures over runs as JSON: every number is read back to the same bits.
 #pragma once
 
-#include "io/json_reader.h"
-#include "io/json_text.h"
+#include "io/json/json_reader.h"
+#include "io/json/json_text.h"
 #include "statistics/figure_survey.h"
 
 namespace gainsmith::app {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "report/figure.h"
+#include "drawing/figure.h"
 
 namespace gainsmith::app {
 
@@ -75,7 +75,7 @@ Bins bins_of(const Summaries& figures) {
   return {range.low, width, static_cast<std::size_t>(wanted)};
 }
 
-report::Curve outline(const FigureSummary& figure, const Bins& bins, int colour) {
+drawing::Curve outline(const FigureSummary& figure, const Bins& bins, int colour) {
   std::vector<std::uint64_t> runs(bins.count, 0);
   std::uint64_t others = figure.without + figure.unknown.count;
   for (const auto& part : figure.values.parts()) {
@@ -85,7 +85,7 @@ report::Curve outline(const FigureSummary& figure, const Bins& bins, int colour)
     else
       others += part.count;
   }
-  report::Curve curve;
+  drawing::Curve curve;
   curve.label = figure.observer;
   if (others > 0)
     curve.label +=
@@ -123,8 +123,8 @@ std::vector<Summaries> grouped(const Summaries& figures) {
   return groups;
 }
 
-report::Panel panel_of(const Summaries& figures) {
-  report::Panel panel;
+drawing::Panel panel_of(const Summaries& figures) {
+  drawing::Panel panel;
   panel.across = figures.front()->title;
   panel.axis = "runs";
   panel.bars = true;
@@ -138,8 +138,8 @@ report::Panel panel_of(const Summaries& figures) {
 
 }  // namespace
 
-report::Figure histograms(const std::string& title, const statistics::FigureSurvey& survey) {
-  report::Figure picture;
+drawing::Figure histograms(const std::string& title, const statistics::FigureSurvey& survey) {
+  drawing::Figure picture;
   picture.title = title;
   for (std::size_t k = 0; k < survey.figures.size();) {
     Summaries same;

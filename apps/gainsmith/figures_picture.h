@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "report/figure.h"
+#include "drawing/figure.h"
 #include "statistics/figure_survey.h"
 
 namespace gainsmith::app {
@@ -11,6 +11,6 @@ namespace gainsmith::app {
 /// Histograms: a panel for each figure, with an outline for each observer; of observers whose
 /// values spread far less or more than those of others panels of their own. Infinite values
 /// are not drawn; the legend says how many runs have no finite one.
-report::Figure histograms(const std::string& title, const statistics::FigureSurvey& survey);
+drawing::Figure histograms(const std::string& title, const statistics::FigureSurvey& survey);
 
 }  // namespace gainsmith::app

@@ -5,7 +5,7 @@
 
 #include "design/fixed_gains.h"
 #include "gainsmith/load.h"
-#include "io/json_text.h"
+#include "io/json/json_text.h"
 
 namespace gainsmith::app {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "io/json_text.h"
+#include "io/json/json_text.h"
 
 namespace gainsmith::app {
 
@@ -28,7 +28,7 @@ struct JobResult {
   std::vector<std::string> causes;  ///< why it is not ok, the first at first
   std::vector<std::string> differences;  ///< from `expect:`
   io::Json report;                       ///< without timings
-  std::string gains_hash;                ///< of the gains that were written (io/campaign_json.h)
+  std::string gains_hash;  ///< of the gains that were written (io/json/campaign_json.h)
   double seconds = 0;
   std::string fingerprint;   ///< job_fingerprint(); empty where the problem could not be read
   bool kept = false;         ///< of an earlier run
@@ -37,9 +37,9 @@ struct JobResult {
 
 /// Synthesizes, verifies when there are gains, compares with `expect:` and writes gains.json,
 /// campaign.json, worst-run.svg, summary.txt and, of a violated campaign, worst-run.csv into
-/// `folder`; at last result.json, of wrong input too, which may be all that the folder then holds. What
-/// `expect:` does not name must be as usual: the verdict yes, the campaign held. Throws nothing but
-/// OptimizersNeeded, before anything is written: a wrong input is a result too.
+/// `folder`; at last result.json, of wrong input too, which may be all that the folder then holds.
+/// What `expect:` does not name must be as usual: the verdict yes, the campaign held. Throws
+/// nothing but OptimizersNeeded, before anything is written: a wrong input is a result too.
 JobResult run_job(const std::filesystem::path& problem, const std::string& name,
                   const std::filesystem::path& folder, const JobOptions& options);
 

@@ -1,9 +1,10 @@
-// The folder of `--resume`: what is done of some long work, so that the same command goes on from it.
+// The folder of `--resume`: what is done of some long work, so that the same command goes on from
+// it.
 //
 // Two files take turns, each written under another name, flushed to the disk and renamed: whatever
-// happens, one of them is whole. A file that was damaged since then is known by its sha256; then the
-// other one, which is older by seconds, counts. A lock keeps a second program out; it ends with the
-// process that holds it, however that ends.
+// happens, one of them is whole. A file that was damaged since then is known by its sha256; then
+// the other one, which is older by seconds, counts. A lock keeps a second program out; it ends with
+// the process that holds it, however that ends.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +12,7 @@
 #include <optional>
 #include <string>
 
-#include "io/json_text.h"
+#include "io/json/json_text.h"
 
 namespace gainsmith::app {
 

@@ -7,7 +7,7 @@
 #include "base/hash.h"
 #include "gainsmith/part_file.h"
 #include "gainsmith/results_folder.h"
-#include "io/json_reader.h"
+#include "io/json/json_reader.h"
 
 namespace gainsmith::app {
 

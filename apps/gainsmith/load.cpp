@@ -14,7 +14,7 @@
 #include "design/optimize.h"
 #include "design/synthesize.h"
 #include "gainsmith/search_wanted.h"
-#include "io/gains_json.h"
+#include "io/json/gains_json.h"
 #include "methods/methods.h"
 #include "model/stated.h"
 

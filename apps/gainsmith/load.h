@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "gainsmith/command_line.h"
-#include "io/problem_yaml.h"
+#include "io/yaml/problem_yaml.h"
 #include "model/gains.h"
 #include "model/instance.h"
 

@@ -6,10 +6,10 @@
 #include <string>
 
 #include "gainsmith/commands.h"
-#include "io/json_text.h"
-#include "io/method_yaml.h"
-#include "io/problem_yaml.h"
+#include "io/json/json_text.h"
 #include "io/starting_problem.h"
+#include "io/yaml/method_yaml.h"
+#include "io/yaml/problem_yaml.h"
 #include "model/words.h"
 
 namespace gainsmith::app {

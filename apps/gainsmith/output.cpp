@@ -11,7 +11,7 @@
 #include "base/file.h"
 #include "base/stop.h"
 #include "gainsmith/terminal.h"
-#include "io/gains_json.h"
+#include "io/json/gains_json.h"
 
 namespace gainsmith::app {
 

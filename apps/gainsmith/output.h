@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "io/json_text.h"
+#include "io/json/json_text.h"
 #include "model/gains.h"
 
 namespace gainsmith::app {

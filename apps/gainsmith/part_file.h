@@ -1,20 +1,20 @@
 // Parts of work that was made in shards, as files.
 //
-// A part is a sealed document (sealed.h). It says of what it is: the kind, and key by key a statement
-// of all that the results follow from.
+// A part is a sealed document (sealed.h). It says of what it is: the kind, and key by key a
+// statement of all that the results follow from.
 #pragma once
 
 #include <string>
 
 #include "gainsmith/shard_option.h"
-#include "io/json_text.h"
+#include "io/json/json_text.h"
 
 namespace gainsmith::app {
 
 enum class PartKind { campaign, scan };
 
-/// What the results of all work follow from: the version, and how the machine rounds. `kind`: of the
-/// work, "campaign", "scan", "search" or "problem".
+/// What the results of all work follow from: the version, and how the machine rounds. `kind`: of
+/// the work, "campaign", "scan", "search" or "problem".
 io::Json begin_statement(const char* kind);
 /// The key of the kind.
 inline constexpr const char* kWork = "work";
@@ -22,7 +22,8 @@ inline constexpr const char* kWork = "work";
 /// The beginning of a part's document.
 io::Json part_head(PartKind kind, const Shard& shard, const io::Json& statement);
 
-/// The document of a part. InputError with the file when it is none, damaged, or of another version.
+/// The document of a part. InputError with the file when it is none, damaged, or of another
+/// version.
 io::Json read_part(const std::string& file);
 PartKind kind_of(const io::Json& part);
 Shard shard_of(const io::Json& part);

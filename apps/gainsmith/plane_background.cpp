@@ -104,7 +104,7 @@ class Background {
         origin_(Eigen::VectorXd::Zero(texts.setup().layout.size)) {}
 
   /// See add_background().
-  void add(const std::vector<DrawnRun>& runs, report::Panel& panel) {
+  void add(const std::vector<DrawnRun>& runs, drawing::Panel& panel) {
     const std::size_t a = texts_.variable_of(across_), b = texts_.variable_of(up_);
     if (!texts_.has_field(a) || !texts_.has_field(b)) return;
     add_levels(runs);
@@ -135,7 +135,7 @@ class Background {
     };
   }
 
-  void add_field(std::size_t a, std::size_t b, report::Panel& panel) const {
+  void add_field(std::size_t a, std::size_t b, drawing::Panel& panel) const {
     const auto rate = [&](std::size_t variable,
                           Eigen::Index element) -> std::function<double(double, double)> {
       const expr::Program* const flow = texts_.flow(variable);
@@ -178,9 +178,9 @@ class Background {
 
   /// Closed curves within four times the extent of the runs whole, others as far as the runs and
   /// these reach.
-  void add_curves(report::Panel& panel) const {
+  void add_curves(drawing::Panel& panel) const {
     const Window runs = window_of(panel.curves);
-    std::vector<report::Curve> curves;
+    std::vector<drawing::Curve> curves;
     std::vector<const Level*> open;
     for (const Level& level : levels_) {
       bool closed = false;
@@ -192,7 +192,7 @@ class Background {
       }
       if (!closed) open.push_back(&level);
     }
-    std::vector<report::Curve> all = panel.curves;
+    std::vector<drawing::Curve> all = panel.curves;
     all.insert(all.end(), curves.begin(), curves.end());
     const Window window = window_of(all);
     for (const Level* level : open) add(*level, zero_curves(level->away, window), curves);
@@ -200,10 +200,10 @@ class Background {
   }
 
   static void add(const Level& level, const LevelCurves& found,
-                  std::vector<report::Curve>& curves) {
+                  std::vector<drawing::Curve>& curves) {
     std::string label = level.label;
     for (const auto& points : found.curves) {
-      report::Curve& curve = curves.emplace_back();
+      drawing::Curve& curve = curves.emplace_back();
       curve.label = std::exchange(label, "");
       curve.colour = level.colour;
       curve.limit = true;
@@ -214,10 +214,10 @@ class Background {
     }
   }
 
-  static Window window_of(const std::vector<report::Curve>& curves) {
+  static Window window_of(const std::vector<drawing::Curve>& curves) {
     constexpr double kInfinite = std::numeric_limits<double>::infinity();
     Window window{{kInfinite, kInfinite}, {-kInfinite, -kInfinite}};
-    for (const report::Curve& curve : curves)
+    for (const drawing::Curve& curve : curves)
       for (std::size_t k = 0; k < curve.t.size(); ++k) {
         if (!std::isfinite(curve.t[k]) || !std::isfinite(curve.value[k])) continue;
         window.low = {std::min(window.low.x, curve.t[k]), std::min(window.low.y, curve.value[k])};
@@ -251,7 +251,7 @@ class Background {
 }  // namespace
 
 void add_background(const claims::RunSetup& setup, const std::vector<DrawnRun>& runs,
-                    std::size_t across, std::size_t up, report::Panel& panel) {
+                    std::size_t across, std::size_t up, drawing::Panel& panel) {
   const PlantTexts texts(setup);
   const std::vector<Column>& columns = runs.front().replay.columns;
   const auto x = texts.element(columns[across]), y = texts.element(columns[up]);

@@ -16,7 +16,7 @@ namespace gainsmith::app {
 /// Other states of the plant are 0. With more than two states the field is left out where there is
 /// no level curve, and the title says what the others are.
 void add_background(const claims::RunSetup& setup, const std::vector<DrawnRun>& runs,
-                    std::size_t across, std::size_t up, report::Panel& panel);
+                    std::size_t across, std::size_t up, drawing::Panel& panel);
 
 /// The two states of a plant that has no more, where a claim has level curves: the plane of the
 /// usual picture.

@@ -76,7 +76,7 @@ ExitCode plot(const PlotOptions& options) {
                      "the problem asks for no pictures of linear systems: figures: {loop: {bode: "
                      "\"tf(1, [1, 2, 1])\"}}");
   std::vector<SystemResult> results = system_results(designs, options.figures);
-  std::vector<report::Figure*> figures;
+  std::vector<drawing::Figure*> figures;
   for (SystemResult& one : results) figures.push_back(&one.figure);
   if (!options.presentation.title.empty() && results.size() > 1 && options.figures.size() != 1)
     throw InputError({"--title"}, "of several pictures each has its own: choose one with --figure");
@@ -96,7 +96,7 @@ ExitCode plot(const PlotOptions& options) {
       text += "  no picture: " + one.missing + "\n";
       exit = ExitCode::undecided;
     } else if (!options.output.empty()) {
-      write_picture(files[k], report::svg(one.figure));
+      write_picture(files[k], drawing::svg(one.figure));
       entry["file"] = files[k];
       text += "  wrote " + files[k] + "\n";
     }

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "base/nearest.h"
 #include "base/number.h"
-#include "report/arrange.h"
+#include "drawing/arrange.h"
 
 namespace gainsmith::app {
 
@@ -22,7 +22,7 @@ std::optional<std::pair<double, double>> pair_of(const std::string& text, char m
   return std::pair(*first, *second);
 }
 
-void set_size(const std::string& text, const std::vector<report::Figure*>& figures) {
+void set_size(const std::string& text, const std::vector<drawing::Figure*>& figures) {
   constexpr double kLeast = 200, kMost = 10000;
   const auto size = pair_of(text, 'x');
   const auto fits = [](double length) { return length >= kLeast && length <= kMost; };
@@ -31,41 +31,41 @@ void set_size(const std::string& text, const std::vector<report::Figure*>& figur
                      "expected a width and a height from 200 to 10000, such as "
                      "600x400, not '" +
                          text + "'");
-  for (report::Figure* figure : figures) {
+  for (drawing::Figure* figure : figures) {
     figure->width = size->first;
     figure->height = size->second;
   }
 }
 
-void set_window(const std::string& text, const std::vector<report::Figure*>& figures) {
+void set_window(const std::string& text, const std::vector<drawing::Figure*>& figures) {
   const auto window = pair_of(text, ':');
   if (!window || !(window->first < window->second))
     throw InputError({"--window"},
                      "expected a part of the axis below, such as 0:5, not '" + text + "'");
-  for (report::Figure* figure : figures) report::cut(*figure, window->first, window->second);
+  for (drawing::Figure* figure : figures) drawing::cut(*figure, window->first, window->second);
 }
 
-void set_jump_width(const std::string& text, const std::vector<report::Figure*>& figures) {
+void set_jump_width(const std::string& text, const std::vector<drawing::Figure*>& figures) {
   const auto width = parse_decimal(text);
   if (!width || !(*width > 0))
     throw InputError({"--jump-width"}, "expected a positive time, such as 0.1, not '" + text + "'");
-  for (report::Figure* figure : figures) {
-    report::spread_jumps(*figure, *width);
+  for (drawing::Figure* figure : figures) {
+    drawing::spread_jumps(*figure, *width);
     figure->axis += " + " + brief(*width) + " j";
   }
 }
 
-void set_name(const std::string& text, const std::vector<report::Figure*>& figures) {
+void set_name(const std::string& text, const std::vector<drawing::Figure*>& figures) {
   const std::size_t at = text.find('=');
   if (at == std::string::npos || at == 0)
     throw InputError({"--name"}, "expected NAME=TEXT, such as x1=position, not '" + text + "'");
   const std::string name = text.substr(0, at);
   std::vector<std::string> known;
   bool found = false;
-  for (report::Figure* figure : figures) {
-    const auto names = report::names_in(*figure);
+  for (drawing::Figure* figure : figures) {
+    const auto names = drawing::names_in(*figure);
     known.insert(known.end(), names.begin(), names.end());
-    found = report::rename(*figure, name, text.substr(at + 1)) || found;
+    found = drawing::rename(*figure, name, text.substr(at + 1)) || found;
   }
   if (!found)
     throw InputError({"--name"},
@@ -93,13 +93,13 @@ std::vector<Option> presentation_options(Presentation& presentation, bool runs) 
   return options;
 }
 
-void present(const Presentation& presentation, const std::vector<report::Figure*>& figures) {
+void present(const Presentation& presentation, const std::vector<drawing::Figure*>& figures) {
   if (!presentation.window.empty()) set_window(presentation.window, figures);
   if (!presentation.jump_width.empty()) set_jump_width(presentation.jump_width, figures);
   for (const std::string& name : presentation.names) set_name(name, figures);
   if (!presentation.size.empty()) set_size(presentation.size, figures);
   if (!presentation.title.empty())
-    for (report::Figure* figure : figures) figure->title = presentation.title;
+    for (drawing::Figure* figure : figures) figure->title = presentation.title;
 }
 
 }  // namespace gainsmith::app

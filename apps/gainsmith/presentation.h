@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "gainsmith/command_line.h"
-#include "report/figure.h"
+#include "drawing/figure.h"
 
 namespace gainsmith::app {
 
@@ -26,6 +26,6 @@ std::vector<Option> presentation_options(Presentation& presentation, bool runs);
 
 /// The figures of one command as they are wanted. InputError, with the option as its place, for texts
 /// of another form and for a name that no figure has.
-void present(const Presentation& presentation, const std::vector<report::Figure*>& figures);
+void present(const Presentation& presentation, const std::vector<drawing::Figure*>& figures);
 
 }  // namespace gainsmith::app

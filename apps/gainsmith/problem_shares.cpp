@@ -7,8 +7,8 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "io/json_reader.h"
-#include "io/json_text.h"
+#include "io/json/json_reader.h"
+#include "io/json/json_text.h"
 
 namespace gainsmith::app {
 

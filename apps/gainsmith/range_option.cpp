@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "base/nearest.h"
-#include "expr/parser.h"
+#include "expr/text/parser.h"
 #include "gainsmith/whole_number.h"
 
 namespace gainsmith::app {

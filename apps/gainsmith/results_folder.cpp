@@ -18,9 +18,9 @@
 #include "gainsmith/search_text.h"
 #include "gainsmith/summary.h"
 #include "gainsmith/system_figures.h"
-#include "io/campaign_json.h"
-#include "io/gains_json.h"
-#include "io/result_json.h"
+#include "io/json/campaign_json.h"
+#include "io/json/gains_json.h"
+#include "io/json/result_json.h"
 
 namespace gainsmith::app {
 
@@ -65,7 +65,7 @@ void add_figures(const fs::path& path, page::Results& results) {
   try {
     for (const SystemResult& one : system_results({{"", load_gains(path)}})) {
       page::SystemFigure& figure = results.figures.emplace_back(
-          one.figure.title, one.missing.empty() ? report::svg(one.figure) : "", one.facts);
+          one.figure.title, one.missing.empty() ? drawing::svg(one.figure) : "", one.facts);
       if (!one.missing.empty()) figure.facts.push_back("No picture: " + one.missing + ".");
     }
   } catch (const InputError& error) {
@@ -107,8 +107,8 @@ void draw_first_run(const fs::path& path, page::Results& results) {
   }
 }
 
-/// Whether a tag, from its "<" on, is of no shape or text of a picture, or has an attribute that is a
-/// script or a link. Values of attributes are skipped.
+/// Whether a tag, from its "<" on, is of no shape or text of a picture, or has an attribute that is
+/// a script or a link. Values of attributes are skipped.
 bool is_active(std::string_view tag) {
   for (const char* name : {"<script", "<foreignobject", "<!", "<?"})
     if (tag.starts_with(name)) return true;

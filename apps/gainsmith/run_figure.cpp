@@ -17,11 +17,11 @@ namespace {
 using verify::Column;
 using verify::Replay;
 
-report::Band band_of(const Replay& replay, const PlannedBand& planned) {
+drawing::Band band_of(const Replay& replay, const PlannedBand& planned) {
   constexpr double kSigmas = 2;
-  const report::Curve estimate = curve_of(replay, {{planned.estimate}, {}, "", false, 0});
+  const drawing::Curve estimate = curve_of(replay, {{planned.estimate}, {}, "", false, 0});
   const std::vector<double> variance = values_of(replay, planned.variance);
-  report::Band band;
+  drawing::Band band;
   band.t = estimate.t;
   band.jumps = estimate.jumps;
   for (std::size_t k = 0; k < variance.size(); ++k) {
@@ -70,7 +70,7 @@ PlannedPanel with_measurements(PlannedPanel panel, const DrawnRun& run) {
 }
 
 /// A tick at each event.
-void add_marks(const Replay& replay, report::Figure& figure) {
+void add_marks(const Replay& replay, drawing::Figure& figure) {
   for (std::size_t row = 0; row < replay.events.size(); ++row)
     if (!replay.events[row].empty())
       figure.marks.push_back(replay.table(static_cast<Eigen::Index>(row), 0));
@@ -197,8 +197,8 @@ std::vector<double> values_of(const Replay& replay, std::size_t column) {
   return values;
 }
 
-report::Curve curve_of(const Replay& replay, const PlannedLine& line) {
-  report::Curve curve;
+drawing::Curve curve_of(const Replay& replay, const PlannedLine& line) {
+  drawing::Curve curve;
   curve.label = line.label;
   curve.dashed = line.dashed;
   curve.colour = line.colour;
@@ -219,9 +219,9 @@ report::Curve curve_of(const Replay& replay, const PlannedLine& line) {
   return curve;
 }
 
-report::Panel panel_of(const PlannedPanel& planned, const std::vector<DrawnRun>& runs) {
+drawing::Panel panel_of(const PlannedPanel& planned, const std::vector<DrawnRun>& runs) {
   const bool overlaid = runs.size() > 1;
-  report::Panel panel;
+  drawing::Panel panel;
   panel.title = planned.title;
   panel.axis = planned.unit;
   panel.logarithmic = planned.logarithmic;
@@ -232,7 +232,7 @@ report::Panel panel_of(const PlannedPanel& planned, const std::vector<DrawnRun>&
     for (std::size_t r = 0; r < runs.size(); ++r)
       for (const PlannedLine& line : planned.lines) {
         if (line.dashed != dashed) continue;
-        report::Curve curve = curve_of(runs[r].replay, line);
+        drawing::Curve curve = curve_of(runs[r].replay, line);
         if (overlaid) curve.colour = static_cast<int>(r);
         if (overlaid && !dashed) curve.label = "run " + std::to_string(runs[r].number);
         if (overlaid ? dashed && r > 0 : explained) curve.label.clear();
@@ -249,9 +249,9 @@ report::Panel panel_of(const PlannedPanel& planned, const std::vector<DrawnRun>&
   return panel;
 }
 
-report::Figure run_figure(const std::string& title, const claims::RunSetup& setup,
+drawing::Figure run_figure(const std::string& title, const claims::RunSetup& setup,
                           const std::vector<DrawnRun>& runs, RunView view) {
-  report::Figure figure;
+  drawing::Figure figure;
   figure.title = title;
   const Replay& first = runs.front().replay;
   const std::string unit = unit_of(view, first.columns.front());
@@ -263,7 +263,7 @@ report::Figure run_figure(const std::string& title, const claims::RunSetup& setu
   if (const auto plane = usual_plane(setup, first); usual && plane) view.planes.push_back(*plane);
   for (PlannedPanel& plane : planned_planes(first, view)) planned.push_back(std::move(plane));
   for (const PlannedPanel& panel : planned) {
-    for (report::Panel& claims : claim_panels(panel.claims, runs, view))
+    for (drawing::Panel& claims : claim_panels(panel.claims, runs, view))
       figure.panels.push_back(std::move(claims));
     if (!panel.claims.empty()) continue;
     if (runs.size() == 1)

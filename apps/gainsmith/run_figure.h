@@ -11,7 +11,7 @@
 #include "gainsmith/corrections.h"
 #include "gainsmith/run_table.h"
 #include "model/design.h"
-#include "report/figure.h"
+#include "drawing/figure.h"
 #include "verify/replay.h"
 
 namespace gainsmith::app {
@@ -60,7 +60,7 @@ DrawnRun drawn_run(const verify::Setup& setup, std::uint64_t number, hybrid::Tra
 /// bounds. Planes of states of the plant show its field and level curves of claims
 /// (plane_background.h). InputError, with the option as its place, for names that no column has, and
 /// for bands of what has none.
-report::Figure run_figure(const std::string& title, const claims::RunSetup& setup,
+drawing::Figure run_figure(const std::string& title, const claims::RunSetup& setup,
                           const std::vector<DrawnRun>& runs, RunView view);
 
 }  // namespace gainsmith::app

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "gainsmith/run_figure.h"
-#include "report/figure.h"
+#include "drawing/figure.h"
 
 namespace gainsmith::app {
 
@@ -47,13 +47,13 @@ std::vector<PlannedPanel> planned_planes(const verify::Replay& replay, const Run
 std::vector<double> values_of(const verify::Replay& replay, std::size_t column);
 
 /// A curve with the times, jumps and label of a line.
-report::Curve curve_of(const verify::Replay& replay, const PlannedLine& line);
+drawing::Curve curve_of(const verify::Replay& replay, const PlannedLine& line);
 
 /// What a panel shows of the runs.
-report::Panel panel_of(const PlannedPanel& planned, const std::vector<DrawnRun>& runs);
+drawing::Panel panel_of(const PlannedPanel& planned, const std::vector<DrawnRun>& runs);
 
 /// Panels of the claims that are wanted (columns).
-std::vector<report::Panel> claim_panels(const std::vector<std::size_t>& claims,
+std::vector<drawing::Panel> claim_panels(const std::vector<std::size_t>& claims,
                                         const std::vector<DrawnRun>& runs, const RunView& view);
 
 }  // namespace gainsmith::app

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "gainsmith/run_figure.h"
-#include "io/csv.h"
+#include "io/matrix/csv.h"
 #include "model/gains.h"
 
 namespace gainsmith::app {
@@ -34,7 +34,7 @@ std::string run_picture(const model::Design& design, const verify::Setup& setup,
                         std::uint64_t number, hybrid::Trajectory& run) {
   std::vector<DrawnRun> drawn;  // a list in braces would copy it
   drawn.push_back(drawn_run(setup, number, std::move(run), 0));
-  std::string picture = report::svg(run_figure(design.name, *setup.events, drawn, view_of(design)));
+  std::string picture = drawing::svg(run_figure(design.name, *setup.events, drawn, view_of(design)));
   run = std::move(drawn.front().replay.run);
   return picture;
 }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "io/json_text.h"
+#include "io/json/json_text.h"
 #include "verify/replay.h"
 
 namespace gainsmith::app {
@@ -20,8 +20,8 @@ std::string events_csv(const verify::Replay& replay);
 /// With the units of the columns, where some are stated.
 io::Json events_json(const verify::Replay& replay, const RunView& view);
 
-/// The run of that number, which is used and given back, as SVG (run_figure.h): the usual panels, with the units and bands that the
-/// problem states.
+/// The run of that number, which is used and given back, as SVG (run_figure.h): the usual panels,
+/// with the units and bands that the problem states.
 std::string run_picture(const model::Design& design, const verify::Setup& setup,
                         std::uint64_t number, hybrid::Trajectory& run);
 

@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 #include "gainsmith/exact_number.h"
-#include "io/json_reader.h"
+#include "io/json/json_reader.h"
 
 namespace gainsmith::app {
 

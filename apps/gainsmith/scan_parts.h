@@ -7,7 +7,7 @@
 #include "design/scan.h"
 #include "gainsmith/part_file.h"
 #include "gainsmith/scan_table.h"
-#include "io/json_text.h"
+#include "io/json/json_text.h"
 
 namespace gainsmith::app {
 
@@ -18,7 +18,8 @@ struct ScanPart {
   std::vector<design::ScanRow> rows;  ///< all; those of other parts have no answer
 };
 
-/// The points of part I of N: I - 1, I - 1 + N, ...: neighbours, which take as long, are shared out.
+/// The points of part I of N: I - 1, I - 1 + N, ...: neighbours, which take as long, are shared
+/// out.
 std::vector<std::size_t> points_of_shard(const ScanPart& part);
 /// How many of them have no answer.
 std::size_t open_points(const ScanPart& part);
@@ -31,8 +32,9 @@ io::Json rows_json(const ScanPart& part);
 /// Into a part that has its points. InputError for a row that has an answer already.
 void take_rows(const io::Json& rows, const std::string& file, ScanPart& part);
 
-/// The whole scan of its parts, in any order. InputError that names the file which is no part, damaged,
-/// of another scan than the first, or has points that another one has; and where points are missing.
+/// The whole scan of its parts, in any order. InputError that names the file which is no part,
+/// damaged, of another scan than the first, or has points that another one has; and where points
+/// are missing.
 ScanPart merged_scan(const std::vector<std::string>& files);
 
 }  // namespace gainsmith::app

@@ -9,8 +9,8 @@
 #include "gainsmith/picture_file.h"
 #include "gainsmith/search_figure.h"
 #include "gainsmith/terminal.h"
-#include "io/csv.h"
-#include "io/json_text.h"
+#include "io/json/json_text.h"
+#include "io/matrix/csv.h"
 #include "search/axis.h"
 
 namespace gainsmith::app {

@@ -1,4 +1,4 @@
-#include "io/schema.h"
+#include "io/schema/schema.h"
 
 #include <fmt/format.h>
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <optional>
 
-#include "report/figure.h"
+#include "drawing/figure.h"
 
 namespace gainsmith::app {
 
@@ -18,17 +18,17 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 struct VerdictStyle {
   const char* word;
   const char* label;
-  report::Mark mark;
+  drawing::Mark mark;
   int colour;
   const char* fill;
 };
 
 constexpr std::array<VerdictStyle, 5> kStyles = {{
-    {"yes", "feasible", report::Mark::dot, 2, "#8fd0b6"},
-    {"no", "infeasible", report::Mark::cross, 1, "#e4e4e4"},
-    {"undecided", "undecided", report::Mark::triangle, 4, "#fbf3df"},
-    {"refused", "refused", report::Mark::ring, 7, "#ffffff"},
-    {"interrupted", "interrupted", report::Mark::dot, 7, "#ffffff"},
+    {"yes", "feasible", drawing::Mark::dot, 2, "#8fd0b6"},
+    {"no", "infeasible", drawing::Mark::cross, 1, "#e4e4e4"},
+    {"undecided", "undecided", drawing::Mark::triangle, 4, "#fbf3df"},
+    {"refused", "refused", drawing::Mark::ring, 7, "#ffffff"},
+    {"interrupted", "interrupted", drawing::Mark::dot, 7, "#ffffff"},
 }};
 
 std::size_t style_of(const std::string& word) {
@@ -49,12 +49,12 @@ std::vector<std::optional<double>> quantities_of(const ScanPicture& picture,
 }
 
 /// A row for each verdict that occurs, with its marks.
-report::Panel verdict_panel(const std::vector<double>& at, const std::vector<std::size_t>& styles) {
-  report::Panel panel;
+drawing::Panel verdict_panel(const std::vector<double>& at, const std::vector<std::size_t>& styles) {
+  drawing::Panel panel;
   panel.title = "verdict";
   for (std::size_t style = 0; style < kStyles.size(); ++style) {
     if (std::find(styles.begin(), styles.end(), style) == styles.end()) continue;
-    report::Curve marks;
+    drawing::Curve marks;
     marks.mark = kStyles[style].mark;
     marks.colour = kStyles[style].colour;
     marks.joined = false;
@@ -82,7 +82,7 @@ bool is_wide(const std::vector<double>& values) {
 }
 
 std::string scan_lines(const ScanPicture& picture, const std::vector<design::ScanRow>& rows) {
-  report::Figure figure;
+  drawing::Figure figure;
   figure.title = picture.title;
   figure.axis = picture.axes.front().name;
   figure.logarithmic = picture.axes.front().logarithmic;
@@ -93,44 +93,44 @@ std::string scan_lines(const ScanPicture& picture, const std::vector<design::Sca
     styles.push_back(style_of(verdict_of(row)));
   }
   for (std::size_t k = 0; k < picture.quantities.size(); ++k) {
-    report::Curve curve;
+    drawing::Curve curve;
     curve.t = at;
-    curve.mark = report::Mark::dot;
+    curve.mark = drawing::Mark::dot;
     for (const design::ScanRow& row : rows)
       curve.value.push_back(quantities_of(picture, row)[k].value_or(kNone));
-    report::Panel panel{picture.quantities[k], "", is_wide(curve.value), {std::move(curve)}};
+    drawing::Panel panel{picture.quantities[k], "", is_wide(curve.value), {std::move(curve)}};
     figure.panels.push_back(std::move(panel));
   }
   figure.panels.push_back(verdict_panel(at, styles));
-  return report::svg(figure);
+  return drawing::svg(figure);
 }
 
 std::string scan_map(const ScanPicture& picture, const std::vector<design::ScanRow>& rows) {
-  report::MapFigure figure{picture.title, picture.axes[0], picture.axes[1], {}, {}};
+  drawing::MapFigure figure{picture.title, picture.axes[0], picture.axes[1], {}, {}};
   for (const VerdictStyle& style : kStyles)
     figure.kinds.push_back({style.label, style.fill,
-                            style.mark == report::Mark::dot ? report::Mark::none : style.mark});
+                            style.mark == drawing::Mark::dot ? drawing::Mark::none : style.mark});
   const std::size_t width = figure.across.values.size(), height = figure.up.values.size();
   const std::size_t maps = std::max<std::size_t>(1, picture.quantities.size());
   for (std::size_t k = 0; k < maps; ++k) {
-    report::Map map;
+    drawing::Map map;
     map.title = picture.quantities.empty() ? "verdict" : picture.quantities[k];
     for (std::size_t up = 0; up < height; ++up)
       for (std::size_t across = 0; across < width; ++across) {
         const design::ScanRow& row = rows[across * height + up];
-        report::Cell cell{style_of(verdict_of(row)), std::nullopt};
+        drawing::Cell cell{style_of(verdict_of(row)), std::nullopt};
         if (!picture.quantities.empty()) cell.value = quantities_of(picture, row)[k];
         map.cells.push_back(cell);
       }
     figure.maps.push_back(std::move(map));
   }
-  return report::svg(figure);
+  return drawing::svg(figure);
 }
 
 /// From the outermost yes so far to the nearest no beyond it, a step a value tried.
-report::Band bracket_of(const std::vector<search::Sample>& asked, bool largest) {
+drawing::Band bracket_of(const std::vector<search::Sample>& asked, bool largest) {
   const double sign = largest ? 1 : -1;
-  report::Band band;
+  drawing::Band band;
   band.label = "bracket so far";
   band.colour = 0;
   for (std::size_t k = 0; k < asked.size(); ++k) {
@@ -152,9 +152,9 @@ report::Band bracket_of(const std::vector<search::Sample>& asked, bool largest) 
 
 /// The values that were tried, a curve of marks for each verdict.
 void add_tried(const std::vector<search::Sample>& asked, const std::optional<double>& from,
-               report::Panel& panel) {
+               drawing::Panel& panel) {
   for (const VerdictStyle& style : kStyles) {
-    report::Curve marks;
+    drawing::Curve marks;
     marks.label = style.label;
     marks.mark = style.mark;
     marks.colour = style.colour;
@@ -199,24 +199,24 @@ std::string bisect_figure(const std::string& title, const std::string& name,
   std::vector<search::Sample> asked = found.samples;
   std::sort(asked.begin(), asked.end(),
             [](const auto& a, const auto& b) { return a.order < b.order; });
-  report::Figure figure;
+  drawing::Figure figure;
   figure.title = title;
   figure.axis = "value tried";
-  report::Panel values;
+  drawing::Panel values;
   values.title = name;
   values.logarithmic = choices.scalar.axis.logarithmic;
   add_tried(asked, std::nullopt, values);
   values.bands.push_back(bracket_of(asked, choices.largest));
   figure.panels.push_back(std::move(values));
   if (found.yes) {
-    report::Panel distances;
+    drawing::Panel distances;
     distances.title = std::string("distance from the ") +
                       (choices.largest ? "largest" : "smallest") + " feasible value";
     distances.logarithmic = true;
     add_tried(asked, found.yes, distances);
     figure.panels.push_back(std::move(distances));
   }
-  return report::svg(figure);
+  return drawing::svg(figure);
 }
 
 }  // namespace gainsmith::app

@@ -7,14 +7,14 @@
 
 #include "design/bisect.h"
 #include "design/scan.h"
-#include "report/map.h"
+#include "drawing/map.h"
 
 namespace gainsmith::app {
 
 /// What a scan tried.
 struct ScanPicture {
   std::string title;
-  std::vector<report::GridAxis> axes;  ///< one or two; the last runs fastest in the rows
+  std::vector<drawing::GridAxis> axes;  ///< one or two; the last runs fastest in the rows
   std::vector<std::string>
       quantities;  ///< of each row the objective, where there is one, and the figures
   bool has_objective = false;

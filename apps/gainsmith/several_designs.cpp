@@ -28,7 +28,7 @@ std::vector<std::string> parts_of(const std::vector<std::string>& files,
 }
 
 /// Its value at t, before a jump there.
-double value_at(const report::Curve& curve, double t) {
+double value_at(const drawing::Curve& curve, double t) {
   const auto next = std::lower_bound(curve.t.begin(), curve.t.end(), t) - curve.t.begin();
   if (next == std::ssize(curve.t)) return curve.value.back();
   const auto right = static_cast<std::size_t>(next);
@@ -38,7 +38,7 @@ double value_at(const report::Curve& curve, double t) {
 }
 
 /// Whether a picture would show both curves as one, away from jumps.
-bool is_same(const report::Curve& a, const report::Curve& b) {
+bool is_same(const drawing::Curve& a, const drawing::Curve& b) {
   constexpr double kSeen = 1e-3;
   if (a.dashed != b.dashed || a.limit != b.limit || a.t.empty() || b.t.empty()) return false;
   const auto [low, high] = std::minmax_element(a.value.begin(), a.value.end());
@@ -53,17 +53,17 @@ bool is_same(const report::Curve& a, const report::Curve& b) {
 /// Adds the figures of designs to one.
 class Merging {
  public:
-  explicit Merging(report::Figure first, const std::string& name) : whole_(std::move(first)) {
-    for (report::Panel& panel : whole_.panels) {
-      for (report::Curve& curve : panel.curves) {
+  explicit Merging(drawing::Figure first, const std::string& name) : whole_(std::move(first)) {
+    for (drawing::Panel& panel : whole_.panels) {
+      for (drawing::Curve& curve : panel.curves) {
         next_colour_ = std::max(next_colour_, curve.colour + 1);
         curve.label = name + ": " + name_of(curve, panel);
       }
-      for (report::Band& band : panel.bands) band.label = name + ": " + band.label;
+      for (drawing::Band& band : panel.bands) band.label = name + ": " + band.label;
     }
   }
 
-  void add(const report::Figure& figure, const std::string& name) {
+  void add(const drawing::Figure& figure, const std::string& name) {
     std::map<int, int> colours;
     const auto colour = [&](int own) {
       const auto [at, is_new] = colours.try_emplace(own, next_colour_);
@@ -71,15 +71,15 @@ class Merging {
       return at->second;
     };
     if (figure.marks != whole_.marks) whole_.marks.clear();
-    for (const report::Panel& own : figure.panels) {
-      report::Panel& panel = panel_like(own);
-      for (report::Curve curve : own.curves) {
+    for (const drawing::Panel& own : figure.panels) {
+      drawing::Panel& panel = panel_like(own);
+      for (drawing::Curve curve : own.curves) {
         if (share(curve, own, panel)) continue;
         curve.label = name + ": " + name_of(curve, own);
         curve.colour = colour(curve.colour);
         panel.curves.push_back(std::move(curve));
       }
-      for (report::Band band : own.bands) {
+      for (drawing::Band band : own.bands) {
         band.label = name + ": " + band.label;
         band.colour = colour(band.colour);
         panel.bands.push_back(std::move(band));
@@ -88,20 +88,20 @@ class Merging {
   }
 
   /// Dashed ones last, so that they are seen.
-  report::Figure take() {
-    for (report::Panel& panel : whole_.panels)
+  drawing::Figure take() {
+    for (drawing::Panel& panel : whole_.panels)
       std::stable_partition(panel.curves.begin(), panel.curves.end(),
-                            [](const report::Curve& curve) { return !curve.dashed; });
+                            [](const drawing::Curve& curve) { return !curve.dashed; });
     return std::move(whole_);
   }
 
  private:
-  static std::string name_of(const report::Curve& curve, const report::Panel& panel) {
+  static std::string name_of(const drawing::Curve& curve, const drawing::Panel& panel) {
     return curve.label.empty() ? panel.title : curve.label;
   }
 
-  report::Panel& panel_like(const report::Panel& own) {
-    const auto found = std::ranges::find_if(whole_.panels, [&](const report::Panel& panel) {
+  drawing::Panel& panel_like(const drawing::Panel& own) {
+    const auto found = std::ranges::find_if(whole_.panels, [&](const drawing::Panel& panel) {
       return panel.title == own.title && panel.across == own.across &&
              panel.logarithmic == own.logarithmic;
     });
@@ -113,8 +113,8 @@ class Merging {
   }
 
   /// Whether the panel has the same curve; it then has no name of a design.
-  static bool share(const report::Curve& curve, const report::Panel& own, report::Panel& panel) {
-    for (report::Curve& known : panel.curves) {
+  static bool share(const drawing::Curve& curve, const drawing::Panel& own, drawing::Panel& panel) {
+    for (drawing::Curve& known : panel.curves) {
       const std::string name = name_of(curve, own);
       const bool named = known.label == name || known.label.ends_with(": " + name);
       if (!named || !is_same(known, curve)) continue;
@@ -124,7 +124,7 @@ class Merging {
     return false;
   }
 
-  report::Figure whole_;
+  drawing::Figure whole_;
   int next_colour_ = 1;
 };
 
@@ -156,7 +156,7 @@ void require_same_plant(const std::vector<LoadedGains>& designs,
                                        ": designs of one plant are compared");
 }
 
-report::Figure figure_of_designs(const std::vector<DesignRun>& runs,
+drawing::Figure figure_of_designs(const std::vector<DesignRun>& runs,
                                  const std::function<RunView(const model::Design&)>& view) {
   std::string title;
   const auto figure_of = [&](const DesignRun& one) {
@@ -165,7 +165,7 @@ report::Figure figure_of_designs(const std::vector<DesignRun>& runs,
   };
   Merging merging(figure_of(runs.front()), runs.front().name);
   for (std::size_t k = 1; k < runs.size(); ++k) merging.add(figure_of(runs[k]), runs[k].name);
-  report::Figure figure = merging.take();
+  drawing::Figure figure = merging.take();
   figure.title = title;
   return figure;
 }

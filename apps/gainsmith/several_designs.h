@@ -7,7 +7,7 @@
 
 #include "gainsmith/load.h"
 #include "gainsmith/run_figure.h"
-#include "report/figure.h"
+#include "drawing/figure.h"
 #include "verify/replay.h"
 
 namespace gainsmith::app {
@@ -30,7 +30,7 @@ void require_same_plant(const std::vector<LoadedGains>& designs,
 
 /// One picture: panels of one title are one, with the names of the designs before those of their
 /// curves. What is the same in all, such as a plant that no observer drives, is drawn once.
-report::Figure figure_of_designs(const std::vector<DesignRun>& runs,
+drawing::Figure figure_of_designs(const std::vector<DesignRun>& runs,
                                  const std::function<RunView(const model::Design&)>& view);
 
 }  // namespace gainsmith::app

@@ -28,9 +28,9 @@
 #include "gainsmith/several_designs.h"
 #include "gainsmith/terminal.h"
 #include "hybrid/idle.h"
-#include "io/figures_json.h"
-#include "io/given_run_json.h"
-#include "io/json_text.h"
+#include "io/json/figures_json.h"
+#include "io/json/given_run_json.h"
+#include "io/json/json_text.h"
 #include "statistics/figure_survey.h"
 
 namespace gainsmith::app {
@@ -78,9 +78,9 @@ void write(const SimulateOptions& options, const std::string& text) {
     write_atomically(options.output, text);
 }
 
-void show(const SimulateOptions& options, report::Figure figure) {
+void show(const SimulateOptions& options, drawing::Figure figure) {
   present(options.presentation, {&figure});
-  write_picture(options.picture.file, report::svg(figure));
+  write_picture(options.picture.file, drawing::svg(figure));
 }
 
 /// Points of the picture lie closer than those of a table.

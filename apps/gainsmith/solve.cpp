@@ -12,9 +12,9 @@
 #include "gainsmith/commands.h"
 #include "gainsmith/output.h"
 #include "gainsmith/terminal.h"
-#include "io/json_text.h"
-#include "sdp/sdpa_file.h"
-#include "sdp/solution_file.h"
+#include "io/json/json_text.h"
+#include "sdp/files/sdpa_file.h"
+#include "sdp/files/solution_file.h"
 #include "sdp/solver.h"
 
 namespace gainsmith::app {

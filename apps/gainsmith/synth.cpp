@@ -23,7 +23,7 @@
 #include "gainsmith/search_wanted.h"
 #include "gainsmith/summary.h"
 #include "gainsmith/terminal.h"
-#include "sdp/sdpa_file.h"
+#include "sdp/files/sdpa_file.h"
 #include "sdp/solution.h"
 
 namespace gainsmith::app {

@@ -40,7 +40,7 @@ std::string draw(const model::Design& design, const hybrid::System& system, std:
 }
 
 /// The values of a curve at these places; not a number in its gaps and beyond its ends.
-std::vector<double> values_at(const std::vector<double>& places, const report::Curve& curve,
+std::vector<double> values_at(const std::vector<double>& places, const drawing::Curve& curve,
                               bool logarithmic) {
   const auto scaled = [&](double x) { return logarithmic ? std::log(x) : x; };
   std::vector<double> values;
@@ -57,16 +57,16 @@ std::vector<double> values_at(const std::vector<double>& places, const report::C
   return values;
 }
 
-bool is_line(const report::Curve& curve) { return curve.joined && !curve.limit; }
+bool is_line(const drawing::Curve& curve) { return curve.joined && !curve.limit; }
 
 /// Where the lines of a panel lie, and those of the same panel of each draw.
-void add_bands(const report::Figure& figure, report::Panel& panel,
-               const std::vector<const report::Panel*>& drawn) {
+void add_bands(const drawing::Figure& figure, drawing::Panel& panel,
+               const std::vector<const drawing::Panel*>& drawn) {
   constexpr std::size_t kPlaces = 400;
   std::size_t line = 0;
-  for (const report::Curve& curve : panel.curves) {
+  for (const drawing::Curve& curve : panel.curves) {
     if (!is_line(curve) || curve.t.empty()) continue;
-    report::Band band;
+    drawing::Band band;
     band.colour = curve.colour;
     const double first = curve.t.front(), last = curve.t.back();
     for (std::size_t k = 0; k < kPlaces; ++k) {
@@ -76,9 +76,9 @@ void add_bands(const report::Figure& figure, report::Panel& panel,
                                             : first + share * (last - first));
     }
     band.low = band.high = values_at(band.t, curve, figure.logarithmic);
-    for (const report::Panel* other : drawn) {
+    for (const drawing::Panel* other : drawn) {
       auto lines = other->curves;
-      std::erase_if(lines, [](const report::Curve& one) { return !is_line(one); });
+      std::erase_if(lines, [](const drawing::Curve& one) { return !is_line(one); });
       std::vector<double> values = values_at(band.t, lines.at(line), figure.logarithmic);
       // Phases are known but for turns.
       const double turns =
@@ -100,15 +100,15 @@ io::Json values_json(const std::vector<double>& values) {
 }
 
 /// Behind what a plane has: thin lines, and dots for poles.
-void add_cloud(report::Panel& panel, const std::vector<const report::Panel*>& drawn) {
-  std::vector<report::Curve> cloud;
-  for (const report::Panel* other : drawn)
-    for (report::Curve curve : other->curves) {
-      const bool poles = !curve.joined && curve.mark == report::Mark::cross && curve.label != "-1";
+void add_cloud(drawing::Panel& panel, const std::vector<const drawing::Panel*>& drawn) {
+  std::vector<drawing::Curve> cloud;
+  for (const drawing::Panel* other : drawn)
+    for (drawing::Curve curve : other->curves) {
+      const bool poles = !curve.joined && curve.mark == drawing::Mark::cross && curve.label != "-1";
       if (!is_line(curve) && !poles) continue;
       curve.label.clear();
       if (poles)
-        curve.mark = report::Mark::dot;
+        curve.mark = drawing::Mark::dot;
       else
         curve.limit = true;
       cloud.push_back(std::move(curve));
@@ -116,8 +116,8 @@ void add_cloud(report::Panel& panel, const std::vector<const report::Panel*>& dr
   // What is drawn over a cloud of its colour is black, where it is the only one.
   constexpr int kBlack = 6;
   const bool single = std::ranges::all_of(
-      cloud, [&](const report::Curve& curve) { return curve.colour == cloud.front().colour; });
-  for (report::Curve& curve : panel.curves)
+      cloud, [&](const drawing::Curve& curve) { return curve.colour == cloud.front().colour; });
+  for (drawing::Curve& curve : panel.curves)
     if (single && !curve.limit) curve.colour = kBlack;
   panel.curves.insert(panel.curves.begin(), cloud.begin(), cloud.end());
 }
@@ -165,7 +165,7 @@ std::vector<std::pair<std::string, model::Stated>> plants(const model::Design& d
 void add_bands(const SystemFigure& figure, const model::Design& design, const model::Stated& stated,
                std::pair<double, double> range, SystemResult& result) {
   std::vector<std::vector<SystemCase>> systems(figure.systems.size());
-  std::vector<report::Figure> pictures;
+  std::vector<drawing::Figure> pictures;
   const auto all = plants(design, stated);
   for (const auto& [where, plant] : all) {
     std::string missing;
@@ -177,14 +177,14 @@ void add_bands(const SystemFigure& figure, const model::Design& design, const mo
     pictures.push_back(system_picture(figure.kind, own));
   }
   for (std::size_t k = 0; k < result.figure.panels.size(); ++k) {
-    report::Panel& panel = result.figure.panels[k];
-    std::vector<const report::Panel*> others;
-    for (const report::Figure& picture : pictures) others.push_back(&picture.panels[k]);
+    drawing::Panel& panel = result.figure.panels[k];
+    std::vector<const drawing::Panel*> others;
+    for (const drawing::Figure& picture : pictures) others.push_back(&picture.panels[k]);
     if (panel.across)
       add_cloud(panel, others);
     else
       add_bands(result.figure, panel, others);
-    for (const report::Band& band : panel.bands)
+    for (const drawing::Band& band : panel.bands)
       result.data["bands"].push_back({{"panel", panel.title},
                                       {"x", band.t},
                                       {"low", values_json(band.low)},

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "gainsmith/load.h"
-#include "io/json_text.h"
-#include "report/figure.h"
+#include "io/json/json_text.h"
+#include "drawing/figure.h"
 
 namespace gainsmith::app {
 
@@ -20,7 +20,7 @@ struct SystemNumber {
 /// A picture that is made.
 struct SystemResult {
   std::string name;
-  report::Figure figure;           ///< without panels: see `missing`
+  drawing::Figure figure;           ///< without panels: see `missing`
   std::vector<std::string> facts;  ///< a line each: margins, peaks, what a step does, modes
   std::vector<SystemNumber> numbers;
   std::string missing;  ///< why there is none: a gain has no value
@@ -28,9 +28,9 @@ struct SystemResult {
 };
 
 /// The figures of the first design with these names, or all in its order; those of the others with
-/// the same name and kind are drawn in the same picture, but scans and bands in one for each design.
-/// InputError for a name that is none, and at the place of a figure whose range or matrices are no
-/// numbers of use.
+/// the same name and kind are drawn in the same picture, but scans and bands in one for each
+/// design. InputError for a name that is none, and at the place of a figure whose range or matrices
+/// are no numbers of use.
 std::vector<SystemResult> system_results(const std::vector<NamedDesign>& designs,
                                          const std::vector<std::string>& names = {});
 

@@ -15,17 +15,17 @@ using response::ComplexMatrix;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* kFrequency = "frequency, radians per unit of time";
 
-report::Curve curve(std::string label, int colour) {
-  report::Curve made;
+drawing::Curve curve(std::string label, int colour) {
+  drawing::Curve made;
   made.label = std::move(label);
   made.colour = colour;
   return made;
 }
 
 /// A thin line that explains the others.
-report::Curve guide(std::vector<double> x, std::vector<double> y) {
+drawing::Curve guide(std::vector<double> x, std::vector<double> y) {
   constexpr int kGrey = 7;
-  report::Curve made;
+  drawing::Curve made;
   made.colour = kGrey;
   made.limit = true;
   made.t = std::move(x);
@@ -33,9 +33,9 @@ report::Curve guide(std::vector<double> x, std::vector<double> y) {
   return made;
 }
 
-void add_margins(const DrawnSystem& drawn, int colour, report::Panel& size, report::Panel& phase) {
+void add_margins(const DrawnSystem& drawn, int colour, drawing::Panel& size, drawing::Panel& phase) {
   if (!drawn.margins) return;
-  report::Curve at_size = points(report::Mark::dot, colour), at_phase = at_size;
+  drawing::Curve at_size = points(drawing::Mark::dot, colour), at_phase = at_size;
   const auto phases = response::phase(drawn.sweep, 0, 0);
   // The phase is known but for turns, which the sweep has.
   const auto phase_at = [&](double w, double degrees) {
@@ -66,9 +66,9 @@ void add_margins(const DrawnSystem& drawn, int colour, report::Panel& size, repo
 }
 
 /// A line at a value that the curves of a panel pass.
-void add_level(double value, report::Panel& panel) {
+void add_level(double value, drawing::Panel& panel) {
   double low = kNone, high = kNone;
-  for (const report::Curve& one : panel.curves)
+  for (const drawing::Curve& one : panel.curves)
     for (const double each : one.value) {
       low = std::fmin(low, each);
       high = std::fmax(high, each);
@@ -78,8 +78,8 @@ void add_level(double value, report::Panel& panel) {
   panel.curves.push_back(guide({t.front(), t.back()}, {value, value}));
 }
 
-void add_bode(const std::vector<DrawnSystem>& systems, report::Figure& figure) {
-  report::Panel size, phase;
+void add_bode(const std::vector<DrawnSystem>& systems, drawing::Figure& figure) {
+  drawing::Panel size, phase;
   size.title = "size";
   size.axis = "dB";
   phase.title = "phase";
@@ -89,7 +89,7 @@ void add_bode(const std::vector<DrawnSystem>& systems, report::Figure& figure) {
   for (const DrawnSystem& drawn : systems) {
     for (Eigen::Index i = 0; i < drawn.system.outputs(); ++i)
       for (Eigen::Index j = 0; j < drawn.system.inputs(); ++j, ++colour) {
-        report::Curve made = curve(drawn.label + element_label(drawn.system, i, j), colour);
+        drawing::Curve made = curve(drawn.label + element_label(drawn.system, i, j), colour);
         made.t = drawn.sweep.frequency;
         for (const ComplexMatrix& response : drawn.sweep.response)
           made.value.push_back(decibels(std::abs(response(i, j))));
@@ -111,14 +111,14 @@ void add_bode(const std::vector<DrawnSystem>& systems, report::Figure& figure) {
   figure.panels = {std::move(size), std::move(phase)};
 }
 
-void add_singular_values(const std::vector<DrawnSystem>& systems, report::Figure& figure) {
-  report::Panel panel;
+void add_singular_values(const std::vector<DrawnSystem>& systems, drawing::Figure& figure) {
+  drawing::Panel panel;
   panel.title = "singular values";
   panel.axis = "dB";
   int colour = 0;
   for (const DrawnSystem& drawn : systems) {
     const Eigen::Index count = std::min(drawn.system.inputs(), drawn.system.outputs());
-    std::vector<report::Curve> curves;
+    std::vector<drawing::Curve> curves;
     for (Eigen::Index k = 0; k < count; ++k) {
       curves.push_back(curve(k == 0 ? drawn.label : "", colour));
       curves.back().t = drawn.sweep.frequency;
@@ -128,9 +128,9 @@ void add_singular_values(const std::vector<DrawnSystem>& systems, report::Figure
       for (Eigen::Index k = 0; k < count; ++k)
         curves[static_cast<std::size_t>(k)].value.push_back(decibels(gains(k)));
     }
-    for (report::Curve& one : curves) panel.curves.push_back(std::move(one));
+    for (drawing::Curve& one : curves) panel.curves.push_back(std::move(one));
     if (drawn.peak && std::isfinite(drawn.peak->frequency)) {
-      report::Curve top = points(report::Mark::dot, colour);
+      drawing::Curve top = points(drawing::Mark::dot, colour);
       const auto& range = drawn.sweep.frequency;
       if (drawn.peak->frequency >= range.front() && drawn.peak->frequency <= range.back()) {
         top.t = {drawn.peak->frequency};
@@ -152,7 +152,7 @@ std::vector<double> angles(double from, double to) {
   return all;
 }
 
-report::Curve unit_circle() {
+drawing::Curve unit_circle() {
   std::vector<double> x, y;
   for (const double angle : angles(0, 2 * std::numbers::pi)) {
     x.push_back(std::cos(angle));
@@ -162,30 +162,30 @@ report::Curve unit_circle() {
 }
 
 /// For positive frequencies in lines, for negative ones in thin dashes. What is far from -1 is left out.
-void add_nyquist(const std::vector<DrawnSystem>& systems, report::Figure& figure) {
+void add_nyquist(const std::vector<DrawnSystem>& systems, drawing::Figure& figure) {
   constexpr double kFar = 3;
-  report::Panel panel;
+  drawing::Panel panel;
   panel.title = "imaginary part";
   panel.across = "real part";
   panel.equal = true;
   panel.curves.push_back(unit_circle());
   int colour = 0;
   for (const DrawnSystem& drawn : systems) {
-    report::Curve positive = curve(drawn.label, colour++);
+    drawing::Curve positive = curve(drawn.label, colour++);
     for (const ComplexMatrix& response : drawn.sweep.response) {
       const std::complex<double> l = response(0, 0);
       const bool far = !(std::abs(l) <= kFar);
       positive.t.push_back(far ? kNone : l.real());
       positive.value.push_back(far ? kNone : l.imag());
     }
-    report::Curve negative = positive;
+    drawing::Curve negative = positive;
     negative.label.clear();
     negative.limit = true;
     for (double& value : negative.value) value = -value;
     panel.curves.push_back(std::move(positive));
     panel.curves.push_back(std::move(negative));
   }
-  report::Curve critical = points(report::Mark::cross, 6);
+  drawing::Curve critical = points(drawing::Mark::cross, 6);
   critical.label = "-1";
   critical.t = {-1};
   critical.value = {0};
@@ -194,17 +194,17 @@ void add_nyquist(const std::vector<DrawnSystem>& systems, report::Figure& figure
 }
 
 /// What is far from 0 dB is left out.
-void add_nichols(const std::vector<DrawnSystem>& systems, report::Figure& figure) {
+void add_nichols(const std::vector<DrawnSystem>& systems, drawing::Figure& figure) {
   constexpr double kFar = 60;  // decibels
-  report::Panel panel;
+  drawing::Panel panel;
   panel.title = "size, dB";
   panel.across = "phase, degrees";
   panel.degrees = true;
-  report::Curve critical = points(report::Mark::cross, 6);
+  drawing::Curve critical = points(drawing::Mark::cross, 6);
   critical.t = {-180};
   int colour = 0;
   for (const DrawnSystem& drawn : systems) {
-    report::Curve made = curve(drawn.label, colour++);
+    drawing::Curve made = curve(drawn.label, colour++);
     const std::vector<double> phases = response::phase(drawn.sweep, 0, 0);
     for (std::size_t k = 0; k < phases.size(); ++k) {
       const double size = decibels(std::abs(drawn.sweep.response[k](0, 0)));
@@ -224,7 +224,7 @@ void add_nichols(const std::vector<DrawnSystem>& systems, report::Figure& figure
   figure.panels = {std::move(panel)};
 }
 
-void add_time(const std::vector<DrawnSystem>& systems, report::Figure& figure) {
+void add_time(const std::vector<DrawnSystem>& systems, drawing::Figure& figure) {
   for (const DrawnSystem& drawn : systems)
     if (figure.panels.size() < static_cast<std::size_t>(drawn.system.outputs()))
       figure.panels.resize(static_cast<std::size_t>(drawn.system.outputs()));
@@ -232,9 +232,9 @@ void add_time(const std::vector<DrawnSystem>& systems, report::Figure& figure) {
   for (const DrawnSystem& drawn : systems)
     for (std::size_t j = 0; j < drawn.time.size(); ++j, ++colour)
       for (Eigen::Index i = 0; i < drawn.system.outputs(); ++i) {
-        report::Panel& panel = figure.panels[static_cast<std::size_t>(i)];
+        drawing::Panel& panel = figure.panels[static_cast<std::size_t>(i)];
         panel.title = figure.panels.size() == 1 ? "output" : "y" + std::to_string(i + 1);
-        report::Curve made = curve(
+        drawing::Curve made = curve(
             drawn.label + (drawn.time.size() > 1 ? " u" + std::to_string(j + 1) : ""), colour);
         const response::TimeResponse& response = drawn.time[j];
         for (std::size_t k = 0; k < response.t.size(); ++k) {
@@ -274,7 +274,7 @@ Ground ground_of(const std::vector<DrawnSystem>& systems) {
 constexpr double kDampings[] = {0.1, 0.3, 0.5, 0.7, 0.9};
 
 /// Lines of equal damping, and the axes.
-void add_guides(const std::vector<DrawnSystem>& systems, bool sampled, report::Panel& panel) {
+void add_guides(const std::vector<DrawnSystem>& systems, bool sampled, drawing::Panel& panel) {
   if (sampled) {
     panel.curves.push_back(unit_circle());
     for (const double damping : kDampings)
@@ -301,8 +301,8 @@ void add_guides(const std::vector<DrawnSystem>& systems, bool sampled, report::P
   }
 }
 
-void add_poles(const std::vector<DrawnSystem>& systems, report::Figure& figure) {
-  report::Panel panel;
+void add_poles(const std::vector<DrawnSystem>& systems, drawing::Figure& figure) {
+  drawing::Panel panel;
   panel.title = "imaginary part; lines of damping 0.1, 0.3, 0.5, 0.7, 0.9";
   panel.across = "real part";
   const bool sampled = std::any_of(systems.begin(), systems.end(),
@@ -312,9 +312,9 @@ void add_poles(const std::vector<DrawnSystem>& systems, report::Figure& figure) 
   const auto add_all = [&](bool crosses) {
     int colour = 0;
     for (const DrawnSystem& drawn : systems) {
-      const auto add = [&](const response::Matrix& roots, report::Mark mark, const char* what) {
+      const auto add = [&](const response::Matrix& roots, drawing::Mark mark, const char* what) {
         if (roots.rows() == 0) return;
-        report::Curve made = points(mark, colour);
+        drawing::Curve made = points(mark, colour);
         made.label = drawn.label + what;
         for (Eigen::Index k = 0; k < roots.rows(); ++k) {
           made.t.push_back(roots(k, 0));
@@ -323,9 +323,9 @@ void add_poles(const std::vector<DrawnSystem>& systems, report::Figure& figure) 
         panel.curves.push_back(std::move(made));
       };
       if (crosses)
-        add(drawn.poles, report::Mark::cross, " poles");
+        add(drawn.poles, drawing::Mark::cross, " poles");
       else
-        add(drawn.zeros, report::Mark::ring, " zeros");
+        add(drawn.zeros, drawing::Mark::ring, " zeros");
       ++colour;
     }
   };
@@ -344,16 +344,16 @@ std::string element_label(const response::StateSpace& system, Eigen::Index i, Ei
 
 double decibels(double gain) { return gain > 0 ? 20 * std::log10(gain) : kNone; }
 
-report::Curve points(report::Mark mark, int colour) {
-  report::Curve made;
+drawing::Curve points(drawing::Mark mark, int colour) {
+  drawing::Curve made;
   made.mark = mark;
   made.colour = colour;
   made.joined = false;
   return made;
 }
 
-report::Figure system_picture(SystemPicture kind, const std::vector<DrawnSystem>& systems) {
-  report::Figure figure;
+drawing::Figure system_picture(SystemPicture kind, const std::vector<DrawnSystem>& systems) {
+  drawing::Figure figure;
   switch (kind) {
     case SystemPicture::bode:
       add_bode(systems, figure);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "model/system_figure.h"
-#include "report/figure.h"
+#include "drawing/figure.h"
 #include "response/margins.h"
 #include "response/peak.h"
 #include "response/sweep.h"
@@ -31,12 +31,12 @@ struct DrawnSystem {
 std::string element_label(const response::StateSpace& system, Eigen::Index i, Eigen::Index j);
 
 /// Without a title.
-report::Figure system_picture(model::SystemPicture kind, const std::vector<DrawnSystem>& systems);
+drawing::Figure system_picture(model::SystemPicture kind, const std::vector<DrawnSystem>& systems);
 
 /// Decibels of a gain; not a number for 0.
 double decibels(double gain);
 
 /// Single points, such as a crossing.
-report::Curve points(report::Mark mark, int colour);
+drawing::Curve points(drawing::Mark mark, int colour);
 
 }  // namespace gainsmith::app

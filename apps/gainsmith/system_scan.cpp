@@ -74,31 +74,31 @@ Scanned scanned(const SystemFigure& figure, const LoadedGains& loaded, int count
   return all;
 }
 
-report::Panel panel_of(const char* title, const char* axis) {
-  report::Panel panel;
+drawing::Panel panel_of(const char* title, const char* axis) {
+  drawing::Panel panel;
   panel.title = title;
   panel.axis = axis;
   return panel;
 }
 
 /// Over the scalar, where the closed loop is stable.
-report::Figure margins_picture(const Scanned& all, const std::string& axis) {
-  report::Figure figure;
+drawing::Figure margins_picture(const Scanned& all, const std::string& axis) {
+  drawing::Figure figure;
   figure.axis = axis;
   figure.logarithmic = all.logarithmic;
   figure.panels = {panel_of("gain margin", "dB"), panel_of("phase margin", "degrees"),
                    panel_of("delay margin", "time")};
   int colour = 0;
   for (const std::vector<SystemCase>& cases : all.systems) {
-    std::vector<report::Curve> curves(3);
-    for (report::Curve& curve : curves) {
+    std::vector<drawing::Curve> curves(3);
+    for (drawing::Curve& curve : curves) {
       curve.colour = colour;
       curve.t = all.values;
     }
     curves.front().label = cases.front().drawn.label;
     for (const SystemCase& one : cases) {
       const response::Margins& margins = *one.drawn.margins;
-      const auto add = [&](report::Curve& curve, const std::optional<response::Margin>& margin) {
+      const auto add = [&](drawing::Curve& curve, const std::optional<response::Margin>& margin) {
         curve.value.push_back(margins.stable && margin ? margin->value : kNoMargin);
       };
       add(curves[0], margins.gain);
@@ -113,8 +113,8 @@ report::Figure margins_picture(const Scanned& all, const std::string& axis) {
   return figure;
 }
 
-report::Curve marks_of(const response::Matrix& roots, report::Mark mark, int colour) {
-  report::Curve made = points(mark, colour);
+drawing::Curve marks_of(const response::Matrix& roots, drawing::Mark mark, int colour) {
+  drawing::Curve made = points(mark, colour);
   for (Eigen::Index k = 0; k < roots.rows(); ++k) {
     made.t.push_back(roots(k, 0));
     made.value.push_back(roots(k, 1));
@@ -123,7 +123,7 @@ report::Curve marks_of(const response::Matrix& roots, report::Mark mark, int col
 }
 
 /// Dots, with crosses at the first value and triangles at the last one; zeros are those of the first.
-report::Figure locus_picture(const Scanned& all) {
+drawing::Figure locus_picture(const Scanned& all) {
   std::vector<DrawnSystem> merged;
   for (const std::vector<SystemCase>& cases : all.systems) {
     DrawnSystem& whole = merged.emplace_back(cases.front().drawn);
@@ -132,17 +132,17 @@ report::Figure locus_picture(const Scanned& all) {
     for (std::size_t k = 1; k < cases.size(); ++k)
       whole.poles.middleRows(n * static_cast<Eigen::Index>(k), n) = cases[k].drawn.poles;
   }
-  report::Figure figure = system_picture(SystemPicture::poles, merged);
-  std::vector<report::Curve>& curves = figure.panels.front().curves;
-  for (report::Curve& curve : curves)
-    if (curve.mark == report::Mark::cross) {
-      curve.mark = report::Mark::dot;
+  drawing::Figure figure = system_picture(SystemPicture::poles, merged);
+  std::vector<drawing::Curve>& curves = figure.panels.front().curves;
+  for (drawing::Curve& curve : curves)
+    if (curve.mark == drawing::Mark::cross) {
+      curve.mark = drawing::Mark::dot;
       curve.label.clear();
     }
   int colour = 0;
   for (const std::vector<SystemCase>& cases : all.systems) {
-    for (const auto& [one, mark] : {std::pair(&cases.front(), report::Mark::cross),
-                                    std::pair(&cases.back(), report::Mark::triangle)}) {
+    for (const auto& [one, mark] : {std::pair(&cases.front(), drawing::Mark::cross),
+                                    std::pair(&cases.back(), drawing::Mark::triangle)}) {
       curves.push_back(marks_of(one->drawn.poles, mark, colour));
       curves.back().label = one->drawn.label + " " + one->where;
     }
@@ -152,7 +152,7 @@ report::Figure locus_picture(const Scanned& all) {
 }
 
 /// Under the title that the result has.
-void take_picture(report::Figure figure, SystemResult& result) {
+void take_picture(drawing::Figure figure, SystemResult& result) {
   figure.title = std::move(result.figure.title);
   result.figure = std::move(figure);
 }

@@ -21,7 +21,7 @@
 #include "gainsmith/shard_option.h"
 #include "gainsmith/terminal.h"
 #include "gainsmith/worst_text.h"
-#include "io/campaign_json.h"
+#include "io/json/campaign_json.h"
 #include "model/stated_file.h"
 #include "statistics/figure_survey.h"
 #include "statistics/sample_bounds.h"

@@ -6,7 +6,7 @@
 
 #include "base/number.h"
 #include "gainsmith/campaign_text.h"
-#include "io/given_run_json.h"
+#include "io/json/given_run_json.h"
 #include "model/stated_file.h"
 
 namespace gainsmith::app {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "io/json_text.h"
+#include "io/json/json_text.h"
 #include "model/instance.h"
 #include "verify/worst.h"
 

@@ -7,7 +7,7 @@
 #include "base/version.h"
 #include "bind/bind.h"
 #include "design/optimize.h"
-#include "io/gains_json.h"
+#include "io/json/gains_json.h"
 #include "methods/methods.h"
 
 namespace gainsmith::api {

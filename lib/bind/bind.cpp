@@ -16,7 +16,7 @@
 #include "bind/simulation.h"
 #include "bind/stated.h"
 #include "bind/system_figures.h"
-#include "expr/work.h"
+#include "expr/text/work.h"
 #include "model/gains.h"
 
 namespace gainsmith::bind {

@@ -2,8 +2,8 @@
 //
 // A method states unknowns, matrix inequalities, gains, dynamics and claims as texts; a problem
 // gives it data. Binding resolves all names, finds all dimensions from the data, and compiles every
-// text to a program (expr/program.h). The result is a model::Design: an optimisation problem in
-// unknown matrices, formulas of gains, and a hybrid system to simulate.
+// text to a program (expr/program/program.h). The result is a model::Design: an optimisation
+// problem in unknown matrices, formulas of gains, and a hybrid system to simulate.
 //
 //   data.h, function_data.h, polynomials.h   dimensions, data, parameters, unknowns
 //   families.h, observer_families.h          what is stated once for all members of a family

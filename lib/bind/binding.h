@@ -12,7 +12,7 @@
 
 #include "bind/bind.h"
 #include "bind/dynamics_names.h"
-#include "expr/scope.h"
+#include "expr/binding/scope.h"
 
 namespace gainsmith::bind {
 

@@ -13,7 +13,7 @@
 #include <optional>
 #include <vector>
 
-#include "expr/ast.h"
+#include "expr/text/ast.h"
 
 namespace gainsmith::bind {
 

@@ -14,8 +14,8 @@
 #include "bind/families.h"
 #include "bind/inequalities.h"
 #include "bind/quadratic_forms.h"
-#include "expr/compile.h"
-#include "expr/functions.h"
+#include "expr/binding/compile.h"
+#include "expr/binding/functions.h"
 
 namespace gainsmith::bind {
 

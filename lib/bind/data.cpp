@@ -12,7 +12,7 @@
 #include "bind/families.h"
 #include "bind/formulas.h"
 #include "bind/function_data.h"
-#include "expr/functions.h"
+#include "expr/binding/functions.h"
 #include "model/words.h"
 
 namespace gainsmith::bind {

@@ -6,7 +6,7 @@
 
 #include "base/named.h"
 #include "base/nearest.h"
-#include "expr/rename.h"
+#include "expr/text/rename.h"
 
 namespace gainsmith::bind {
 

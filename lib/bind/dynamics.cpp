@@ -8,8 +8,8 @@
 #include "bind/binding.h"
 #include "bind/dynamics_binding.h"
 #include "bind/formulas.h"
-#include "expr/compile.h"
-#include "expr/rewrite.h"
+#include "expr/binding/compile.h"
+#include "expr/program/rewrite.h"
 
 namespace gainsmith::bind {
 

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "bind/dynamics_names.h"
-#include "expr/scope.h"
+#include "expr/binding/scope.h"
 #include "model/dynamics.h"
 #include "model/problem.h"
 

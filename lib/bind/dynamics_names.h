@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "expr/rename.h"
+#include "expr/text/rename.h"
 #include "model/method.h"
 
 namespace gainsmith::bind {

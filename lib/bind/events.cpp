@@ -8,8 +8,8 @@
 #include "base/number.h"
 #include "bind/dynamics_binding.h"
 #include "bind/formulas.h"
-#include "expr/compile.h"
-#include "expr/condition.h"
+#include "expr/binding/compile.h"
+#include "expr/binding/condition.h"
 
 namespace gainsmith::bind {
 

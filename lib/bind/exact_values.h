@@ -8,7 +8,7 @@
 #include "base/scalars.h"
 #include "model/gains.h"
 #include "model/instance.h"
-#include "numbers/real.h"
+#include "numbers/types/real.h"
 
 namespace gainsmith::bind {
 

@@ -3,7 +3,7 @@
 #include <functional>
 #include <memory>
 
-#include "expr/compile.h"
+#include "expr/binding/compile.h"
 
 namespace gainsmith::bind {
 

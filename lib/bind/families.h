@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "expr/instantiate.h"
-#include "expr/parser.h"
+#include "expr/binding/instantiate.h"
+#include "expr/text/parser.h"
 #include "model/problem.h"
 
 namespace gainsmith::bind {

@@ -4,8 +4,8 @@
 
 #include <optional>
 
-#include "expr/compile.h"
-#include "expr/scope.h"
+#include "expr/binding/compile.h"
+#include "expr/binding/scope.h"
 #include "model/design.h"
 #include "model/formula.h"
 #include "model/problem.h"

@@ -4,7 +4,7 @@
 
 #include "base/named.h"
 #include "bind/formulas.h"
-#include "expr/functions.h"
+#include "expr/binding/functions.h"
 
 namespace gainsmith::bind {
 

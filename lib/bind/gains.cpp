@@ -11,7 +11,7 @@
 #include "bind/estimates.h"
 #include "bind/families.h"
 #include "bind/formulas.h"
-#include "expr/parser.h"
+#include "expr/text/parser.h"
 
 namespace gainsmith::bind {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bind/binding.h"
-#include "expr/ast.h"
+#include "expr/text/ast.h"
 
 namespace gainsmith::bind {
 

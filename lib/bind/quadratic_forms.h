@@ -8,7 +8,7 @@
 
 #include <optional>
 
-#include "expr/ast.h"
+#include "expr/text/ast.h"
 
 namespace gainsmith::bind {
 

@@ -8,8 +8,8 @@
 #include "bind/binding.h"
 #include "bind/exact_values.h"
 #include "bind/gains.h"
-#include "expr/compile.h"
-#include "expr/parser.h"
+#include "expr/binding/compile.h"
+#include "expr/text/parser.h"
 
 namespace gainsmith::bind {
 

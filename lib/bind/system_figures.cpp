@@ -2,7 +2,7 @@
 
 #include "bind/dynamics_binding.h"
 #include "bind/formulas.h"
-#include "expr/compile.h"
+#include "expr/binding/compile.h"
 
 namespace gainsmith::bind {
 

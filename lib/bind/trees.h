@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "expr/ast.h"
+#include "expr/text/ast.h"
 
 namespace gainsmith::bind {
 

@@ -4,9 +4,10 @@
 //   turn    a guard whose turning point lies nearer to 0 than its error there
 //   order   an event whose guard lies within its error when another one happens, so that it may
 //           come before or after, and whose maps do not commute on that state
-//   step    what a map branches on (expr/branches.h), by a jump of its value, lies within its error:
-//           a number that is rounded, next to a tie
-//   zero    a jump leads what an event is a crossing of to 0, up to its error: leaving 0 is a crossing
+//   step    what a map branches on (expr/program/branches.h), by a jump of its value, lies within
+//           its error: a number that is rounded, next to a tie
+//   zero    a jump leads what an event is a crossing of to 0, up to its error: leaving 0 is a
+//           crossing
 //
 // The error of a guard has three parts: that of the difference of the two runs, what its terms
 // round, and its rate times the error of the time of the other event. Clocks strike when they do:

@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "expr/rewrite.h"
+#include "expr/program/rewrite.h"
 #include "hybrid/rounding_terms.h"
 
 namespace gainsmith::claims {

@@ -9,7 +9,7 @@
 
 #include "hybrid/breaks.h"
 #include "hybrid/trajectory.h"
-#include "numbers/stacked_functions.h"
+#include "numbers/graph/stacked_functions.h"
 
 namespace gainsmith::claims {
 

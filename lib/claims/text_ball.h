@@ -1,4 +1,4 @@
-// Errors of a text in double, by enclosures (numbers/enclosure.h): what its evaluation
+// Errors of a text in double, by enclosures (numbers/types/enclosure.h): what its evaluation
 // rounds, and what errors of the variables make of it where it branches. Two runs that are compared
 // do not show either: they round alike, and may both take the wrong branch.
 //
@@ -14,7 +14,7 @@
 #include "base/error.h"
 #include "claims/run_values.h"
 #include "claims/track.h"
-#include "numbers/enclosure.h"
+#include "numbers/types/enclosure.h"
 
 namespace gainsmith::claims {
 

@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "base/number.h"
-#include "numbers/dense.h"
-#include "numbers/rational_algebra.h"
+#include "numbers/dense/dense.h"
+#include "numbers/dense/rational_algebra.h"
 #include "verdict/rational_blocks.h"
 
 namespace gainsmith::design {

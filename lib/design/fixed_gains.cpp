@@ -12,7 +12,7 @@
 #include "bind/stated.h"
 #include "design/gain_values.h"
 #include "design/synthesize.h"
-#include "expr/substitute.h"
+#include "expr/binding/substitute.h"
 #include "verdict/printed_check.h"
 
 namespace gainsmith::design {

@@ -11,7 +11,7 @@
 #include "bind/stated.h"
 #include "lmi/affine.h"
 #include "model/stated.h"
-#include "numbers/dense.h"
+#include "numbers/dense/dense.h"
 
 namespace gainsmith::design {
 

@@ -8,10 +8,10 @@
 
 #include "base/named.h"
 #include "base/number.h"
-#include "expr/evaluate.h"
+#include "expr/program/evaluate.h"
 #include "forall/minima.h"
-#include "numbers/dense.h"
-#include "numbers/dual.h"
+#include "numbers/dense/dense.h"
+#include "numbers/types/dual.h"
 #include "numerics/balance.h"
 
 namespace gainsmith::design {
@@ -143,7 +143,7 @@ std::optional<HiddenMode> hidden_among(const std::vector<HiddenMode>& modes, dou
 }
 
 /// A formula of the plant and its slope by the state, everything else that moves being 0.
-/// Slopes by automatic differentiation (numbers/dual.h).
+/// Slopes by automatic differentiation (numbers/types/dual.h).
 class Linearised {
  public:
   Linearised(Linearised&&) = delete;  // the evaluator reads the members

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "lmi/matrix_program.h"
-#include "sdp/matrix_solver.h"
+#include "sdp/schur/matrix_solver.h"
 
 namespace gainsmith::design {
 

@@ -1,5 +1,5 @@
-// Points of large programs by the solver for programs in matrices (sdp/matrix_solver.h), which
-// keeps B_k(x) as sums of products of matrices and solves its linear systems by conjugate
+// Points of large programs by the solver for programs in matrices (sdp/schur/matrix_solver.h),
+// which keeps B_k(x) as sums of products of matrices and solves its linear systems by conjugate
 // gradients. Its points start the dense interior-point method or make it superfluous.
 #pragma once
 

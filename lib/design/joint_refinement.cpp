@@ -11,7 +11,7 @@
 
 #include "bind/instance.h"
 #include "design/refinement_blocks.h"
-#include "numbers/dense.h"
+#include "numbers/dense/dense.h"
 
 namespace gainsmith::design {
 

@@ -10,9 +10,9 @@
 
 #include "base/number.h"
 #include "design/elastic.h"
-#include "expr/rewrite.h"
+#include "expr/program/rewrite.h"
 #include "model/function.h"
-#include "numbers/dense.h"
+#include "numbers/dense/dense.h"
 
 namespace gainsmith::design {
 

@@ -10,8 +10,8 @@
 
 #include "base/number.h"
 #include "design/sos_records.h"
-#include "numbers/definite.h"
-#include "numbers/dense.h"
+#include "numbers/dense/definite.h"
+#include "numbers/dense/dense.h"
 #include "sos/counterexample.h"
 #include "sos/moments.h"
 #include "verdict/rational_blocks.h"

@@ -21,7 +21,7 @@
 #include "design/sos_statements.h"
 #include "design/sums_of_squares.h"
 #include "forall/faults.h"
-#include "numbers/dense.h"
+#include "numbers/dense/dense.h"
 
 namespace gainsmith::design {
 

@@ -11,9 +11,9 @@
 #include "base/hash.h"
 #include "base/named.h"
 #include "export/shared_text.h"
-#include "expr/substitute.h"
+#include "expr/binding/substitute.h"
 #include "model/estimate_name.h"
-#include "numbers/degree.h"
+#include "numbers/types/degree.h"
 
 namespace gainsmith::exports {
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "expr/rewrite.h"
-#include "expr/substitute.h"
+#include "expr/binding/substitute.h"
+#include "expr/program/rewrite.h"
 
 namespace gainsmith::exports {
 

@@ -11,10 +11,10 @@
 #include <utility>
 
 #include "base/number.h"
-#include "expr/operations.h"
+#include "expr/program/operations.h"
 #include "model/gains.h"
-#include "numbers/scalar_graph.h"
-#include "numbers/scalar_trace.h"
+#include "numbers/graph/scalar_graph.h"
+#include "numbers/graph/scalar_trace.h"
 
 namespace gainsmith::exports {
 

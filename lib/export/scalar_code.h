@@ -1,5 +1,5 @@
 // Programs as statements on numbers, in C, MATLAB and Python: the scalar graph of what they compute
-// (numbers/scalar_graph.h), printed. What several results need is computed once.
+// (numbers/graph/scalar_graph.h), printed. What several results need is computed once.
 #pragma once
 
 #include <map>
@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "export/identifiers.h"
-#include "expr/program.h"
-#include "numbers/real.h"
+#include "expr/program/program.h"
+#include "numbers/types/real.h"
 
 namespace gainsmith::exports {
 

@@ -6,7 +6,7 @@
 
 #include "base/number.h"
 #include "base/visible.h"
-#include "expr/rewrite.h"
+#include "expr/program/rewrite.h"
 
 namespace gainsmith::exports {
 

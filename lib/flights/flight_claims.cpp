@@ -6,7 +6,7 @@
 
 #include "base/unit_roundoff.h"
 #include "claims/tolerances.h"
-#include "expr/square_of_norm.h"
+#include "expr/program/square_of_norm.h"
 #include "flights/tolerances.h"
 #include "hybrid/tolerances.h"
 #include "packs/pack_system.h"

@@ -20,7 +20,7 @@ namespace gainsmith::flights {
 FlightSystem::Places places_of(const PackClaim& claim, std::size_t& next);
 
 /// Adds the fields of a claim after a flight of this length, in the order of their places.
-/// NoFormula (numbers/scalar_rules.h) where its value is no polynomial.
+/// NoFormula (numbers/graph/scalar_rules.h) where its value is no polynomial.
 void add_claim(FlightGraph& graph, const claims::Claim& claim, std::size_t number, int length,
                Nodes& fields);
 

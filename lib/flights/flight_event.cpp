@@ -4,7 +4,7 @@
 
 #include "flights/tolerances.h"
 #include "hybrid/tolerances.h"
-#include "numbers/scalar_rules.h"
+#include "numbers/graph/scalar_rules.h"
 #include "packs/pack_system.h"
 
 namespace gainsmith::flights {

@@ -22,8 +22,8 @@ struct FlightEnd {
   Nodes sides;           ///< of the watches, just after the event
 };
 
-/// NoFormula (numbers/scalar_rules.h) where a watch has another degree, and where they have many
-/// roots.
+/// NoFormula (numbers/graph/scalar_rules.h) where a watch has another degree, and where they have
+/// many roots.
 FlightEnd find_end(FlightGraph& graph);
 
 }  // namespace gainsmith::flights

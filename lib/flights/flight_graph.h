@@ -18,7 +18,7 @@ struct FlightPair {
 /// that has to be certain.
 class FlightGraph {
  public:
-  /// All must outlive it. NoFormula (numbers/scalar_rules.h) where values are no polynomials.
+  /// All must outlive it. NoFormula (numbers/graph/scalar_rules.h) where values are no polynomials.
   FlightGraph(const PackSystem& pack, FlightSystem& made);
 
   const PackSystem& pack() const { return pack_; }

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "numbers/scalar_rules.h"
+#include "numbers/graph/scalar_rules.h"
 
 namespace gainsmith::flights {
 

@@ -35,7 +35,7 @@ class FlightSeries {
   static constexpr std::size_t most_degree = 5;
 
   /// `x`: nodes of all values at s = 0, all of them inputs or constants; the texts must outlive it.
-  /// NoFormula (numbers/scalar_rules.h) where a value is no polynomial of this degree.
+  /// NoFormula (numbers/graph/scalar_rules.h) where a value is no polynomial of this degree.
   FlightSeries(PackGraph& texts, const Nodes& x, bool sizes);
 
   /// Of value k.

@@ -5,7 +5,7 @@
 #include "flights/flight_claims.h"
 #include "flights/flight_event.h"
 #include "hybrid/tolerances.h"
-#include "numbers/scalar_rules.h"
+#include "numbers/graph/scalar_rules.h"
 #include "packs/pack_system.h"
 #include "packs/tolerances.h"
 

@@ -4,7 +4,7 @@
 // is known when the graph is made costs nothing.
 #pragma once
 
-#include "numbers/scalar_graph.h"
+#include "numbers/graph/scalar_graph.h"
 
 namespace gainsmith::flights {
 

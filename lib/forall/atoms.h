@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "expr/rewrite.h"
+#include "expr/program/rewrite.h"
 
 namespace gainsmith::forall {
 

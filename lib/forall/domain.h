@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "model/design.h"
-#include "numbers/real.h"
+#include "numbers/types/real.h"
 
 namespace gainsmith::forall {
 

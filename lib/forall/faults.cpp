@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "base/stop.h"
-#include "expr/derivative.h"
-#include "expr/evaluate.h"
-#include "expr/rewrite.h"
-#include "numbers/real.h"
+#include "expr/program/derivative.h"
+#include "expr/program/evaluate.h"
+#include "expr/program/rewrite.h"
+#include "numbers/types/real.h"
 
 namespace gainsmith::forall {
 

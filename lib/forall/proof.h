@@ -6,13 +6,14 @@
 // On a piece of the box with edges w_i, B differs from the multilinear interpolation of its corners
 // by at most
 //   E = sum_i min(w_i/2 rad(B'_i), w_i^2/8 |B''_i|)   element by element,
-// with enclosures of the slopes B'_i and of B''_i over the piece (numbers/jet.h); slopes in a ball
-// of radius r leave a chord by at most r w/2, so that kinks need no B''. B > 0 on the piece when
-// B(c) + F > 0 for all |F| <= E at each corner c (numbers/definite.h), since the interpolation is a
-// mean of the corners. Where all B''_i are known it is enough that B(c) - sum_i theta_i w_i^2/8
-// B''_i > 0 for theta_i = 0 and 1: B lies below the chord by these, and their sign and direction
-// count. Where a slope has no bound (cusps, jumps) the enclosure of B over the piece has to be
-// positive definite itself. A piece that does not pass is cut in two, as far as doubles go.
+// with enclosures of the slopes B'_i and of B''_i over the piece (numbers/types/jet.h); slopes in a
+// ball of radius r leave a chord by at most r w/2, so that kinks need no B''. B > 0 on the piece
+// when B(c) + F > 0 for all |F| <= E at each corner c (numbers/dense/definite.h), since the
+// interpolation is a mean of the corners. Where all B''_i are known it is enough that B(c) - sum_i
+// theta_i w_i^2/8 B''_i > 0 for theta_i = 0 and 1: B lies below the chord by these, and their sign
+// and direction count. Where a slope has no bound (cusps, jumps) the enclosure of B over the piece
+// has to be positive definite itself. A piece that does not pass is cut in two, as far as doubles
+// go.
 #pragma once
 
 #include <cstddef>
@@ -21,9 +22,9 @@
 #include <string>
 #include <vector>
 
-#include "expr/program.h"
+#include "expr/program/program.h"
 #include "forall/domain.h"
-#include "numbers/enclosure.h"
+#include "numbers/types/enclosure.h"
 
 namespace gainsmith::forall {
 

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "expr/assembly.h"
+#include "expr/program/assembly.h"
 #include "forall/proof_function.h"
-#include "numbers/ball_functions.h"
+#include "numbers/types/ball_functions.h"
 
 namespace gainsmith::forall::proof {
 

@@ -11,11 +11,11 @@
 #include <utility>
 #include <vector>
 
-#include "expr/evaluate.h"
+#include "expr/program/evaluate.h"
 #include "forall/domain.h"
-#include "numbers/definite.h"
-#include "numbers/enclosure.h"
-#include "numbers/jet.h"
+#include "numbers/dense/definite.h"
+#include "numbers/types/enclosure.h"
+#include "numbers/types/jet.h"
 
 namespace gainsmith::forall::proof {
 
@@ -133,7 +133,7 @@ class Function {
   }
 
   /// Enclosures over a piece in double, by one evaluation of second-order Taylor arithmetic a
-  /// variable (numbers/jet.h).
+  /// variable (numbers/types/jet.h).
   Spread over(const Piece& piece) {
     Spread spread;
     try {

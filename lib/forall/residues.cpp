@@ -6,8 +6,8 @@
 #include <numbers>
 #include <numeric>
 
-#include "expr/evaluate.h"
-#include "numbers/dense.h"
+#include "expr/program/evaluate.h"
+#include "numbers/dense/dense.h"
 
 namespace gainsmith::forall {
 

@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "base/stop.h"
-#include "expr/evaluate.h"
+#include "expr/program/evaluate.h"
 #include "forall/minima.h"
-#include "numbers/dense.h"
+#include "numbers/dense/dense.h"
 
 namespace gainsmith::forall {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "expr/program.h"
+#include "expr/program/program.h"
 #include "forall/domain.h"
 
 namespace gainsmith::forall {

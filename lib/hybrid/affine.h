@@ -5,12 +5,12 @@
 #include <functional>
 #include <string>
 
-#include "expr/program.h"
+#include "expr/program/program.h"
 
 namespace gainsmith::hybrid {
 
 /// The first instruction whose value is not known to be affine in the inputs that move; nullptr
-/// when the whole program is affine. The rules are in numbers/degree.h.
+/// when the whole program is affine. The rules are in numbers/types/degree.h.
 const expr::Instruction* first_not_affine(const expr::Program& program,
                                           const std::function<bool(const std::string&)>& moves);
 

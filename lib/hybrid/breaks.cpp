@@ -7,7 +7,7 @@
 #include <map>
 #include <utility>
 
-#include "expr/branches.h"
+#include "expr/program/branches.h"
 #include "hybrid/rounding_terms.h"
 #include "hybrid/tolerances.h"
 #include "numerics/golden_section.h"

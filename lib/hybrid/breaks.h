@@ -1,6 +1,6 @@
-// Where a text along a flow is not smooth: where what it branches on (expr/branches.h) comes to 0.
-// That may branch itself: its roots are searched on the pieces between the breaks before it,
-// where it is smooth. So a branch is found however short it is taken.
+// Where a text along a flow is not smooth: where what it branches on (expr/program/branches.h)
+// comes to 0. That may branch itself: its roots are searched on the pieces between the breaks
+// before it, where it is smooth. So a branch is found however short it is taken.
 //
 // A break is a bracket [left, right] of one root of such a D. It says whether the text jumps there
 // or has a kink.
@@ -29,9 +29,9 @@ class Breaks {
   bool none() const { return texts_.empty(); }
 
   /// In rising order, each once, on a step over which `x` is smooth and lies in `box`. Where a
-  /// difference has no value, or is 0 all along but for rounding, nothing is found. None where there
-  /// are more than can be searched (Found::whole). `near` takes the places where a difference comes
-  /// near 0, by a 50th of its largest size on the step, and turns back.
+  /// difference has no value, or is 0 all along but for rounding, nothing is found. None where
+  /// there are more than can be searched (Found::whole). `near` takes the places where a difference
+  /// comes near 0, by a 50th of its largest size on the step, and turns back.
   std::optional<std::vector<ode::Break>> on(const std::function<const Eigen::VectorXd&(double)>& x,
                                             double from, double to, const numbers::Box& box,
                                             std::vector<double>* near = nullptr);

@@ -5,8 +5,8 @@
 #include <set>
 
 #include "base/number.h"
-#include "expr/evaluate.h"
-#include "numbers/dense.h"
+#include "expr/program/evaluate.h"
+#include "numbers/dense/dense.h"
 
 namespace gainsmith::hybrid {
 

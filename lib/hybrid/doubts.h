@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "model/design.h"
-#include "numbers/real.h"
+#include "numbers/types/real.h"
 
 namespace gainsmith::hybrid {
 

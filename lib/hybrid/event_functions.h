@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "expr/condition.h"
+#include "expr/binding/condition.h"
 #include "hybrid/breaks.h"
 #include "hybrid/system.h"
-#include "numbers/stacked_functions.h"
+#include "numbers/graph/stacked_functions.h"
 
 namespace gainsmith::hybrid {
 
@@ -79,8 +79,8 @@ class EventFunction {
   std::vector<int> sides_;
 };
 
-/// A tree of comparisons (expr/condition.h) with `and`, `or`, `not`. A comparison of matrices is
-/// true where it is true of all elements.
+/// A tree of comparisons (expr/binding/condition.h) with `and`, `or`, `not`. A comparison of
+/// matrices is true where it is true of all elements.
 class EventCondition {
  public:
   struct Comparison {

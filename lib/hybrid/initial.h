@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/random.h"
-#include "expr/program.h"
+#include "expr/program/program.h"
 #include "model/design.h"
 #include "numbers/matrix.h"
 
@@ -23,9 +23,9 @@ struct StartRule {
 };
 
 /// Replaces center, matrix Q and level r of an ellipsoid by its center and M = sqrt(r) inv(L)',
-/// with Q = L L': {c + M b: |b| <= 1} = {x: (x - c)' Q (x - c) <= r}. Of two levels [r0, r] the part
-/// with (x - c)' Q (x - c) < r0 is hollow. InputError when Q is not symmetric and positive definite,
-/// or not 0 <= r0 <= r. `state`: the name, for messages.
+/// with Q = L L': {c + M b: |b| <= 1} = {x: (x - c)' Q (x - c) <= r}. Of two levels [r0, r] the
+/// part with (x - c)' Q (x - c) < r0 is hollow. InputError when Q is not symmetric and positive
+/// definite, or not 0 <= r0 <= r. `state`: the name, for messages.
 void read_ellipsoid(StartRule& rule, const std::string& state);
 
 /// A point of the unit ball, moved along its ray into what is not hollow: uniform points stay

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "numbers/degree.h"
+#include "numbers/types/degree.h"
 
 namespace gainsmith::hybrid {
 

@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "expr/program.h"
+#include "expr/program/program.h"
 
 namespace gainsmith::hybrid {
 

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "expr/program.h"
+#include "expr/program/program.h"
 
 namespace gainsmith::hybrid {
 

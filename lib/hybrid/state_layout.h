@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "expr/program.h"
+#include "expr/program/program.h"
 #include "model/dynamics.h"
-#include "numbers/stacked_functions.h"
+#include "numbers/graph/stacked_functions.h"
 
 namespace gainsmith::hybrid {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "expr/assembly.h"
+#include "expr/program/assembly.h"
 
 namespace gainsmith::hybrid {
 

@@ -9,11 +9,11 @@
 
 #include "base/named.h"
 #include "base/nearest.h"
-#include "expr/parser.h"
-#include "io/keys.h"
-#include "io/search_yaml.h"
-#include "io/synthesis_yaml.h"
-#include "io/yaml.h"
+#include "expr/text/parser.h"
+#include "io/schema/keys.h"
+#include "io/yaml/search_yaml.h"
+#include "io/yaml/synthesis_yaml.h"
+#include "io/yaml/yaml.h"
 #include "model/names.h"
 
 namespace gainsmith::io {

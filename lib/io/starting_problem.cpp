@@ -7,7 +7,7 @@
 #include <set>
 #include <vector>
 
-#include "io/yaml.h"
+#include "io/yaml/yaml.h"
 
 namespace gainsmith::io {
 

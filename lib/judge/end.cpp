@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "expr/number_type.h"
+#include "expr/program/number_type.h"
 #include "judge/flow.h"
 #include "judge/jump.h"
 #include "ode/tolerances.h"

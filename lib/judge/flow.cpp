@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "expr/number_type.h"
+#include "expr/program/number_type.h"
 #include "judge/measured.h"
 #include "judge/tolerances.h"
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <variant>
 
-#include "expr/number_type.h"
+#include "expr/program/number_type.h"
 #include "judge/draws.h"
 #include "judge/end.h"
 #include "judge/events.h"

@@ -5,7 +5,7 @@
 #include <limits>
 #include <string>
 
-#include "expr/number_type.h"
+#include "expr/program/number_type.h"
 #include "judge/tolerances.h"
 
 namespace gainsmith::judge {

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "expr/number_type.h"
+#include "expr/program/number_type.h"
 #include "judge/tolerances.h"
 
 namespace gainsmith::judge {

@@ -24,7 +24,7 @@ std::optional<LaneOp> lane_op(ScalarOp op) {
 #define LANE_OP(op, operands, ...) \
   case ScalarOp::op:               \
     return LaneOp::op;
-#include "numbers/scalar_ops.def"
+#include "numbers/graph/scalar_ops.def"
     default:
       return std::nullopt;
   }
@@ -35,7 +35,7 @@ int operands_of(ScalarOp op) {
 #define SCALAR_OP(op, operands, ...) \
   case ScalarOp::op:                 \
     return operands;
-#include "numbers/scalar_ops.def"
+#include "numbers/graph/scalar_ops.def"
     default:
       return 0;
   }

@@ -1,4 +1,4 @@
-// Scalar graphs (numbers/scalar_graph.h) over lanes.
+// Scalar graphs (numbers/graph/scalar_graph.h) over lanes.
 //
 // A LaneCode is made once and read by all threads; a LaneMachine has the registers of one of them.
 // A lane in which something has no value is marked (faults) and its results say nothing; the other
@@ -15,9 +15,9 @@
 #include <vector>
 
 #include "lanes/steps.h"
-#include "numbers/scalar_graph.h"
-#include "numbers/tape_block.h"
-#include "numbers/tape_code.h"
+#include "numbers/graph/scalar_graph.h"
+#include "numbers/graph/tape_block.h"
+#include "numbers/graph/tape_code.h"
 
 namespace gainsmith::lanes {
 

@@ -22,7 +22,7 @@ constexpr std::size_t kLanes = 32;
 /// operations.
 enum class LaneOp : std::uint8_t {
 #define LANE_OP(op, operands, ...) op,
-#include "numbers/scalar_ops.def"
+#include "numbers/graph/scalar_ops.def"
   add_constant,       ///< constant a + b
   multiply_constant,  ///< constant a * b
   /// Constant a * b + c.

@@ -346,7 +346,7 @@ const LaneStep* run(const LaneStep* step, const LaneStep* end, const double* con
       return __VA_ARGS__;                                                          \
     });                                                                            \
     break;
-#include "numbers/scalar_ops.def"
+#include "numbers/graph/scalar_ops.def"
       case LaneOp::add_constant:
         over_constant([](V k, V b, V, V) { return k + b; });
         break;

@@ -6,10 +6,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "expr/rewrite.h"
+#include "expr/program/rewrite.h"
 #include "linear/differences.h"
 #include "linear/polynomial.h"
-#include "numbers/degree.h"
+#include "numbers/types/degree.h"
 
 namespace gainsmith::linear {
 

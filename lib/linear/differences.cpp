@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "expr/rewrite.h"
+#include "expr/program/rewrite.h"
 
 namespace gainsmith::linear {
 

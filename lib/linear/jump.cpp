@@ -5,7 +5,7 @@
 #include <string>
 
 #include "linear/coordinates.h"
-#include "numbers/degree.h"
+#include "numbers/types/degree.h"
 
 namespace gainsmith::linear {
 

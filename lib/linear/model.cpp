@@ -5,11 +5,11 @@
 #include <string>
 #include <utility>
 
-#include "expr/square_of_norm.h"
+#include "expr/program/square_of_norm.h"
 #include "linear/quadratic_parts.h"
 #include "linear/tolerances.h"
 #include "linear/wide_function.h"
-#include "numbers/degree.h"
+#include "numbers/types/degree.h"
 
 namespace gainsmith::linear {
 

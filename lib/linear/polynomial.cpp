@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "expr/assembly.h"
-#include "expr/rewrite.h"
+#include "expr/program/assembly.h"
+#include "expr/program/rewrite.h"
 #include "linear/tolerances.h"
 
 namespace gainsmith::linear {

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "expr/program.h"
+#include "expr/program/program.h"
 
 namespace gainsmith::linear {
 

@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "linear/polynomial.h"
-#include "numbers/degree.h"
+#include "numbers/types/degree.h"
 
 namespace gainsmith::linear {
 

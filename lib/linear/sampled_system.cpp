@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "hybrid/affine.h"
-#include "numbers/degree.h"
+#include "numbers/types/degree.h"
 
 namespace gainsmith::linear {
 

@@ -7,7 +7,7 @@
 #include "base/eigen_scalars.h"
 #include "base/scalars.h"
 #include "hybrid/state_layout.h"
-#include "numbers/real.h"
+#include "numbers/types/real.h"
 
 namespace gainsmith::linear {
 

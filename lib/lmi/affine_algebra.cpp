@@ -8,9 +8,9 @@
 #include "base/stop.h"
 #include "forall/residues.h"
 #include "lmi/affine_maps.h"
-#include "numbers/degree.h"
-#include "numbers/dense.h"
-#include "numbers/real.h"
+#include "numbers/dense/dense.h"
+#include "numbers/types/degree.h"
+#include "numbers/types/real.h"
 
 namespace gainsmith::lmi {
 
@@ -253,7 +253,7 @@ AffineForm constant_result(const expr::Instruction& instruction,
   return constant_form(result);
 }
 
-/// The rules of expr/number_type.h; one operand at least is not constant.
+/// The rules of expr/program/number_type.h; one operand at least is not constant.
 struct AffineRules {
   using Op = expr::Op;
   using At = expr::Step<AffineForm>;

@@ -1,9 +1,9 @@
-// Arithmetic of affine forms, under the contract of expr/number_type.h.
+// Arithmetic of affine forms, under the contract of expr/program/number_type.h.
 #pragma once
 
 #include <span>
 
-#include "expr/number_type.h"
+#include "expr/program/number_type.h"
 #include "lmi/affine.h"
 
 namespace gainsmith::lmi {

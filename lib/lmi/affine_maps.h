@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "expr/program.h"
+#include "expr/program/program.h"
 #include "lmi/affine.h"
 
 namespace gainsmith::lmi {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "numbers/dense.h"
+#include "numbers/dense/dense.h"
 
 namespace gainsmith::lmi {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "lmi/affine_algebra.h"
-#include "numbers/real.h"
+#include "numbers/types/real.h"
 
 namespace gainsmith::lmi {
 

@@ -10,7 +10,7 @@
 #include "base/number.h"
 #include "lmi/balance.h"
 #include "lmi/gain_units.h"
-#include "numbers/dense.h"
+#include "numbers/dense/dense.h"
 
 namespace gainsmith::lmi {
 

@@ -1,11 +1,12 @@
-// The semidefinite program of a formulation with its matrices as unknowns (sdp/matrix_program.h).
+// The semidefinite program of a formulation with its matrices as unknowns
+// (sdp/schur/matrix_program.h).
 #pragma once
 
 #include <optional>
 #include <vector>
 
 #include "lmi/formulation.h"
-#include "sdp/matrix_program.h"
+#include "sdp/schur/matrix_program.h"
 
 namespace gainsmith::lmi {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "model/instance.h"
-#include "numbers/real.h"
+#include "numbers/types/real.h"
 
 namespace gainsmith::lmi {
 

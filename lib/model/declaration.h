@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "expr/ast.h"
-#include "expr/parser.h"
+#include "expr/text/ast.h"
+#include "expr/text/parser.h"
 #include "model/shape_text.h"
 
 namespace gainsmith::model {

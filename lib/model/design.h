@@ -32,8 +32,8 @@
 #include <vector>
 
 #include "base/error.h"
-#include "expr/estimate.h"
-#include "expr/program.h"
+#include "expr/program/estimate.h"
+#include "expr/program/program.h"
 #include "model/dynamics.h"
 #include "model/figure.h"
 #include "model/formula.h"

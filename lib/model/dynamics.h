@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "expr/condition.h"
+#include "expr/binding/condition.h"
 #include "model/formula.h"
 #include "model/measured.h"
 #include "model/words.h"

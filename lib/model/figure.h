@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-#include "expr/ast.h"
+#include "expr/text/ast.h"
 #include "model/formula.h"
 
 namespace gainsmith::model {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "base/error.h"
-#include "expr/program.h"
+#include "expr/program/program.h"
 
 namespace gainsmith::model {
 

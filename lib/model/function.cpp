@@ -2,8 +2,8 @@
 
 #include <stdexcept>
 
-#include "expr/chebyshev.h"
-#include "expr/scope.h"
+#include "expr/binding/chebyshev.h"
+#include "expr/binding/scope.h"
 
 namespace gainsmith::model {
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "expr/program.h"
-#include "expr/rewrite.h"
+#include "expr/program/program.h"
+#include "expr/program/rewrite.h"
 #include "model/design.h"
 
 namespace gainsmith::model {
@@ -19,7 +19,7 @@ namespace gainsmith::model {
 struct Basis {
   enum class Kind {
     monomials,  ///< 1, s, s^2, ...
-    chebyshev,  ///< T_k on an interval (expr/chebyshev.h), for the digits of high degrees
+    chebyshev,  ///< T_k on an interval (expr/binding/chebyshev.h), for the digits of high degrees
     weights     ///< those of the vertices of a box (forall/box.h): >= 0, their sum is 1
   };
   Kind kind = Kind::monomials;

@@ -6,7 +6,7 @@
 #include "base/number.h"
 #include "base/words.h"
 #include "model/function.h"
-#include "numbers/real.h"
+#include "numbers/types/real.h"
 
 namespace gainsmith::model {
 

@@ -9,7 +9,7 @@
 
 #include "model/design.h"
 #include "model/function.h"
-#include "numbers/real.h"
+#include "numbers/types/real.h"
 
 namespace gainsmith::model {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "expr/ast.h"
-#include "expr/parser.h"
+#include "expr/text/ast.h"
+#include "expr/text/parser.h"
 #include "model/component.h"
 #include "model/declaration.h"
 #include "model/measured.h"
@@ -15,8 +15,8 @@
 
 namespace gainsmith::model {
 
-/// An unknown: a matrix or, with `variable`, a function of a scalar given by coefficient matrices, or,
-/// with `arguments`, a polynomial in their elements.
+/// An unknown: a matrix or, with `variable`, a function of a scalar given by coefficient matrices,
+/// or, with `arguments`, a polynomial in their elements.
 struct UnknownDeclaration : Declaration {
   std::string variable;                     ///< "tau" of `of: tau`; empty: a matrix
   std::optional<expr::Expression> degree;   ///< of its polynomial; none: 0

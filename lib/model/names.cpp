@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/nearest.h"
-#include "expr/functions.h"
+#include "expr/binding/functions.h"
 
 namespace gainsmith::model {
 
@@ -43,8 +43,8 @@ class NameCheck {
         }
   }
 
-  /// The variable of a `forall` may be the name of the timer, of a state, which no inequality has, or
-  /// of another `forall`, nothing else.
+  /// The variable of a `forall` may be the name of the timer, of a state, which no inequality has,
+  /// or of another `forall`, nothing else.
   void check_variable(const Forall& forall) const {
     const auto found = known_.find(forall.variable);
     if (expr::is_reserved(forall.variable))

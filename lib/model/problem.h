@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "expr/ast.h"
+#include "expr/text/ast.h"
 #include "model/figure.h"
 #include "model/method.h"
 #include "model/stated_file.h"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "expr/ast.h"
+#include "expr/text/ast.h"
 #include "model/formula.h"
 
 namespace gainsmith::model {

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "base/nearest.h"
-#include "expr/compile.h"
-#include "expr/foreign_words.h"
-#include "expr/parser.h"
-#include "numbers/real.h"
+#include "expr/binding/compile.h"
+#include "expr/text/foreign_words.h"
+#include "expr/text/parser.h"
+#include "numbers/types/real.h"
 
 namespace gainsmith::model {
 

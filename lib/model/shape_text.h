@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "expr/ast.h"
-#include "expr/program.h"
+#include "expr/program/program.h"
+#include "expr/text/ast.h"
 #include "model/words.h"
 
 namespace gainsmith::model {

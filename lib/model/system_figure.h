@@ -21,7 +21,7 @@
 #include <utility>
 #include <vector>
 
-#include "expr/ast.h"
+#include "expr/text/ast.h"
 #include "model/formula.h"
 #include "model/range.h"
 

@@ -1,7 +1,7 @@
 // Dense matrices of a scalar type, under the names that the number types give them.
 //
-// The folder holds the number types over which programs are evaluated (expr/number_type.h), and the
-// linear algebra that they need:
+// The folder holds the number types over which programs are evaluated (expr/program/number_type.h),
+// and the linear algebra that they need:
 //   real.h               reals in double, 31 and 100 digits
 //   dual.h, tangent.h    a value with its first derivatives (forward differentiation)
 //   ball.h, enclosed.h   |true - mid| <= rad, every rounding included

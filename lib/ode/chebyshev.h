@@ -7,8 +7,8 @@
 
 #include <Eigen/Core>
 
+#include "numbers/graph/range.h"
 #include "numbers/matrix.h"
-#include "numbers/range.h"
 
 namespace gainsmith::ode::chebyshev {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "expr/derivative.h"
+#include "expr/program/derivative.h"
 
 namespace gainsmith::packs {
 

@@ -7,9 +7,9 @@
 
 #include <vector>
 
-#include "expr/condition.h"
+#include "expr/binding/condition.h"
 #include "hybrid/system.h"
-#include "numbers/scalar_trace.h"
+#include "numbers/graph/scalar_trace.h"
 
 namespace gainsmith::packs {
 
@@ -38,7 +38,7 @@ class PackGraph {
   int beside(int k) { return graph_.input(static_cast<int>(system_->whole) + k); }
 
   /// The nodes of a program at values x, and of its rate where all values have the rates `rates`.
-  /// NoFormula (numbers/scalar_rules.h) where it has none.
+  /// NoFormula (numbers/graph/scalar_rules.h) where it has none.
   numbers::TracedMatrix value(const expr::Program& program, const Nodes& x);
   numbers::TracedMatrix moving(const expr::Program& program, const Nodes& x, const Nodes& rates);
   /// 1 where a condition is true, otherwise 0.

@@ -3,11 +3,11 @@
 #include <algorithm>
 
 #include "claims/twin_parts.h"
-#include "expr/branches.h"
-#include "expr/square_of_norm.h"
+#include "expr/program/branches.h"
+#include "expr/program/square_of_norm.h"
 #include "hybrid/breaks.h"
 #include "hybrid/rounding_terms.h"
-#include "numbers/scalar_rules.h"
+#include "numbers/graph/scalar_rules.h"
 #include "ode/dormand_prince.h"
 #include "packs/jump_code.h"
 #include "packs/quintics.h"

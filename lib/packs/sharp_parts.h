@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "hybrid/system.h"
-#include "numbers/scalar_graph.h"
+#include "numbers/graph/scalar_graph.h"
 
 namespace gainsmith::packs {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "report/text.h"
+#include "drawing/text.h"
 
 namespace gainsmith::page {
 
@@ -15,15 +15,15 @@ std::string element(std::string_view tag, std::string_view content, std::string_
 }
 
 std::string text_element(std::string_view tag, std::string_view text, std::string_view attributes) {
-  return element(tag, report::escaped(text), attributes);
+  return element(tag, drawing::escaped(text), attributes);
 }
 
-/// Line by line: report::escaped() makes spaces of ends of lines.
+/// Line by line: drawing::escaped() makes spaces of ends of lines.
 std::string preformatted(std::string_view text, std::string_view attributes) {
   std::string lines;
   for (;;) {
     const std::size_t end = std::min(text.find('\n'), text.size());
-    lines += report::escaped(text.substr(0, end));
+    lines += drawing::escaped(text.substr(0, end));
     if (end == text.size()) return element("pre", lines, attributes);
     lines += '\n';
     text.remove_prefix(end + 1);
@@ -41,7 +41,7 @@ std::string headed_table(const std::vector<std::string_view>& heads, std::string
     rows.remove_prefix(end);
     if (one.starts_with("<tr")) column = 0;
     if (one.starts_with("<td") && column < heads.size() && !heads[column++].empty())
-      one.insert(3, " data-head=\"" + report::escaped(heads[column - 1]) + "\"");
+      one.insert(3, " data-head=\"" + drawing::escaped(heads[column - 1]) + "\"");
     body += one;
   }
   return element("table", element("thead", element("tr", head)) + element("tbody", body)) + "\n";

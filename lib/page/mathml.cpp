@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "base/words.h"
-#include "expr/functions.h"
+#include "expr/binding/functions.h"
 #include "page/element.h"
 #include "page/symbol.h"
 

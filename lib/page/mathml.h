@@ -11,8 +11,8 @@
 
 #include <string>
 
-#include "expr/ast.h"
-#include "expr/parser.h"
+#include "expr/text/ast.h"
+#include "expr/text/parser.h"
 #include "page/notation.h"
 
 namespace gainsmith::page {

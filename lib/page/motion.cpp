@@ -9,7 +9,7 @@
 #include "page/mathml.h"
 #include "page/rows.h"
 #include "page/symbol.h"
-#include "report/text.h"
+#include "drawing/text.h"
 
 namespace gainsmith::page {
 
@@ -17,7 +17,7 @@ namespace {
 
 using EventKind = model::Dynamics::EventKind;
 using NoiseKind = model::Dynamics::NoiseKind;
-using report::escaped;
+using drawing::escaped;
 
 std::string quoted(const std::string& name) { return text_element("b", name); }
 

@@ -13,13 +13,13 @@
 #include "page/squares.h"
 #include "page/statement.h"
 #include "page/symbol.h"
-#include "report/text.h"
+#include "drawing/text.h"
 
 namespace gainsmith::page {
 
 namespace {
 
-using report::escaped;
+using drawing::escaped;
 
 std::string paragraph(const std::string& text, std::string_view attributes = {}) {
   return text.empty() ? "" : text_element("p", text, attributes) + "\n";

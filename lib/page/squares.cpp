@@ -8,7 +8,7 @@
 #include "page/mathml.h"
 #include "page/rows.h"
 #include "page/symbol.h"
-#include "report/text.h"
+#include "drawing/text.h"
 
 namespace gainsmith::page {
 
@@ -35,7 +35,7 @@ std::string fraction(const std::string& text) {
   const std::size_t bar = text.find('/');
   const auto above = parse_decimal(text.substr(0, bar));
   const auto below = bar == std::string::npos ? 1 : parse_decimal(text.substr(bar + 1));
-  return above && below ? value(*above / *below) : report::escaped(text);
+  return above && below ? value(*above / *below) : drawing::escaped(text);
 }
 
 /// A symmetric matrix from the rows of its lower triangle.

@@ -6,7 +6,7 @@
 #include "page/mathml.h"
 #include "page/rows.h"
 #include "page/symbol.h"
-#include "report/text.h"
+#include "drawing/text.h"
 
 namespace gainsmith::page {
 
@@ -14,7 +14,7 @@ namespace {
 
 using model::Declaration;
 
-std::string help_of(const std::string& help) { return report::escaped(help); }
+std::string help_of(const std::string& help) { return drawing::escaped(help); }
 
 /// "n × p", "symmetric, n × n", "scalar".
 std::string shape_text(const model::ShapeText& shape, const Notation& notation) {
@@ -26,7 +26,7 @@ std::string shape_text(const model::ShapeText& shape, const Notation& notation) 
                               : shape.cols                       ? mathml(*shape.cols, notation)
                                                                  : "<mn>1</mn>";
   const std::string kind =
-      shape.structure == Structure::full ? "" : report::escaped(to_string(shape.structure)) + ", ";
+      shape.structure == Structure::full ? "" : drawing::escaped(to_string(shape.structure)) + ", ";
   return kind + formula(rows + mo("×") + columns);
 }
 

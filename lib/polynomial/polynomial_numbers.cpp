@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "base/stop.h"
-#include "expr/evaluate.h"
-#include "numbers/field_rules.h"
+#include "expr/program/evaluate.h"
+#include "numbers/types/field_rules.h"
 
 namespace gainsmith::polynomial {
 

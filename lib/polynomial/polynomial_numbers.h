@@ -3,16 +3,16 @@
 //
 // Sums, products, whole powers, quotients by numbers, blocks, parts, transposes, traces and
 // jacobians of what moves are polynomials. Everything may be done to numbers that has a fraction
-// (numbers/rational.h). All else throws EvaluationError with what makes a polynomial of it.
+// (numbers/types/rational.h). All else throws EvaluationError with what makes a polynomial of it.
 #pragma once
 
 #include <map>
 #include <string>
 #include <vector>
 
-#include "expr/number_type.h"
+#include "expr/program/number_type.h"
 #include "numbers/matrix.h"
-#include "numbers/rational.h"
+#include "numbers/types/rational.h"
 #include "polynomial/polynomial.h"
 
 template <>

@@ -9,10 +9,10 @@
 #include <numbers>
 #include <vector>
 
-#include "numbers/ball_functions.h"
-#include "numbers/definite.h"
-#include "numbers/enclosed_functions.h"
-#include "numbers/spectrum.h"
+#include "numbers/dense/definite.h"
+#include "numbers/dense/spectrum.h"
+#include "numbers/types/ball_functions.h"
+#include "numbers/types/enclosed_functions.h"
 #include "numerics/balance.h"
 #include "response/sweep.h"
 

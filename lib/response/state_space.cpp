@@ -4,7 +4,7 @@
 #include <complex>
 #include <limits>
 
-#include "numbers/spectrum.h"
+#include "numbers/dense/spectrum.h"
 
 namespace gainsmith::response {
 

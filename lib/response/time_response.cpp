@@ -6,7 +6,7 @@
 #include <limits>
 #include <optional>
 
-#include "numbers/dense.h"
+#include "numbers/dense/dense.h"
 
 namespace gainsmith::response {
 

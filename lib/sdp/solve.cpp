@@ -1,5 +1,5 @@
 #include "base/isa.h"
-#include "sdp/variant.h"
+#include "sdp/core/variant.h"
 
 namespace gainsmith::sdp {
 

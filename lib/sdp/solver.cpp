@@ -12,13 +12,13 @@
 #include "base/number.h"
 #include "base/scalars.h"
 #include "base/stop.h"
-#include "sdp/face.h"
-#include "sdp/forecast.h"
-#include "sdp/ipm.h"
-#include "sdp/nearby.h"
-#include "sdp/presolve.h"
-#include "sdp/report.h"
-#include "sdp/variant.h"
+#include "sdp/core/face.h"
+#include "sdp/core/forecast.h"
+#include "sdp/core/ipm.h"
+#include "sdp/core/nearby.h"
+#include "sdp/core/presolve.h"
+#include "sdp/core/report.h"
+#include "sdp/core/variant.h"
 
 namespace gainsmith::sdp {
 namespace {

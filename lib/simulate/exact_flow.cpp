@@ -7,7 +7,7 @@
 
 #include "base/number.h"
 #include "base/unit_roundoff.h"
-#include "numbers/dense.h"
+#include "numbers/dense/dense.h"
 #include "numerics/balance.h"
 #include "ode/chebyshev.h"
 #include "ode/integrator.h"

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "base/eigen_scalars.h"
-#include "expr/evaluate.h"
+#include "expr/program/evaluate.h"
 #include "hybrid/system.h"
-#include "numbers/real.h"
+#include "numbers/types/real.h"
 
 namespace gainsmith::simulate {
 

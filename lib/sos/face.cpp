@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "base/eigen_scalars.h"
-#include "numbers/rational_algebra.h"
+#include "numbers/dense/rational_algebra.h"
 #include "numerics/lattice.h"
 
 namespace gainsmith::sos {

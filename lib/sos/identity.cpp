@@ -5,8 +5,8 @@
 #include <map>
 
 #include "base/stop.h"
-#include "numbers/definite.h"
-#include "numbers/rational_algebra.h"
+#include "numbers/dense/definite.h"
+#include "numbers/dense/rational_algebra.h"
 
 namespace gainsmith::sos {
 

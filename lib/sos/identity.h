@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "numbers/rational.h"
+#include "numbers/types/rational.h"
 #include "sos/solve.h"
 
 namespace gainsmith::sos {

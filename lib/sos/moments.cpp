@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/stop.h"
+#include "numbers/dense/rational_algebra.h"
 #include "numbers/matrix.h"
-#include "numbers/rational_algebra.h"
 #include "sos/identity.h"
 
 namespace gainsmith::sos {

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "base/stop.h"
-#include "numbers/residue.h"
+#include "numbers/dense/residue.h"
 
 namespace gainsmith::sos {
 

@@ -6,8 +6,8 @@
 #include <map>
 
 #include "base/stop.h"
-#include "numbers/dense.h"
-#include "numbers/rational_algebra.h"
+#include "numbers/dense/dense.h"
+#include "numbers/dense/rational_algebra.h"
 #include "verdict/eigenvectors.h"
 #include "verdict/rational_blocks.h"
 

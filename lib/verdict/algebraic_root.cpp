@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/stop.h"
-#include "numbers/dense.h"
+#include "numbers/dense/dense.h"
 
 namespace gainsmith::verdict {
 

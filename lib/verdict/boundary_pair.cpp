@@ -8,7 +8,7 @@
 
 #include "base/eigen_scalars.h"
 #include "base/stop.h"
-#include "numbers/dense.h"
+#include "numbers/dense/dense.h"
 #include "verdict/wide_algebra.h"
 
 namespace gainsmith::verdict {

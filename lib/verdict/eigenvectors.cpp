@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "base/stop.h"
-#include "numbers/rational.h"
-#include "numbers/rational_algebra.h"
+#include "numbers/dense/rational_algebra.h"
+#include "numbers/types/rational.h"
 #include "verdict/rational_blocks.h"
 
 namespace gainsmith::verdict {

@@ -10,7 +10,7 @@
 #include "lmi/assembler.h"
 #include "lmi/balance.h"
 #include "lmi/inequalities.h"
-#include "numbers/enclosure.h"
+#include "numbers/types/enclosure.h"
 #include "verdict/exact_form.h"
 
 namespace gainsmith::verdict {

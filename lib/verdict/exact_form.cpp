@@ -4,7 +4,7 @@
 #include <map>
 #include <tuple>
 
-#include "numbers/enclosure.h"
+#include "numbers/types/enclosure.h"
 #include "verdict/wide_algebra.h"
 
 namespace gainsmith::verdict {

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "expr/number_type.h"
+#include "expr/program/number_type.h"
 #include "lmi/unknowns.h"
-#include "numbers/enclosed.h"
+#include "numbers/types/enclosed.h"
 
 namespace gainsmith::verdict {
 
@@ -48,8 +48,8 @@ std::vector<std::pair<int, ExactElements<S>>> terms_of(const ExactForm<S>& form)
 template <class S>
 ExactForm<S> exact_unknown(const lmi::Unknown& unknown);
 
-/// Arithmetic under the contract of expr/number_type.h: the operations that AffineAlgebra has for
-/// what has an unknown. EvaluationError for all others.
+/// Arithmetic under the contract of expr/program/number_type.h: the operations that AffineAlgebra
+/// has for what has an unknown. EvaluationError for all others.
 template <class S>
 struct ExactAlgebra {
   using Value = ExactForm<S>;

@@ -7,7 +7,7 @@
 #include "base/eigen_scalars.h"
 #include "base/stop.h"
 #include "base/unit_roundoff.h"
-#include "numbers/dense.h"
+#include "numbers/dense/dense.h"
 
 namespace gainsmith::verdict {
 

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "base/stop.h"
-#include "numbers/rational_algebra.h"
+#include "numbers/dense/rational_algebra.h"
 
 namespace gainsmith::verdict {
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/stop.h"
-#include "numbers/rational_algebra.h"
+#include "numbers/dense/rational_algebra.h"
 
 namespace gainsmith::verdict {
 

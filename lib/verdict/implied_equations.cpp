@@ -7,7 +7,7 @@
 #include "base/eigen_scalars.h"
 #include "base/rational.h"
 #include "base/stop.h"
-#include "numbers/dense.h"
+#include "numbers/dense/dense.h"
 
 namespace gainsmith::verdict {
 

@@ -8,7 +8,7 @@
 
 #include "forall/worst.h"
 #include "lmi/correlation.h"
-#include "numbers/dense.h"
+#include "numbers/dense/dense.h"
 #include "verdict/printed_check.h"
 #include "verdict/rational_blocks.h"
 

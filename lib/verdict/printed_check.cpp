@@ -6,8 +6,8 @@
 
 #include "base/scalars.h"
 #include "model/gains.h"
-#include "numbers/degree.h"
-#include "numbers/rational_algebra.h"
+#include "numbers/dense/rational_algebra.h"
+#include "numbers/types/degree.h"
 #include "verdict/rational_blocks.h"
 
 namespace gainsmith::verdict {

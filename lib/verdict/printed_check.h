@@ -1,8 +1,8 @@
 // The check that is a yes: an inequality at the unknowns as they are printed, for all values of its
 // variables, with the errors of the arithmetic and of the decimals (forall/proof.h). In double,
 // then in 31 and 100 digits where that does not decide. What is singular at the decimals is decided
-// in fractions, where its text has them (numbers/rational.h) and it is affine in each variable over
-// an interval: then the ends decide.
+// in fractions, where its text has them (numbers/types/rational.h) and it is affine in each
+// variable over an interval: then the ends decide.
 //
 // Where no decimals satisfy the equations, as of 3*x == 1, a solution near them in fractions is
 // checked in their place.
@@ -13,7 +13,7 @@
 
 #include "forall/proof.h"
 #include "lmi/inequalities.h"
-#include "numbers/rational.h"
+#include "numbers/types/rational.h"
 
 namespace gainsmith::verdict {
 

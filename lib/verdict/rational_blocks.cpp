@@ -3,9 +3,9 @@
 #include <stdexcept>
 
 #include "base/stop.h"
-#include "expr/evaluate.h"
+#include "expr/program/evaluate.h"
 #include "model/gains.h"
-#include "numbers/rational_algebra.h"
+#include "numbers/dense/rational_algebra.h"
 #include "verdict/stated_point.h"
 
 namespace gainsmith::verdict {

@@ -21,7 +21,7 @@
 
 #include "lmi/block.h"
 #include "lmi/inequalities.h"
-#include "numbers/rational.h"
+#include "numbers/types/rational.h"
 #include "verdict/exact.h"
 
 namespace gainsmith::verdict {
@@ -41,7 +41,7 @@ struct RationalBlock {
 };
 
 /// One for each block, in order. Not exact is a block that represents no point of its domain, and
-/// one whose text has a value that is no fraction (numbers/rational.h).
+/// one whose text has a value that is no fraction (numbers/types/rational.h).
 std::vector<RationalBlock> rational_blocks(const lmi::Inequalities& of,
                                            const std::vector<lmi::Block>& blocks);
 

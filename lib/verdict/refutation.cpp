@@ -7,7 +7,7 @@
 
 #include "base/eigen_scalars.h"
 #include "base/stop.h"
-#include "numbers/dense.h"
+#include "numbers/dense/dense.h"
 #include "verdict/exactness.h"
 #include "verdict/implied_equations.h"
 #include "verdict/wide_algebra.h"

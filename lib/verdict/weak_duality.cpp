@@ -9,7 +9,7 @@
 
 #include "base/unit_roundoff.h"
 #include "lmi/assembler.h"
-#include "numbers/dense.h"
+#include "numbers/dense/dense.h"
 #include "verdict/exactness.h"
 #include "verdict/wide_algebra.h"
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "lmi/formulation.h"
-#include "numbers/ball.h"
+#include "numbers/types/ball.h"
 #include "verdict/exact.h"
 #include "verdict/faces.h"
 #include "verdict/solved_multipliers.h"

@@ -8,7 +8,7 @@
 #include "base/eigen_scalars.h"
 #include "base/scalars.h"
 #include "base/stop.h"
-#include "numbers/factor.h"
+#include "numbers/dense/factor.h"
 #include "numbers/matrix.h"
 
 namespace gainsmith::verdict {

@@ -8,7 +8,7 @@
 
 #include "base/number.h"
 #include "hybrid/affine.h"
-#include "numbers/dense.h"
+#include "numbers/dense/dense.h"
 
 namespace gainsmith::verify {
 

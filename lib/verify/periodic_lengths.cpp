@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "base/stop.h"
-#include "numbers/dense.h"
+#include "numbers/dense/dense.h"
 #include "numerics/matrix_products.h"
 #include "search/nlopt.h"
 

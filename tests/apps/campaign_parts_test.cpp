@@ -11,7 +11,7 @@
 
 #include "gainsmith/campaign_json.h"
 #include "gainsmith/campaign_text.h"
-#include "io/campaign_json.h"
+#include "io/json/campaign_json.h"
 #include "support/text_problem.h"
 #include "verify/campaign.h"
 

@@ -1,5 +1,5 @@
 // A problem is read once and bound once in a process, whatever a command does with it.
-#include "expr/work.h"
+#include "expr/text/work.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include "bind/instance.h"
 #include "bind/small_problem.h"
 #include "bind/stated.h"
-#include "expr/work.h"
+#include "expr/text/work.h"
 #include "model/stated.h"
 #include "support/input_error.h"
 
@@ -18,7 +18,8 @@ namespace {
 
 using tests::input_error;
 
-/// R has two columns where T1 > 1, otherwise one; U is diag([1, 2^-k]) for T1 near 2^k; X has the degree 1 up to rate = 2, else 3.
+/// R has two columns where T1 > 1, otherwise one; U is diag([1, 2^-k]) for T1 near 2^k; X has the
+/// degree 1 up to rate = 2, else 3.
 const std::string kMethod = changed(
     changed(changed(kSmallMethod, "  M: {",
                     "  R: {shape: n x r, default: \"orth(diag([1; max(T1 - 1, 0)]))\"}\n"

@@ -11,8 +11,8 @@
 #include "bind/binding.h"
 #include "bind/instance.h"
 #include "bind/small_problem.h"
-#include "expr/compile.h"
-#include "expr/parser.h"
+#include "expr/binding/compile.h"
+#include "expr/text/parser.h"
 #include "support/input_error.h"
 
 namespace gainsmith::bind {

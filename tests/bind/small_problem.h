@@ -7,7 +7,7 @@
 #include <string>
 
 #include "bind/bind.h"
-#include "io/problem_yaml.h"
+#include "io/yaml/problem_yaml.h"
 
 namespace gainsmith::bind {
 

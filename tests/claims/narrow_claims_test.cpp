@@ -370,8 +370,7 @@ TEST(NarrowFigures, ATieIsADoubt) {
 TEST(NarrowFigures, OfAChaoticRunAreUndecidedOnceItHasParted) {
   // Each tick takes a digit away: of 16 there are 11 after five ticks, and none after 19.
   const RunDifferences found =
-      differences("y: {shape: scalar, start: 0.3183098861837907}", "",
-                  "y: \"10*y - floor(10*y)\"",
+      differences("y: {shape: scalar, start: 0.3183098861837907}", "", "y: \"10*y - floor(10*y)\"",
                   "    - {at: {t: 0.55}, value: y, is: 0.98861837907, absolute: 1e-6}\n"
                   "    - {at: {t: 0.55}, value: y, is: 0.9887, absolute: 1e-6}\n"
                   "    - {at: {t: 1.95}, value: y, is: 0.5, absolute: 1e-9}\n"

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "expr/rewrite.h"
+#include "expr/program/rewrite.h"
 #include "ode/chebyshev.h"
 
 namespace gainsmith::claims {

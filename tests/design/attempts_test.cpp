@@ -9,7 +9,7 @@
 #include <random>
 
 #include "design/scripted.h"
-#include "numbers/dense.h"
+#include "numbers/dense/dense.h"
 
 namespace gainsmith::design {
 namespace {
@@ -352,7 +352,8 @@ TEST(Attempts, ABlendedPointHasItsTighterBound) {
   EXPECT_NEAR(run.gains.objective.value(), 1, 1e-11);
 }
 
-/// A yes does not depend on the margin asked for; what is missing is said where nothing is minimised.
+/// A yes does not depend on the margin asked for; what is missing is said where nothing is
+/// minimised.
 TEST(Attempts, LessThanTheMarginAskedForIsAYesThatSaysSo) {
   const std::string method = "  unknowns: {x: scalar}\n  require:\n    a: \"[x, 1; 1, 1] > 0\"\n";
   const std::string margin = "synthesis: {margin: 0.1}\n";

@@ -6,7 +6,7 @@
 
 #include "design/semidefinite_program.h"
 #include "design/solve.h"
-#include "numbers/dense.h"
+#include "numbers/dense/dense.h"
 #include "support/input_error.h"
 #include "support/linear_algebra.h"
 #include "support/stop.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "design/solve.h"
-#include "numbers/dense.h"
+#include "numbers/dense/dense.h"
 
 namespace gainsmith::design {
 namespace {
@@ -183,7 +183,8 @@ TEST(Equations, MakeInequalitiesSymmetric) {
             model::Verdict::no);
 }
 
-/// Output feedback by M C = C W (Crusius and Trofino, 1999): W = I, M = I, N = [-1, 4] is a solution.
+/// Output feedback by M C = C W (Crusius and Trofino, 1999): W = I, M = I, N = [-1, 4] is a
+/// solution.
 TEST(Equations, GainsWithInversesThatAreNotSymmetricAreBounded) {
   const model::Gains gains = solve(
       "  data: {A: n x n, B: n x m, C: p x n}\n  unknowns: {W: symmetric n, M: p x p, N: m x p}\n"

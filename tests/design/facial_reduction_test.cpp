@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "design/solve.h"
-#include "numbers/dense.h"
+#include "numbers/dense/dense.h"
 
 namespace gainsmith::design {
 namespace {
@@ -86,8 +86,9 @@ TEST(FacialReduction, CentredGramMatricesHaveTheirMinimum) {
   }
 }
 
-/// The Laplacian of a path or a cycle whose weights have the sum 1: its second eigenvalue is largest
-/// for weights i (n - i) / sum, 1 / sum in all; for equal weights, 2 (1 - cos(2 pi / n)) / n in all.
+/// The Laplacian of a path or a cycle whose weights have the sum 1: its second eigenvalue is
+/// largest for weights i (n - i) / sum, 1 / sum in all; for equal weights, 2 (1 - cos(2 pi / n)) /
+/// n in all.
 TEST(FacialReduction, LaplaciansHaveTheirLargestSecondEigenvalue) {
   for (int n = 3; n <= 6; ++n) {
     for (const bool cycle : {false, true}) {

@@ -8,7 +8,7 @@
 
 #include "design/search_problems.h"
 #include "design/synthesize.h"
-#include "expr/parser.h"
+#include "expr/text/parser.h"
 #include "search/axis.h"
 #include "support/input_error.h"
 #include "support/stop.h"

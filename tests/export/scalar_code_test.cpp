@@ -5,8 +5,8 @@
 
 #include <string>
 
-#include "expr/compile.h"
-#include "expr/parser.h"
+#include "expr/binding/compile.h"
+#include "expr/text/parser.h"
 
 namespace gainsmith::exports {
 namespace {

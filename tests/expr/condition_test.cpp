@@ -1,10 +1,10 @@
-#include "expr/condition.h"
+#include "expr/binding/condition.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "numbers/real.h"
+#include "numbers/types/real.h"
 #include "support/input_error.h"
 
 namespace gainsmith::expr {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "expr/branches.h"
+#include "expr/program/branches.h"
 #include "expr/world.h"
 #include "support/input_error.h"
 
@@ -123,7 +123,8 @@ TEST(ElementaryFunctions, AreSmoothWhereTheyAre) {
     const Program program = compile(parse({text, "test"}), world.scope);
     return branches_of(program, [](const std::string&) { return true; }).size();
   };
-  for (const char* text : {"asin(x)", "acos(x)", "atan(x)", "tan(x)", "sinh(x)", "cosh(x)", "log10(x)"})
+  for (const char* text :
+       {"asin(x)", "acos(x)", "atan(x)", "tan(x)", "sinh(x)", "cosh(x)", "log10(x)"})
     EXPECT_EQ(branches(text), 0U) << text;
   EXPECT_EQ(branches("atan2(x, y)"), 1U);
   EXPECT_EQ(branches("atan2(x, -1)"), 1U);

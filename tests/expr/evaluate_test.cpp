@@ -1,4 +1,4 @@
-#include "expr/evaluate.h"
+#include "expr/program/evaluate.h"
 
 #include <gtest/gtest.h>
 

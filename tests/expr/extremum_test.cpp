@@ -5,8 +5,8 @@
 #include <random>
 #include <string>
 
-#include "expr/estimate.h"
-#include "expr/rename.h"
+#include "expr/program/estimate.h"
+#include "expr/text/rename.h"
 #include "expr/world.h"
 #include "support/input_error.h"
 

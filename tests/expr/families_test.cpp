@@ -1,7 +1,7 @@
 // Names with indices, sums over them, and texts about any member made those about one.
 #include <gtest/gtest.h>
 
-#include "expr/instantiate.h"
+#include "expr/binding/instantiate.h"
 #include "expr/world.h"
 #include "support/input_error.h"
 

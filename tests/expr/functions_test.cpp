@@ -1,4 +1,4 @@
-#include "expr/functions.h"
+#include "expr/binding/functions.h"
 
 #include <gtest/gtest.h>
 

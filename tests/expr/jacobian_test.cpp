@@ -5,7 +5,7 @@
 #include <random>
 #include <string>
 
-#include "expr/derivative.h"
+#include "expr/program/derivative.h"
 #include "expr/world.h"
 #include "support/input_error.h"
 

@@ -1,4 +1,4 @@
-#include "expr/lexer.h"
+#include "expr/text/lexer.h"
 
 #include <gtest/gtest.h>
 

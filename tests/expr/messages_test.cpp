@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "expr/functions.h"
+#include "expr/binding/functions.h"
 #include "expr/world.h"
 #include "support/input_error.h"
 

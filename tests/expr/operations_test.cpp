@@ -1,5 +1,5 @@
 // The table of operations: shapes that do not fit are refused where a program is made.
-#include "expr/operations.h"
+#include "expr/program/operations.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <vector>
 
-#include "expr/assembly.h"
-#include "expr/functions.h"
-#include "expr/number_type.h"
+#include "expr/binding/functions.h"
+#include "expr/program/assembly.h"
+#include "expr/program/number_type.h"
 #include "expr/world.h"
 
 namespace gainsmith::expr {

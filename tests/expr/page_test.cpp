@@ -4,7 +4,7 @@
 #include <string>
 
 #include "base/file.h"
-#include "expr/functions.h"
+#include "expr/binding/functions.h"
 
 namespace gainsmith::expr {
 namespace {

@@ -1,4 +1,4 @@
-#include "expr/parser.h"
+#include "expr/text/parser.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <random>
 #include <string>
 
-#include "expr/number_type.h"
+#include "expr/program/number_type.h"
 #include "expr/world.h"
 #include "support/input_error.h"
 

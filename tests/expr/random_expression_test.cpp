@@ -5,7 +5,7 @@
 #include <random>
 #include <string>
 
-#include "expr/lexer.h"
+#include "expr/text/lexer.h"
 #include "expr/world.h"
 
 namespace gainsmith::expr {

@@ -1,5 +1,5 @@
 // Programs from programs: calls that are replaced, sums of terms, slack.
-#include "expr/rewrite.h"
+#include "expr/program/rewrite.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Parts of programs that others stand for: replaced, recognised, turned around.
-#include "expr/substitute.h"
+#include "expr/binding/substitute.h"
 
 #include <gtest/gtest.h>
 

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "expr/compile.h"
-#include "expr/parser.h"
-#include "numbers/real.h"
+#include "expr/binding/compile.h"
+#include "expr/text/parser.h"
+#include "numbers/types/real.h"
 
 namespace gainsmith::expr {
 

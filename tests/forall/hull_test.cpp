@@ -9,7 +9,7 @@
 
 #include "forall/forms.h"
 #include "forall/variables.h"
-#include "numbers/dense.h"
+#include "numbers/dense/dense.h"
 #include "support/input_error.h"
 
 namespace gainsmith::forall {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "expr/evaluate.h"
+#include "expr/program/evaluate.h"
 #include "forall/random_atom.h"
 #include "forall/variables.h"
 

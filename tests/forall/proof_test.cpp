@@ -8,8 +8,8 @@
 #include <string>
 
 #include "forall/variables.h"
-#include "numbers/definite.h"
-#include "numbers/dense.h"
+#include "numbers/dense/definite.h"
+#include "numbers/dense/dense.h"
 #include "support/linear_algebra.h"
 
 namespace gainsmith::forall {

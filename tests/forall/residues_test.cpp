@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "expr/evaluate.h"
+#include "expr/program/evaluate.h"
 #include "support/linear_algebra.h"
 
 namespace gainsmith::forall {

@@ -5,11 +5,11 @@
 #include <utility>
 #include <vector>
 
-#include "expr/compile.h"
-#include "expr/parser.h"
+#include "expr/binding/compile.h"
+#include "expr/text/parser.h"
 #include "forall/domain.h"
 #include "forall/plan.h"
-#include "numbers/real.h"
+#include "numbers/types/real.h"
 
 namespace gainsmith::forall::testing {
 

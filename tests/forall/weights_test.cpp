@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <random>
 
-#include "expr/compile.h"
-#include "expr/parser.h"
+#include "expr/binding/compile.h"
+#include "expr/text/parser.h"
 #include "forall/box.h"
 #include "forall/random_atom.h"
 #include "forall/variables.h"

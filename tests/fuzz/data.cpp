@@ -8,14 +8,14 @@
 #include "fuzz/places.h"
 #include "fuzz/readers.h"
 #include "fuzz/values.h"
-#include "io/csv_table.h"
-#include "io/gains_json.h"
+#include "io/json/gains_json.h"
 #include "io/matrix/csv_matrix.h"
+#include "io/matrix/csv_table.h"
 #include "io/matrix/json_matrix.h"
 #include "io/matrix/mat_matrix.h"
 #include "io/matrix/npy_matrix.h"
+#include "sdp/files/sdpa_file.h"
 #include "sdp/problem.h"
-#include "sdp/sdpa_file.h"
 
 namespace gainsmith::fuzz {
 

@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include "expr/compile.h"
-#include "expr/parser.h"
+#include "expr/binding/compile.h"
+#include "expr/text/parser.h"
 #include "fuzz/places.h"
 #include "fuzz/readers.h"
-#include "numbers/real.h"
+#include "numbers/types/real.h"
 
 namespace gainsmith::expr {
 namespace {

@@ -13,7 +13,7 @@
 #include "fuzz/heap.h"
 #include "fuzz/mutator.h"
 #include "fuzz/readers.h"
-#include "io/gains_json.h"
+#include "io/json/gains_json.h"
 #include "io/problem_text.h"
 
 namespace gainsmith::fuzz {

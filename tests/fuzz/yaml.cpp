@@ -11,7 +11,7 @@
 #include "bind/bind.h"
 #include "fuzz/places.h"
 #include "fuzz/readers.h"
-#include "io/problem_yaml.h"
+#include "io/yaml/problem_yaml.h"
 #include "methods/methods.h"
 
 namespace gainsmith::io {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "expr/compile.h"
-#include "expr/scope.h"
+#include "expr/binding/compile.h"
+#include "expr/binding/scope.h"
 
 namespace gainsmith::hybrid {
 namespace {

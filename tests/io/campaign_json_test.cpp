@@ -1,11 +1,11 @@
-#include "io/campaign_json.h"
+#include "io/json/campaign_json.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
+#include "io/json/result_json.h"
 #include "io/problem_text.h"
-#include "io/result_json.h"
 
 namespace gainsmith::io {
 namespace {

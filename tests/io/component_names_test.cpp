@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bind/bind.h"
-#include "expr/text.h"
+#include "expr/text/text.h"
 #include "io/problem_text.h"
 #include "model/dynamics_programs.h"
 

@@ -1,11 +1,11 @@
 // Tables of CSV as they come: what is read, and where what is wrong stands.
-#include "io/csv_table.h"
+#include "io/matrix/csv_table.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "io/csv.h"
+#include "io/matrix/csv.h"
 #include "support/input_error.h"
 
 namespace gainsmith::io {

@@ -1,5 +1,5 @@
-// Data that stand in files, and values of the command line: how a problem reads them, and how a gain
-// file states them.
+// Data that stand in files, and values of the command line: how a problem reads them, and how a
+// gain file states them.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -9,7 +9,7 @@
 #include "base/hash.h"
 #include "bind/bind.h"
 #include "io/folder.h"
-#include "io/gains_json.h"
+#include "io/json/gains_json.h"
 #include "io/problem_text.h"
 
 namespace gainsmith::io {

@@ -11,7 +11,7 @@
 
 #include "base/number.h"
 #include "bind/bind.h"
-#include "io/gains_json.h"
+#include "io/json/gains_json.h"
 #include "io/problem_text.h"
 
 namespace gainsmith::io {

@@ -5,7 +5,7 @@
 
 #include "bind/bind.h"
 #include "io/problem_text.h"
-#include "numbers/real.h"
+#include "numbers/types/real.h"
 
 namespace gainsmith::io {
 namespace {

@@ -286,8 +286,9 @@ TEST(MatMatrix, SaysWhatIsNoMatrix) {
       EXPECT_EQ(error.place(), kHere);
       EXPECT_NE(error.message().find(says), std::string::npos) << error.message();
     }
-  EXPECT_NE(mat_error("plant-v4.mat", "A").message().find("no MAT file of version 5: save it again"),
-            std::string::npos);
+  EXPECT_NE(
+      mat_error("plant-v4.mat", "A").message().find("no MAT file of version 5: save it again"),
+      std::string::npos);
 }
 
 class MatBytes : public Folder {

@@ -11,9 +11,9 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "bind/bind.h"
-#include "io/method_yaml.h"
 #include "io/problem_text.h"
 #include "io/starting_problem.h"
+#include "io/yaml/method_yaml.h"
 
 namespace gainsmith::io {
 namespace {

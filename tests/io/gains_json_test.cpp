@@ -1,4 +1,4 @@
-#include "io/gains_json.h"
+#include "io/json/gains_json.h"
 
 #include <gtest/gtest.h>
 

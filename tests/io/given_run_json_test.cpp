@@ -1,5 +1,5 @@
 // Runs whose draws are given, as JSON and back.
-#include "io/given_run_json.h"
+#include "io/json/given_run_json.h"
 
 #include <gtest/gtest.h>
 

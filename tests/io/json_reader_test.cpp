@@ -1,4 +1,4 @@
-#include "io/json_reader.h"
+#include "io/json/json_reader.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "io/json_text.h"
+#include "io/json/json_text.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
-#include "io/method_yaml.h"
+#include "io/yaml/method_yaml.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
 
-#include "io/method_node.h"
 #include "io/problem_text.h"
+#include "io/yaml/method_node.h"
 
 namespace gainsmith::io {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "bind/bind.h"
-#include "io/method_yaml.h"
 #include "io/problem_text.h"
+#include "io/yaml/method_yaml.h"
 
 namespace gainsmith::io {
 namespace {

@@ -1,4 +1,4 @@
-#include "io/problem_yaml.h"
+#include "io/yaml/problem_yaml.h"
 
 #include <gtest/gtest.h>
 

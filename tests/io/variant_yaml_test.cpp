@@ -1,5 +1,5 @@
 // A problem that is like another one: what it takes, what it replaces, what it removes.
-#include "io/variant_yaml.h"
+#include "io/yaml/variant_yaml.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "bind/bind.h"
 #include "io/folder.h"
-#include "io/gains_json.h"
+#include "io/json/gains_json.h"
 #include "io/problem_text.h"
 
 namespace gainsmith::io {

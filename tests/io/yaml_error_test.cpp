@@ -1,10 +1,10 @@
-#include "io/yaml_error.h"
+#include "io/yaml/yaml_error.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "io/yaml.h"
+#include "io/yaml/yaml.h"
 #include "support/input_error.h"
 
 namespace gainsmith::io {

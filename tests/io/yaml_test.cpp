@@ -1,4 +1,4 @@
-#include "io/yaml.h"
+#include "io/yaml/yaml.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "expr/compile.h"
-#include "numbers/real.h"
+#include "expr/binding/compile.h"
+#include "numbers/types/real.h"
 #include "support/input_error.h"
 
 namespace gainsmith::io {

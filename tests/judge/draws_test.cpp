@@ -3,9 +3,9 @@
 
 #include <functional>
 
-#include "expr/compile.h"
-#include "expr/parser.h"
-#include "expr/rewrite.h"
+#include "expr/binding/compile.h"
+#include "expr/program/rewrite.h"
+#include "expr/text/parser.h"
 #include "judge/judge.h"
 #include "simulate/simulator.h"
 #include "support/dynamics_text.h"

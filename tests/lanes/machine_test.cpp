@@ -12,7 +12,7 @@
 #include "base/random.h"
 #include "base/sine.h"
 #include "lanes/variants.h"
-#include "numbers/tape.h"
+#include "numbers/graph/tape.h"
 
 namespace gainsmith::lanes {
 namespace {

@@ -12,7 +12,7 @@ CLEAN = {
     "lib/base/CMakeLists.txt": "gainsmith_room(base SOURCES error.cpp PUBLIC fmt::fmt)\n",
     "lib/verify/check.cpp": '#include "verify/check.h"\n#include <Eigen/Core>\n#include "hybrid/arc.h"\n',
     "lib/verify/CMakeLists.txt": "gainsmith_room(verify\n  SOURCES check.cpp\n  ROOMS base expr model hybrid)\n",
-    "apps/gainsmith/main.cpp": '#include <CLI/CLI.hpp>\n#include "gainsmith/load.h"\n#include "io/json_text.h"\n',
+    "apps/gainsmith/main.cpp": '#include <CLI/CLI.hpp>\n#include "gainsmith/load.h"\n#include "io/json/json_text.h"\n',
 }
 
 
@@ -60,7 +60,7 @@ class Planted(unittest.TestCase):
                           "verify may not include verdict")
 
     def test_algorithms_know_no_program(self):
-        self.assert_found("lib/numerics/a.h", '#include "expr/program.h"\n', "lib/numerics/a.h:1",
+        self.assert_found("lib/numerics/a.h", '#include "expr/program/program.h"\n', "lib/numerics/a.h:1",
                           "numerics may not include expr")
 
     def test_binding_stays_behind_its_room(self):

@@ -4,8 +4,8 @@
 
 #include <random>
 
-#include "expr/compile.h"
-#include "expr/parser.h"
+#include "expr/binding/compile.h"
+#include "expr/text/parser.h"
 #include "forall/variables.h"
 #include "lmi/inequalities.h"
 #include "support/expect_counts.h"

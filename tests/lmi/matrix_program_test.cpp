@@ -103,7 +103,7 @@ Matrix value(const sdp::MatrixProgram::Unknown& unknown, const std::vector<doubl
   return matrix_at({unknown.first + 1, unknown.rows, unknown.columns, unknown.symmetric}, x);
 }
 
-/// S_k(x) as sdp/matrix_program.h states it.
+/// S_k(x) as sdp/schur/matrix_program.h states it.
 Matrix slack(const sdp::MatrixProgram& program, std::size_t k, const std::vector<double>& x) {
   const sdp::MatrixProgram::Block& block = program.blocks[k];
   Matrix result = Matrix::Zero(block.size, block.size);

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "lmi/compile.h"
-#include "numbers/real.h"
+#include "numbers/types/real.h"
 #include "support/input_error.h"
 #include "support/yaml_problem.h"
 

@@ -1,5 +1,5 @@
 // orth and null: one basis for each subspace, in every precision, from every matrix that has it.
-#include "numbers/canonical.h"
+#include "numbers/dense/canonical.h"
 
 #include <gtest/gtest.h>
 
@@ -10,10 +10,10 @@
 
 #include "base/number.h"
 #include "base/scalars.h"
-#include "expr/compile.h"
-#include "expr/parser.h"
-#include "numbers/enclosure.h"
-#include "numbers/real.h"
+#include "expr/binding/compile.h"
+#include "expr/text/parser.h"
+#include "numbers/types/enclosure.h"
+#include "numbers/types/real.h"
 
 namespace gainsmith::numbers {
 namespace {

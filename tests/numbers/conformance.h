@@ -1,4 +1,4 @@
-// The suite that every number type passes (the contract is in expr/number_type.h).
+// The suite that every number type passes (the contract is in expr/program/number_type.h).
 //
 //   INSTANTIATE_TEST_SUITE_P(Mine, Conformance, testing::Values(subject<Mine>("mine", 1e-12,
 //   ...)));
@@ -17,13 +17,13 @@
 #include <utility>
 #include <vector>
 
-#include "expr/compile.h"
-#include "expr/functions.h"
-#include "expr/number_type.h"
-#include "expr/parser.h"
-#include "numbers/degree.h"
+#include "expr/binding/compile.h"
+#include "expr/binding/functions.h"
+#include "expr/program/number_type.h"
+#include "expr/text/parser.h"
 #include "numbers/examples.h"
-#include "numbers/real.h"
+#include "numbers/types/degree.h"
+#include "numbers/types/real.h"
 
 namespace gainsmith::numbers {
 

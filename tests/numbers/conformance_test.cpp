@@ -1,10 +1,10 @@
 #include "numbers/conformance.h"
 
 #include "base/eigen_scalars.h"
-#include "numbers/dual.h"
-#include "numbers/enclosure.h"
-#include "numbers/jet.h"
-#include "numbers/stacked_functions.h"
+#include "numbers/graph/stacked_functions.h"
+#include "numbers/types/dual.h"
+#include "numbers/types/enclosure.h"
+#include "numbers/types/jet.h"
 
 namespace gainsmith::numbers {
 namespace {
@@ -105,8 +105,8 @@ Subject tape() {
 INSTANTIATE_TEST_SUITE_P(NumberTypes, Conformance,
                          testing::Values(real<double>("double", 1e-14),
                                          real<DoubleDouble>("31 digits", 1e-29),
-                                         real<Decimal100>("100 digits", 1e-97), jet(),
-                                         dual(), tape(), enclosure<double>("enclosure", 1e-14),
+                                         real<Decimal100>("100 digits", 1e-97), jet(), dual(),
+                                         tape(), enclosure<double>("enclosure", 1e-14),
                                          enclosure<DoubleDouble>("enclosure 31 digits", 1e-29),
                                          enclosure<Decimal100>("enclosure 100 digits", 1e-97)),
                          [](const auto& tested) {

@@ -1,11 +1,11 @@
-#include "numbers/definite.h"
+#include "numbers/dense/definite.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "numbers/dense.h"
+#include "numbers/dense/dense.h"
 
 namespace gainsmith::numbers {
 namespace {

@@ -1,14 +1,14 @@
-#include "numbers/degree.h"
+#include "numbers/types/degree.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "expr/compile.h"
-#include "expr/functions.h"
-#include "expr/parser.h"
+#include "expr/binding/compile.h"
+#include "expr/binding/functions.h"
+#include "expr/text/parser.h"
 #include "numbers/examples.h"
-#include "numbers/real.h"
+#include "numbers/types/real.h"
 
 namespace gainsmith::numbers {
 namespace {

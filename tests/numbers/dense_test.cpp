@@ -1,4 +1,4 @@
-#include "numbers/dense.h"
+#include "numbers/dense/dense.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <functional>
 #include <random>
 
-#include "numbers/small_dense.h"
+#include "numbers/dense/small_dense.h"
 #include "support/linear_algebra.h"
 
 namespace gainsmith::numbers {

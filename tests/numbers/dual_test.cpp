@@ -1,5 +1,5 @@
 // Derivatives by dual numbers against closed forms, differences and other number types.
-#include "numbers/dual.h"
+#include "numbers/types/dual.h"
 
 #include <gtest/gtest.h>
 
@@ -11,10 +11,10 @@
 #include <string>
 
 #include "base/eigen_scalars.h"
-#include "expr/compile.h"
-#include "expr/parser.h"
-#include "numbers/enclosure.h"
-#include "numbers/real.h"
+#include "expr/binding/compile.h"
+#include "expr/text/parser.h"
+#include "numbers/types/enclosure.h"
+#include "numbers/types/real.h"
 
 namespace gainsmith::numbers {
 namespace {

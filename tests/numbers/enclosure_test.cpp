@@ -1,5 +1,5 @@
 // Enclosures hold the true values: those of 100 digits from the same decimals.
-#include "numbers/enclosure.h"
+#include "numbers/types/enclosure.h"
 
 #include <gtest/gtest.h>
 
@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "base/number.h"
-#include "expr/compile.h"
-#include "expr/parser.h"
-#include "numbers/dense.h"
-#include "numbers/real.h"
+#include "expr/binding/compile.h"
+#include "expr/text/parser.h"
+#include "numbers/dense/dense.h"
+#include "numbers/types/real.h"
 #include "numerics/balance.h"
 
 namespace gainsmith::numbers {

@@ -1,7 +1,7 @@
 // What the examples of the table of operations (expr/operations.def) stand on.
 #pragma once
 
-#include "numbers/real.h"
+#include "numbers/types/real.h"
 
 namespace gainsmith::numbers {
 

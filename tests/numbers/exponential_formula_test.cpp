@@ -1,11 +1,11 @@
-#include "numbers/exponential_formula.h"
+#include "numbers/graph/exponential_formula.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "numbers/dense.h"
+#include "numbers/dense/dense.h"
 
 namespace gainsmith::numbers {
 namespace {
@@ -38,7 +38,8 @@ Matrix values(const ScalarGraph& graph, const std::vector<int>& nodes, double s)
   return result;
 }
 
-/// The largest difference from e^(A s), relative to its largest element; 1 where there is no formula.
+/// The largest difference from e^(A s), relative to its largest element; 1 where there is no
+/// formula.
 double difference(const Matrix& A, double s) {
   ScalarGraph graph;
   const auto nodes = exponential_nodes({A, graph.input(0)}, graph);

@@ -1,5 +1,5 @@
 // Jets hold values, slopes and second derivatives at every point of the piece.
-#include "numbers/jet.h"
+#include "numbers/types/jet.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "expr/compile.h"
-#include "expr/parser.h"
-#include "numbers/real.h"
+#include "expr/binding/compile.h"
+#include "expr/text/parser.h"
+#include "numbers/types/real.h"
 
 namespace gainsmith::numbers {
 namespace {

@@ -1,13 +1,13 @@
 // Bounds of programs over boxes: they hold at all points, and say when there are none.
-#include "numbers/range.h"
+#include "numbers/graph/range.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "expr/compile.h"
-#include "expr/parser.h"
-#include "numbers/stacked_functions.h"
+#include "expr/binding/compile.h"
+#include "expr/text/parser.h"
+#include "numbers/graph/stacked_functions.h"
 
 namespace gainsmith::numbers {
 namespace {

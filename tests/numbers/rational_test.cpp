@@ -1,18 +1,18 @@
 // Fractions: the number type, its linear algebra.
-#include "numbers/rational.h"
+#include "numbers/types/rational.h"
 
 #include <gtest/gtest.h>
 
 #include <memory>
 #include <random>
 
-#include "expr/compile.h"
-#include "expr/functions.h"
-#include "expr/operations.h"
-#include "expr/parser.h"
+#include "expr/binding/compile.h"
+#include "expr/binding/functions.h"
+#include "expr/program/operations.h"
+#include "expr/text/parser.h"
+#include "numbers/dense/rational_algebra.h"
 #include "numbers/examples.h"
-#include "numbers/rational_algebra.h"
-#include "numbers/real.h"
+#include "numbers/types/real.h"
 
 namespace gainsmith::numbers {
 namespace {

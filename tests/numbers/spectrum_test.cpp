@@ -1,4 +1,4 @@
-#include "numbers/spectrum.h"
+#include "numbers/dense/spectrum.h"
 
 #include <gtest/gtest.h>
 

@@ -1,14 +1,14 @@
 // Programs as one tape: what they share, what is known, and where there is no value.
-#include "numbers/tape.h"
+#include "numbers/graph/tape.h"
 
 #include <gtest/gtest.h>
 
 #include <deque>
 
-#include "expr/compile.h"
-#include "expr/parser.h"
-#include "numbers/scalar_trace.h"
-#include "numbers/stacked_functions.h"
+#include "expr/binding/compile.h"
+#include "expr/text/parser.h"
+#include "numbers/graph/scalar_trace.h"
+#include "numbers/graph/stacked_functions.h"
 
 namespace gainsmith::numbers {
 namespace {

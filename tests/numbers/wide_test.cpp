@@ -8,9 +8,9 @@
 
 #include "base/eigen_scalars.h"
 #include "base/scalars.h"
-#include "expr/compile.h"
-#include "expr/parser.h"
-#include "numbers/real.h"
+#include "expr/binding/compile.h"
+#include "expr/text/parser.h"
+#include "numbers/types/real.h"
 
 namespace gainsmith::numbers {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "numbers/rational_algebra.h"
+#include "numbers/dense/rational_algebra.h"
 
 namespace gainsmith::numerics {
 namespace {

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
-#include "expr/functions.h"
+#include "expr/binding/functions.h"
 #include "page/mathml.h"
 #include "page/rows.h"
 #include "page/symbol.h"
-#include "report/xml.h"
+#include "drawing/xml.h"
 
 namespace gainsmith::page {
 namespace {

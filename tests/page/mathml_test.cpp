@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "expr/functions.h"
-#include "io/problem_yaml.h"
-#include "report/xml.h"
+#include "expr/binding/functions.h"
+#include "io/yaml/problem_yaml.h"
+#include "drawing/xml.h"
 
 namespace gainsmith::page {
 namespace {

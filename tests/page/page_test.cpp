@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "io/problem_yaml.h"
-#include "report/xml.h"
+#include "io/yaml/problem_yaml.h"
+#include "drawing/xml.h"
 
 namespace gainsmith::page {
 namespace {

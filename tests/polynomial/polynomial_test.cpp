@@ -2,8 +2,8 @@
 
 #include <set>
 
-#include "expr/compile.h"
-#include "expr/parser.h"
+#include "expr/binding/compile.h"
+#include "expr/text/parser.h"
 #include "polynomial/polynomial_numbers.h"
 
 namespace gainsmith::polynomial {

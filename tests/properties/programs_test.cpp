@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "properties/programs.h"
-#include "sdp/sdpa_file.h"
+#include "sdp/files/sdpa_file.h"
 
 namespace gainsmith::tests::properties {
 namespace {

@@ -1,5 +1,5 @@
 // Facial reduction on programs whose face and optimum are known.
-#include "sdp/face.h"
+#include "sdp/core/face.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "sdp/ipm.h"
+#include "sdp/core/ipm.h"
 #include "sdp/solver.h"
 #include "support/sdp_check.h"
 

@@ -1,4 +1,4 @@
-#include "sdp/forecast.h"
+#include "sdp/core/forecast.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "sdp/matrix_solver.h"
+#include "sdp/schur/matrix_solver.h"
 
 #include <gtest/gtest.h>
 
@@ -6,10 +6,10 @@
 #include <cmath>
 #include <random>
 
-#include "sdp/matrix_operator.h"
-#include "sdp/matrix_preconditioner.h"
-#include "sdp/matrix_scaling.h"
-#include "sdp/matrix_schur.h"
+#include "sdp/schur/matrix_operator.h"
+#include "sdp/schur/matrix_preconditioner.h"
+#include "sdp/schur/matrix_scaling.h"
+#include "sdp/schur/matrix_schur.h"
 #include "sdp/solver.h"
 #include "support/linear_algebra.h"
 #include "support/stop.h"

@@ -1,13 +1,13 @@
 // Directions of wide arithmetic with a Schur complement in double.
-#include "sdp/mixed_schur.h"
+#include "sdp/schur/mixed_schur.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 #include <utility>
 
-#include "sdp/newton.h"
-#include "sdp/presolve.h"
+#include "sdp/core/newton.h"
+#include "sdp/core/presolve.h"
 #include "sdp/solver.h"
 
 namespace gainsmith::sdp {

@@ -1,12 +1,12 @@
 // Solutions within the tolerance, around a centre that is off.
-#include "sdp/nearby.h"
+#include "sdp/core/nearby.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "sdp/ipm.h"
-#include "sdp/report.h"
+#include "sdp/core/ipm.h"
+#include "sdp/core/report.h"
 #include "support/sdp_catalogue.h"
 #include "support/sdp_check.h"
 

@@ -1,5 +1,5 @@
 // Every equation of newton.h, recomputed in full matrices from random data.
-#include "sdp/newton.h"
+#include "sdp/core/newton.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <limits>
 #include <string>
 
-#include "sdp/presolve.h"
+#include "sdp/core/presolve.h"
 #include "support/linear_algebra.h"
 #include "support/sdp_dense.h"
 

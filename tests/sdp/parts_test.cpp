@@ -7,12 +7,12 @@
 #include <type_traits>
 #include <vector>
 
-#include "sdp/cover.h"
-#include "sdp/extreme.h"
-#include "sdp/factor.h"
-#include "sdp/kernels.h"
-#include "sdp/presolve.h"
-#include "sdp/schur.h"
+#include "sdp/core/extreme.h"
+#include "sdp/core/presolve.h"
+#include "sdp/schur/cover.h"
+#include "sdp/schur/factor.h"
+#include "sdp/schur/kernels.h"
+#include "sdp/schur/schur.h"
 #include "support/linear_algebra.h"
 
 namespace gainsmith::sdp {

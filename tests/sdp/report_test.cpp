@@ -1,5 +1,5 @@
 // The measures and certificates of report.h, recomputed in long double.
-#include "sdp/report.h"
+#include "sdp/core/report.h"
 
 #include <gtest/gtest.h>
 

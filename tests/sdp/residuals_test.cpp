@@ -1,5 +1,5 @@
 // Every error of residuals.h, recomputed from the problem as given.
-#include "sdp/residuals.h"
+#include "sdp/core/residuals.h"
 
 #include <gtest/gtest.h>
 

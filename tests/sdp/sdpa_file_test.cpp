@@ -1,4 +1,4 @@
-#include "sdp/sdpa_file.h"
+#include "sdp/files/sdpa_file.h"
 
 #include <gtest/gtest.h>
 

@@ -7,8 +7,8 @@
 
 #include "base/double_double.h"
 #include "base/file.h"
-#include "sdp/report.h"
-#include "sdp/sdpa_file.h"
+#include "sdp/core/report.h"
+#include "sdp/files/sdpa_file.h"
 #include "sdp/solver.h"
 #include "support/sdp_check.h"
 

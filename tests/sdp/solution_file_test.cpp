@@ -1,4 +1,4 @@
-#include "sdp/solution_file.h"
+#include "sdp/files/solution_file.h"
 
 #include <gtest/gtest.h>
 

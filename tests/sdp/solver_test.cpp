@@ -8,8 +8,8 @@
 #include <string>
 #include <utility>
 
-#include "sdp/presolve.h"
-#include "sdp/sparse_schur.h"
+#include "sdp/core/presolve.h"
+#include "sdp/schur/sparse_schur.h"
 #include "support/sdp_catalogue.h"
 #include "support/sdp_check.h"
 #include "support/stop.h"

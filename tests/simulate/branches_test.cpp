@@ -7,7 +7,7 @@
 
 #include "base/number.h"
 #include "judge/judge.h"
-#include "numbers/real.h"
+#include "numbers/types/real.h"
 #include "simulate/simulator.h"
 #include "support/dynamics_text.h"
 #include "support/event_problem.h"

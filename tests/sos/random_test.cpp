@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
-#include "numbers/rational_algebra.h"
+#include "numbers/dense/rational_algebra.h"
 #include "sos/squares.h"
 
 namespace gainsmith::sos {

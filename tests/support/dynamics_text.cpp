@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "expr/compile.h"
-#include "expr/parser.h"
+#include "expr/binding/compile.h"
+#include "expr/text/parser.h"
 
 namespace gainsmith::tests {
 

@@ -4,8 +4,8 @@
 #include <memory>
 #include <stdexcept>
 
-#include "expr/compile.h"
-#include "expr/parser.h"
+#include "expr/binding/compile.h"
+#include "expr/text/parser.h"
 
 namespace gainsmith::tests {
 

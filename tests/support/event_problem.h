@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "expr/scope.h"
-#include "numbers/real.h"
+#include "expr/binding/scope.h"
+#include "numbers/types/real.h"
 #include "simulate/simulator.h"
 
 namespace gainsmith::tests {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "sdp/data.h"
+#include "sdp/core/data.h"
 #include "sdp/problem.h"
 
 namespace gainsmith::sdp::testing {

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "expr/parser.h"
+#include "expr/text/parser.h"
 
 namespace gainsmith::tests {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "bind/bind.h"
-#include "io/problem_yaml.h"
+#include "io/yaml/problem_yaml.h"
 #include "methods/methods.h"
 #include "model/gains.h"
 

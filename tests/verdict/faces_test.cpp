@@ -7,7 +7,7 @@
 #include <random>
 
 #include "lmi/compile.h"
-#include "numbers/rational_algebra.h"
+#include "numbers/dense/rational_algebra.h"
 #include "support/yaml_problem.h"
 #include "verdict/face_multipliers.h"
 #include "verdict/printable.h"

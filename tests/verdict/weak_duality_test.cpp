@@ -7,7 +7,7 @@
 #include <numeric>
 #include <random>
 
-#include "numbers/dense.h"
+#include "numbers/dense/dense.h"
 
 namespace gainsmith::verdict {
 namespace {
@@ -15,7 +15,8 @@ namespace {
 using numbers::Matrix;
 using numbers::RationalMatrix;
 
-/// min <C, X> over X >= 0 with trace(X) = 1, X = E_nn + sum of x_i B_i: the smallest eigenvalue of C.
+/// min <C, X> over X >= 0 with trace(X) = 1, X = E_nn + sum of x_i B_i: the smallest eigenvalue of
+/// C.
 struct Case {
   Matrix C;
   RationalBlock block;
@@ -34,7 +35,7 @@ struct Case {
         B(r, c) = B(c, r) = 1;
         if (r == c) B(n - 1, n - 1) = -1;
         costs.push_back(numbers::ball_of(r == c ? Rational(C(r, r)) - Rational(C(n - 1, n - 1))
-                                       : 2 * Rational(C(r, c))));
+                                                : 2 * Rational(C(r, c))));
         block.terms.emplace_back(static_cast<int>(costs.size()) - 1, std::move(B));
       }
   }

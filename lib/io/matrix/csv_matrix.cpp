@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "base/number.h"
-#include "io/csv_table.h"
+#include "io/matrix/csv_table.h"
 
 namespace gainsmith::io {
 

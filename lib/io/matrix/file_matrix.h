@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "expr/text.h"
+#include "expr/text/text.h"
 #include "model/stated_file.h"
 
 namespace gainsmith::io {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "base/nearest.h"
-#include "io/json_place.h"
-#include "io/json_text.h"
+#include "io/json/json_place.h"
+#include "io/json/json_text.h"
 
 namespace gainsmith::io {
 

@@ -1,9 +1,0 @@
-#include "numbers/extremum_rules.h"
-#include "numbers/real_wide.h"
-
-namespace gainsmith::numbers {
-
-template MatrixOf<Decimal100> extremum<Decimal100>(const expr::Instruction&,
-                                                   expr::Operands<MatrixOf<Decimal100>>);
-
-}  // namespace gainsmith::numbers

@@ -1,0 +1,242 @@
+#include <optional>
+#include <utility>
+
+#include "numbers/graph/exponential_formula.h"
+#include "numbers/graph/scalar_rules.h"
+
+namespace gainsmith::numbers {
+
+namespace {
+
+using expr::Instruction;
+using expr::Op;
+
+class Slopes : public NodeRules {
+ public:
+  Slopes(ScalarGraph& graph, Derivative kind) : NodeRules(graph), kind_(kind) {}
+
+  Nodes operator()(const Instruction& one, const TracedOperands& in, std::size_t d,
+                   const TracedMatrix& out) {
+    std::vector<Nodes> still(in.size());  // of what does not move
+    std::vector<const Nodes*> slopes;
+    for (std::size_t k = 0; k < in.size(); ++k) {
+      if (!in[k]->moves()) still[k] = zeros(in[k]->shape);
+      slopes.push_back(in[k]->moves() ? &in[k]->slopes[d] : &still[k]);
+    }
+    Nodes result;
+    const auto each = [&](const auto& made) {
+      for (std::size_t k = 0; k < static_cast<std::size_t>(one.shape.size()); ++k)
+        result.push_back(made(k));
+      return result;
+    };
+    const auto value = [&](std::size_t operand, std::size_t k) { return in[operand]->value[k]; };
+    const auto moved = [&](std::size_t operand, std::size_t k) { return (*slopes[operand])[k]; };
+    /// factor times the slope of the first operand
+    const auto along = [&](const auto& factor) {
+      return each([&](std::size_t k) {
+        return graph_.is_zero(moved(0, k)) ? zero() : graph_.multiply(factor(k), moved(0, k));
+      });
+    };
+    switch (one.op) {
+      case Op::add:
+        return each([&](std::size_t k) { return graph_.add(moved(0, k), moved(1, k)); });
+      case Op::subtract:
+        return each([&](std::size_t k) { return graph_.subtract(moved(0, k), moved(1, k)); });
+      case Op::elementwise_product:
+        return each([&](std::size_t k) {
+          return graph_.add(graph_.multiply(value(1, k), moved(0, k)),
+                            graph_.multiply(value(0, k), moved(1, k)));
+        });
+      case Op::scale:
+        return each([&](std::size_t k) {
+          return graph_.add(graph_.multiply(value(0, 0), moved(1, k)),
+                            graph_.multiply(value(1, k), moved(0, 0)));
+        });
+      case Op::divide:
+      case Op::elementwise_quotient: {
+        const bool by_number = one.op == Op::divide;
+        return each([&](std::size_t k) {
+          const std::size_t by = by_number ? 0 : k;
+          const int top = graph_.subtract(moved(0, k), graph_.multiply(out.value[k], moved(1, by)));
+          return graph_.is_zero(top) ? top : graph_.divide(top, value(1, by));
+        });
+      }
+      case Op::multiply:
+        return product_slope(*in[0], *slopes[0], *in[1], *slopes[1]);
+      case Op::power:
+        return power_slope(*in[0], *slopes[0], one.attributes[0]);
+      case Op::elementwise_power: {
+        const int exponent = one.attributes[0];
+        if (exponent == 0) return zeros(one.shape);
+        return along([&](std::size_t k) {
+          return graph_.multiply(number(exponent), power(value(0, k), exponent - 1));
+        });
+      }
+      case Op::real_power:
+        return each([&](std::size_t k) { return real_power_slope(in, slopes, k, out.value[k]); });
+      case Op::exp:
+        return along([&](std::size_t k) { return out.value[k]; });
+      case Op::log:
+        return along([&](std::size_t k) { return graph_.divide(number(1), value(0, k)); });
+      case Op::sqrt:
+        return along([&](std::size_t k) {
+          return graph_.divide(number(1), graph_.multiply(number(2), divisor(out.value[k])));
+        });
+      case Op::sin:
+        return along([&](std::size_t k) { return graph_.apply(ScalarOp::cos, value(0, k)); });
+      case Op::cos:
+        return along(
+            [&](std::size_t k) { return graph_.negate(graph_.apply(ScalarOp::sin, value(0, k))); });
+      case Op::tanh:
+        return along([&](std::size_t k) {
+          return graph_.subtract(number(1), graph_.multiply(out.value[k], out.value[k]));
+        });
+      case Op::abs:
+        return each([&](std::size_t k) {
+          return graph_.where(false, value(0, k), moved(0, k), graph_.negate(moved(0, k)));
+        });
+      case Op::sign:
+      case Op::floor:
+        return zeros(one.shape);
+      case Op::mod:
+        return each([&](std::size_t k) {
+          const int turns = graph_.apply(
+              ScalarOp::floor,
+              graph_.add(graph_.divide(graph_.subtract(value(0, k), out.value[k]), value(1, k)),
+                         number(0.5)));
+          return graph_.subtract(moved(0, k), graph_.multiply(turns, moved(1, k)));
+        });
+      case Op::atan2:
+        return each([&](std::size_t k) {
+          const int y = value(0, k), x = value(1, k);
+          const int top =
+              graph_.subtract(graph_.multiply(x, moved(0, k)), graph_.multiply(y, moved(1, k)));
+          const int squares = graph_.add(graph_.multiply(x, x), graph_.multiply(y, y));
+          return graph_.is_zero(top) ? top : graph_.divide(top, squares);
+        });
+      case Op::minimum:
+        return each([&](std::size_t k) {
+          return graph_.where(true, graph_.subtract(value(0, k), value(1, k)), moved(1, k),
+                              moved(0, k));
+        });
+      case Op::maximum:
+        return each([&](std::size_t k) {
+          return graph_.where(true, graph_.subtract(value(1, k), value(0, k)), moved(1, k),
+                              moved(0, k));
+        });
+      case Op::where: {
+        const bool strict = one.attributes[0] != 0;
+        return each([&](std::size_t k) {
+          return graph_.where(strict, value(0, k), moved(1, k), moved(2, k));
+        });
+      }
+      case Op::inverse: {  // -R A' R
+        const auto left = product(one.shape, out.value, one.shape, *slopes[0]);
+        const auto all =
+            left ? product(one.shape, *left, one.shape, out.value) : std::optional<Nodes>();
+        if (!all) throw NoFormula();
+        return each([&](std::size_t k) { return graph_.negate((*all)[k]); });
+      }
+      case Op::matrix_exponential:
+        return exponential_slope(one, *in[0], *slopes[0], out);
+      case Op::norm: {
+        int sum = zero();
+        for (std::size_t k = 0; k < in[0]->value.size(); ++k)
+          sum = graph_.add(sum, graph_.multiply(value(0, k), moved(0, k)));
+        return {graph_.is_zero(sum) ? sum : graph_.divide(sum, divisor(out.value[0]))};
+      }
+      default:
+        break;
+    }
+    if (!linear(one, in, slopes, result)) throw NoFormula();
+    return result;
+  }
+
+ private:
+  /// A root by which the derivative of its square is divided.
+  int divisor(int root) {
+    return kind_ == Derivative::rate ? graph_.where(true, root, root, number(1)) : root;
+  }
+
+  Nodes product_slope(const TracedMatrix& a, const Nodes& da, const TracedMatrix& b,
+                      const Nodes& db) {
+    auto left = product(a.shape, da, b.shape, b.value);
+    const auto right = product(a.shape, a.value, b.shape, db);
+    if (!left || !right) throw NoFormula();
+    for (std::size_t k = 0; k < left->size(); ++k) (*left)[k] = graph_.add((*left)[k], (*right)[k]);
+    return std::move(*left);
+  }
+
+  Nodes power_slope(const TracedMatrix& in, const Nodes& moved, int exponent) {
+    TracedMatrix square{in.shape, in.value, {moved}};
+    TracedMatrix result{in.shape, zeros(in.shape), {zeros(in.shape)}};
+    for (int k = 0; k < in.shape.rows; ++k) result.value[at(in.shape, k, k)] = number(1);
+    const auto times = [&](const TracedMatrix& a, const TracedMatrix& b) {
+      auto value = product(a.shape, a.value, b.shape, b.value);
+      if (!value) throw NoFormula();
+      return TracedMatrix{
+          a.shape, std::move(*value), {product_slope(a, a.slopes[0], b, b.slopes[0])}};
+    };
+    for (; exponent > 0; exponent /= 2) {
+      if (exponent % 2 == 1) result = times(result, square);
+      if (exponent > 1) square = times(square, square);
+    }
+    return result.slopes[0];
+  }
+
+  /// The upper right of exp([X, dX; 0, X]).
+  Nodes exponential_slope(const Instruction& one, const TracedMatrix& in, const Nodes& moved,
+                          const TracedMatrix& out) {
+    const int n = one.shape.rows;
+    if (n == 1) return {graph_.multiply(out.value[0], moved[0])};
+    const auto argument = as_multiple(in.value, n, graph_);
+    const auto rate = as_multiple(moved, n, graph_);
+    if (argument && rate && argument->factor == rate->factor) {  // ds/dt A e^(A s)
+      auto slope = product(in.shape, traced(rate->factor, graph_).value, out.shape, out.value);
+      if (!slope) throw NoFormula();
+      for (int& node : *slope) node = graph_.multiply(rate->number, node);
+      return std::move(*slope);
+    }
+    const expr::Shape both{2 * n, 2 * n};
+    Nodes operand = zeros(both);
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) {
+        const std::size_t from = at(in.shape, i, j);
+        operand[at(both, i, j)] = operand[at(both, n + i, n + j)] = in.value[from];
+        operand[at(both, i, n + j)] = moved[from];
+      }
+    Instruction larger = one;
+    larger.shape = both;
+    const Nodes whole = block_of({larger, {operand}, {both}});
+    Nodes result;
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) result.push_back(whole[at(both, i, n + j)]);
+    return result;
+  }
+
+  /// b a^(b - 1) da + a^b log(a) db.
+  int real_power_slope(const TracedOperands& in, const std::vector<const Nodes*>& slopes,
+                       std::size_t k, int out) {
+    const int a = in[0]->value[k], b = in[1]->value[k];
+    int sum = zero();
+    if (const int da = (*slopes[0])[k]; !graph_.is_zero(da) && !graph_.is_zero(b)) {
+      const int lower = graph_.apply(ScalarOp::power, a, graph_.subtract(b, number(1)));
+      sum = graph_.multiply(graph_.multiply(b, lower), da);
+    }
+    if (const int db = (*slopes[1])[k]; !graph_.is_zero(db))
+      sum = graph_.add(sum,
+                       graph_.multiply(graph_.multiply(out, graph_.apply(ScalarOp::log, a)), db));
+    return sum;
+  }
+
+  Derivative kind_;
+};
+
+}  // namespace
+
+Nodes slope(ScalarGraph& graph, const Instruction& one, const TracedOperands& in, std::size_t d,
+            const TracedMatrix& out, Derivative kind) {
+  return Slopes(graph, kind)(one, in, d, out);
+}
+
+}  // namespace gainsmith::numbers

@@ -1,0 +1,111 @@
+#include "numbers/graph/tape.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <utility>
+
+namespace gainsmith::numbers {
+
+/// Registers: `inputs` of them, the constants, whose values stay, and one for each step.
+Tape::Tape(const ScalarGraph& graph, const std::vector<std::vector<int>>& results, int inputs) {
+  TapeCode code = tape_code(graph, results, inputs);
+  registers_.assign(code.registers, 0);
+  std::copy(code.constants.begin(), code.constants.end(), registers_.begin() + inputs);
+  constants_ = code.inputs;
+  first_ = code.inputs + code.constants.size();
+  for (const TapeCode::Block& block : code.blocks) blocks_.emplace_back(block);
+  steps_ = std::move(code.steps);
+  results_ = std::move(code.results);
+  reads_ = std::move(code.reads);
+}
+
+/// Without a branch for each register: infinities and NaN are what has all bits of the exponent.
+bool Tape::is_finite() const {
+  constexpr std::uint64_t kExponent = 0x7ff0000000000000U;
+  std::uint64_t found = 0;
+  for (std::size_t k = first_; k < registers_.size(); ++k)
+    found |= (std::bit_cast<std::uint64_t>(registers_[k]) & kExponent) == kExponent ? 1U : 0U;
+  return found == 0;
+}
+
+/// The steps of run() over intervals. Constants that are no whole numbers are widened by `part` of
+/// their size: a decimal is not a double.
+bool Tape::enclose(const Box& inputs, double part) {
+  if (!blocks_.empty()) return false;
+  ranges_.resize(registers_.size());
+  for (std::size_t k = constants_; k < first_; ++k) {
+    const double value = registers_[k];
+    const double error = std::rint(value) == value ? 0 : part * std::abs(value);
+    ranges_[k] = {value - error, value + error};
+  }
+  for (const std::uint32_t k : reads_) {
+    if (k >= inputs.size()) return false;
+    ranges_[k] = inputs[k];
+  }
+  return std::all_of(steps_.begin(), steps_.end(), [&](const TapeCode::Step& step) {
+    return numbers::enclose(step.op, ranges_[step.a], ranges_[step.b], ranges_[step.c],
+                            step.a == step.b, ranges_[step.out]);
+  });
+}
+
+/// The frequent operations are cases of the switch; the others go through apply(). Infinities and
+/// NaN are found once at the end, not in each step.
+bool Tape::run() {
+  double* const r = registers_.data();
+  for (const TapeCode::Step& step : steps_) {
+    const double a = r[step.a];
+    const double b = r[step.b];
+    double& out = r[step.out];
+    switch (step.op) {
+      case ScalarOp::add:
+        out = a + b;
+        break;
+      case ScalarOp::subtract:
+        out = a - b;
+        break;
+      case ScalarOp::multiply:
+        out = a * b;
+        break;
+      case ScalarOp::multiply_add:
+        out = a * b + r[step.c];
+        break;
+      case ScalarOp::divide:
+        out = a / b;
+        break;
+      case ScalarOp::negate:
+        out = -a;
+        break;
+      case ScalarOp::minimum:
+        out = b < a ? b : a;
+        break;
+      case ScalarOp::maximum:
+        out = a < b ? b : a;
+        break;
+      case ScalarOp::where_positive:
+        out = a > 0 ? b : r[step.c];
+        break;
+      case ScalarOp::where_nonnegative:
+        out = a >= 0 ? b : r[step.c];
+        break;
+      case ScalarOp::abs:
+        out = std::abs(a);
+        break;
+      case ScalarOp::sqrt:
+        out = std::sqrt(a);
+        break;
+      case ScalarOp::block:
+        if (const Matrix* value = blocks_[step.a](r); value != nullptr) {
+          std::copy_n(value->data(), value->size(), &out);
+          break;
+        }
+        return false;
+      default:
+        out = apply(step.op, a, b, r[step.c]);
+        break;
+    }
+  }
+  return is_finite();
+}
+
+}  // namespace gainsmith::numbers

@@ -1,9 +1,0 @@
-#include "numbers/real_wide.h"
-
-namespace gainsmith::numbers {
-
-template struct Real<DoubleDouble>;
-template MatrixOf<DoubleDouble> evaluate<DoubleDouble>(const expr::Program&,
-                                                       const ValuesOf<DoubleDouble>&);
-
-}  // namespace gainsmith::numbers
