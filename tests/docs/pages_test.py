@@ -144,7 +144,7 @@ class PagesSayWhatIsThere(unittest.TestCase):
     def test_keys_of_method_and_problem_files(self):
         page = read("docs/language.md")
         for source in ("method_yaml", "problem_yaml", "synthesis_yaml", "search_yaml", "expectation_yaml"):
-            for key in re.findall(r'(?:find|require)\("(\w+)"\)', read(f"lib/io/{source}.cpp")):
+            for key in re.findall(r'(?:find|require)\("(\w+)"\)', read(f"lib/io/yaml/{source}.cpp")):
                 self.assertRegex(page, rf"(`|`\w+\.|\{{|\b){key}\b", f"{source}: {key}")
 
 
