@@ -23,8 +23,8 @@ model::CampaignRecord campaign_record(const verify::Report& report, const std::s
 /// its --set options.
 std::string campaign_summary(const verify::Report& report, const std::string& gains_file);
 
-/// Of a claim that the end of a run leaves open, or violates: "ended at (t, j) = (1.25, 0), before
-/// ...".
+/// Of a claim that the end of a run leaves open, or violates:
+/// "ended at (t, j) = (1.25, 0), before ...".
 std::string end_text(const claims::Finding& finding);
 
 /// Why a campaign did not hold, a line each with the command that repeats the run: the claims that

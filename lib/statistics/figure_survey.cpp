@@ -7,7 +7,6 @@
 
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "base/stop.h"
 #include "statistics/bound_figure.h"
 #include "statistics/run_blocks.h"
 
@@ -56,14 +55,13 @@ class Surveyor {
       figures_.push_back(std::make_unique<BoundFigure>(figure, setup));
   }
 
-  /// A stop amid the run adds nothing of it.
+  /// Figures check for a stop too (balls factorise a covariance): a run is added whole, or not.
   void add(std::uint64_t run) {
     const claims::TwinRun made = runs_(seed_, run, claims::kAccuracyOfOne);
     std::vector<Estimate> estimates;
     estimates.reserve(figures_.size());
     for (const std::unique_ptr<BoundFigure>& figure : figures_)
       estimates.push_back(figure->of(made));
-    check_stop();
     ++survey_.runs;
     if (const hybrid::Trajectory& one = made.run; !is_complete(one.ending))
       count({1, run, to_string(one.ending) + (one.message.empty() ? "" : ": " + one.message)},
