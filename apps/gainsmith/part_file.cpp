@@ -98,11 +98,9 @@ void write_part(const io::Json& document, const std::string& output, const std::
   say(fmt::format("wrote {}: part {}, {}\n", output, to_text(shard_of(document)), what));
 }
 
-void say_unwritten(const Shard& shard, std::uint64_t done, std::uint64_t of,
-                   const std::string& what) {
+void say_unwritten(const Shard& shard, const std::string& done) {
   const Telling telling;
-  say(fmt::format("interrupted after {} of {} {} of part {}: it was not written\n", done, of, what,
-                  to_text(shard)));
+  say(fmt::format("interrupted after {} of part {}: it was not written\n", done, to_text(shard)));
 }
 
 }  // namespace gainsmith::app

@@ -42,8 +42,7 @@ void require_part_name(const std::string& shard, const std::string& output);
 /// Writes a whole part and says so: "wrote part3.json: part 3/8, 1250 of 10000 runs".
 void write_part(const io::Json& document, const std::string& output, const std::string& what);
 
-/// Says that a part is not whole, and was not written.
-void say_unwritten(const Shard& shard, std::uint64_t done, std::uint64_t of,
-                   const std::string& what);
+/// Says that a part is not whole, and was not written. `done`: "3 of 8 points".
+void say_unwritten(const Shard& shard, const std::string& done);
 
 }  // namespace gainsmith::app

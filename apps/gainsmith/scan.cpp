@@ -135,7 +135,7 @@ void answer_points(const ScanOptions& options, const model::Instance& instance, 
 ExitCode tell_scan_part(const ScanOptions& options, const ScanPart& part) {
   const std::size_t all = points_of_shard(part).size(), open = open_points(part);
   if (open > 0) {
-    say_unwritten(part.shard, all - open, all, "points");
+    say_unwritten(part.shard, fmt::format("{} of {} points", all - open, all));
     return ExitCode::undecided;
   }
   write_part(document_of(part), options.output,

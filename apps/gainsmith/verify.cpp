@@ -101,6 +101,13 @@ struct PartWork {
     return (part.runs.count() == range.count() || part.ended()) &&
            (!compare || part.figures.runs.count() == range.count());
   }
+  std::string progress() const {
+    const auto runs = file.part.runs.count();
+    const std::string text = fmt::format("{} of {} runs", runs, range.count());
+    return compare && runs == range.count()
+               ? text + fmt::format(" and the figures of {}", file.part.figures.runs.count())
+               : text;
+  }
   void make(const verify::Save& save) const {
     campaign.make_runs(range, file.part, save);
     if (file.part.runs.count() < range.count()) return;
@@ -124,14 +131,14 @@ void make_runs(const VerifyOptions& options, const PartWork& work) {
   keep();  // whether the folder can be written to is known before the work
   work.make(keep);
   if (!work.is_whole())
-    say(fmt::format("gainsmith: {} keeps {} of {} runs; the same command goes on from there\n",
-                    options.resume, file.part.runs.count(), work.range.count()));
+    say(fmt::format("gainsmith: {} keeps {}; the same command goes on from there\n", options.resume,
+                    work.progress()));
 }
 
 /// 0 for a part that is whole, whatever its runs are; otherwise nothing is written.
 ExitCode tell_campaign_part(const VerifyOptions& options, const PartWork& work) {
   if (!work.is_whole()) {
-    say_unwritten(work.file.shard, work.file.part.runs.count(), work.range.count(), "runs");
+    say_unwritten(work.file.shard, work.progress());
     return ExitCode::undecided;
   }
   work.campaign.repeat_worst(work.file.part);

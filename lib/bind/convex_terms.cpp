@@ -75,9 +75,10 @@ NodePtr sum_of(std::span<const NodePtr> terms, const Node& at) {
   return sum;
 }
 
-/// A number that is written out and has a digit other than 0.
+/// A number that is written out and has a digit other than 0 before its exponent.
 bool is_positive_number(const Node& node) {
-  return node.kind == NodeKind::number && node.text.find_first_of("123456789") != std::string::npos;
+  return node.kind == NodeKind::number &&
+         node.text.find_first_of("123456789") < node.text.find_first_of("eE");
 }
 
 /// False where no name leads to unknowns.

@@ -14,20 +14,22 @@ constexpr std::string_view kCWords =
     "void volatile"
     " while asm class new delete this template private public protected operator true false bool "
     "catch throw"
-    " try namespace using virtual friend export typename and or not xor main errno NULL ";
+    " try namespace using virtual friend export typename and or not xor main errno NULL exp log "
+    "sqrt "
+    "sin cos tanh atan2 floor pow fabs expf logf sqrtf sinf cosf tanhf atan2f floorf powf fabsf ";
 constexpr std::string_view kMatlabWords =
     " break case catch classdef continue else elseif end for function global if otherwise parfor "
     "persistent"
     " return spmd switch try while until do unwind_protect endfunction endif endfor endwhile pi "
     "eps Inf NaN"
     " ans eye zeros ones expm inv reshape struct min max abs sign mod floor exp log sqrt sin cos "
-    "tanh atan2 ";
+    "tanh atan2 power choose ";
 constexpr std::string_view kPythonWords =
     " False None True and as assert async await break class continue def del elif else except "
     "finally for from"
     " global if import in is lambda nonlocal not or pass raise return try while with yield match "
     "case type"
-    " self np math abs min max float int print ";
+    " self np math abs min max float int print range ";
 
 std::string_view words_of(Language language) {
   switch (language) {
@@ -44,10 +46,19 @@ std::string_view words_of(Language language) {
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
+/// gs3, gsb3, gsb3_0: values that the code of a map computes on its way (scalar_code.cpp).
+bool is_intermediate(std::string_view word) {
+  if (!word.starts_with("gs")) return false;
+  word.remove_prefix(word.starts_with("gsb") ? 3 : 2);
+  return !word.empty() && is_digit(word.back()) &&
+         word.find_first_not_of("0123456789_") == std::string_view::npos;
+}
+
 }  // namespace
 
 bool is_reserved(Language language, const std::string& word) {
-  return words_of(language).find(" " + word + " ") != std::string_view::npos;
+  return words_of(language).find(" " + word + " ") != std::string_view::npos ||
+         is_intermediate(word);
 }
 
 std::string Identifiers::operator()(const std::string& name) {

@@ -8,8 +8,8 @@ namespace gainsmith::exports {
 
 enum class Language { c, matlab, python };
 
-/// Whether a word means something in the language itself, or is a name of its library that every
-/// program uses: `float`, `lambda`, `end`.
+/// Whether a word means something in the language itself, or is a name that the written code uses:
+/// `float`, `lambda`, `end`; `range`, `pow`, `gs3`.
 bool is_reserved(Language language, const std::string& word);
 
 /// Names of one scope, each given once.

@@ -166,8 +166,9 @@ class Rules {
     throw expr::EvaluationError(
         "the " + to_string(op) +
         " of a function of a 'forall' variable: 'hull' takes sums and products of powers, "
-        "exp, sin and cos of affine functions and expm of multiples of one variable; use the way "
-        "exchange");
+        "exp, sin and cos of affine functions and expm of multiples of one variable; use "
+        "synthesis: "
+        "{forall: exchange}");
   }
 
  private:

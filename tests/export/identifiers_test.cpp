@@ -15,6 +15,16 @@ TEST(Identifiers, WordsOfALanguageGetAnUnderscore) {
   EXPECT_FALSE(is_reserved(Language::c, "reg"));
 }
 
+TEST(Identifiers, NamesThatTheCodeUsesGetAnUnderscore) {
+  EXPECT_EQ(Identifiers(Language::python)("range"), "range_");
+  EXPECT_EQ(Identifiers(Language::matlab)("power"), "power_");
+  EXPECT_EQ(Identifiers(Language::c)("pow"), "pow_");
+  EXPECT_EQ(Identifiers(Language::c)("gs3"), "gs3_");
+  EXPECT_EQ(Identifiers(Language::python)("gsb3_0"), "gsb3_0_");
+  EXPECT_EQ(Identifiers(Language::c)("gs"), "gs");
+  EXPECT_EQ(Identifiers(Language::c)("gsx1"), "gsx1");
+}
+
 TEST(Identifiers, OtherSignsBecomeUnderscores) {
   Identifiers names(Language::matlab);
   EXPECT_EQ(names("ferrante-seuret-2021/t2-0.70"), "ferrante_seuret_2021_t2_0_70");

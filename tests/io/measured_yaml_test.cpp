@@ -159,7 +159,13 @@ TEST_F(Measured, TimesHaveUnitsAndOrigins) {
   EXPECT_NE(message("t,u\n0,1\n", ", from: \"2026-11-29T08:00:00Z\"").find("as in"),
             std::string::npos);
   EXPECT_NE(message("t,u\n0,1\n", ", scale: 0").find("positive"), std::string::npos);
-  EXPECT_NE(message("t,u\n2026-13-29T08:00:00Z,1\n").find("expected a time"), std::string::npos);
+  for (const char* const time : {"2026-13-29T08:00:00Z", "2026-11-29T24:59:00Z",
+                                 "2026-11-29T08:-1:00Z", "2026-11-29T08:00:61Z"})
+    EXPECT_NE(message("t,u\n" + std::string(time) + ",1\n").find("expected a time"),
+              std::string::npos)
+        << time;
+  EXPECT_EQ(times("t,u\n2026-11-30T00:00:01Z,1\n", ", from: \"2026-11-29T24:00:00Z\""),
+            times("t,u\n2026-11-29T08:00:01Z,1\n", ", from: \"2026-11-29T08:00:00Z\""));
   EXPECT_NE(message("t,u\n1700000000050,1\n").find("scale: 1e-3 for ms"), std::string::npos);
   EXPECT_NE(message("# t,u\n0,1\n").find("lines that begin with #"), std::string::npos);
 }

@@ -55,14 +55,16 @@ std::optional<LogTimes::Time> LogTimes::parsed(const std::string& text) {
   const std::chrono::year_month_day date{std::chrono::year(year),
                                          std::chrono::month(static_cast<unsigned>(month)),
                                          std::chrono::day(static_cast<unsigned>(day))};
-  if (!date.ok() || hour > 24 || minute > 59 || !parse_decimal(seconds) ||
-      (zone != "Z" && !is_offset))
+  if (!date.ok() || !parse_decimal(seconds) || (zone != "Z" && !is_offset)) return std::nullopt;
+  // The end of a day is 24:00:00; a leap second is second 60.
+  const long double second = std::strtold(seconds.c_str(), nullptr);
+  const bool is_end = hour == 24 && minute == 0 && second == 0;
+  if (hour < 0 || (hour > 23 && !is_end) || minute < 0 || minute > 59 || second >= 61)
     return std::nullopt;
   const int east = (zone[0] == '-' ? -1 : 1) * (60 * east_hours + east_minutes);
   const auto days = std::chrono::sys_days(date).time_since_epoch().count();
-  return Time{86400.0L * days + 60.0L * (60 * hour + minute - east) +
-                  std::strtold(seconds.c_str(), nullptr),
-              decimals_of(seconds), true};
+  return Time{86400.0L * days + 60.0L * (60 * hour + minute - east) + second, decimals_of(seconds),
+              true};
 }
 
 std::optional<LogTimes::Time> LogTimes::time_of(std::size_t row) const {
