@@ -15,153 +15,159 @@
 namespace gainsmith::design {
 
 /// When each kind is due, and what it asks.
-struct Attempts {
+struct AttemptRules {
   static constexpr double kTighter = 0.1;  ///< times the bound on gains
   static constexpr double kNear = 0.01;  ///< of the bound; a gain far below it is not limited by it
 
-  static bool has_minimum(const Climb& climb) {
-    return lmi::has_minimum(climb.posed_.lmi, climb.bounds_);
+  static bool has_minimum(const Attempts& attempts) {
+    return lmi::has_minimum(attempts.posed_.lmi, attempts.bounds_);
   }
   /// Neither a yes within the bounds nor a refutation.
-  static bool nothing_holds(const Climb& climb) {
-    const Attempt* point = climb.point();
-    return (point == nullptr || !climb.is_yes(*point)) && climb.refutation() == nullptr;
+  static bool nothing_holds(const Attempts& attempts) {
+    const Attempt* point = attempts.point();
+    return (point == nullptr || !attempts.is_yes(*point)) && attempts.refutation() == nullptr;
   }
   /// Not even with gains beyond the bound.
-  static bool nothing_holds_at_all(const Climb& climb) {
-    const Attempt* point = climb.point();
-    return (point == nullptr || !point->holds()) && climb.refutation() == nullptr;
+  static bool nothing_holds_at_all(const Attempts& attempts) {
+    const Attempt* point = attempts.point();
+    return (point == nullptr || !point->holds()) && attempts.refutation() == nullptr;
   }
-  static bool is_bounded(const Climb& climb) { return !climb.bounds_.list.empty(); }
+  static bool is_bounded(const Attempts& attempts) { return !attempts.bounds_.list.empty(); }
 
   /// Without an objective it comes first; after one only where the bounds leave nothing.
-  static bool free_inside_is_due(const Climb& climb) {
-    return is_bounded(climb) && !has_minimum(climb);
+  static bool free_inside_is_due(const Attempts& attempts) {
+    return is_bounded(attempts) && !has_minimum(attempts);
   }
-  static bool bounds_leave_nothing(const Climb& climb) {
-    return is_bounded(climb) && climb.find(AttemptKind::free_inside) == nullptr &&
-           nothing_holds_at_all(climb);
+  static bool bounds_leave_nothing(const Attempts& attempts) {
+    return is_bounded(attempts) && attempts.find(AttemptKind::free_inside) == nullptr &&
+           nothing_holds_at_all(attempts);
   }
   /// Beside equations nothing has room to spare: only the face that they leave has.
-  static bool has_room(const Climb& climb) { return !states_equations(climb.posed_.lmi); }
-  static bool minimum_is_due(const Climb& climb) { return has_minimum(climb) && has_room(climb); }
+  static bool has_room(const Attempts& attempts) { return !states_equations(attempts.posed_.lmi); }
+  static bool minimum_is_due(const Attempts& attempts) {
+    return has_minimum(attempts) && has_room(attempts);
+  }
   /// The last attempt at the minimum within the bounds.
-  static const Attempt* last_minimum(const Climb& climb) {
-    const Attempt* large = climb.find(AttemptKind::large_minimum);
-    return large != nullptr ? large : climb.find(AttemptKind::minimum);
+  static const Attempt* last_minimum(const Attempts& attempts) {
+    const Attempt* large = attempts.find(AttemptKind::large_minimum);
+    return large != nullptr ? large : attempts.find(AttemptKind::minimum);
   }
   /// The minimum is found but its point does not hold, and a point inside does.
-  static bool blended_is_due(const Climb& climb) {
-    const Attempt* minimum = last_minimum(climb);
-    const Attempt* inside = climb.find(AttemptKind::inside);
+  static bool blended_is_due(const Attempts& attempts) {
+    const Attempt* minimum = last_minimum(attempts);
+    const Attempt* inside = attempts.find(AttemptKind::inside);
     return minimum != nullptr && minimum->is_near_optimal() && !minimum->holds() &&
            inside != nullptr && inside->holds();
   }
   /// That no x of ordinary size has the margin says nothing where a point holds.
-  static bool large_minimum_is_due(const Climb& climb) {
-    const Attempt* minimum = climb.find(AttemptKind::minimum);
-    const Attempt* inside = climb.find(AttemptKind::inside);
+  static bool large_minimum_is_due(const Attempts& attempts) {
+    const Attempt* minimum = attempts.find(AttemptKind::minimum);
+    const Attempt* inside = attempts.find(AttemptKind::inside);
     return minimum != nullptr && inside != nullptr && inside->holds() &&
            minimum->solution.status == sdp::Status::primal_infeasible &&
            std::isfinite(minimum->solution.certificate.excluded_radius);
   }
-  static bool free_minimum_is_due(const Climb& climb) {
-    return is_bounded(climb) && minimum_is_due(climb) && nothing_holds(climb);
+  static bool free_minimum_is_due(const Attempts& attempts) {
+    return is_bounded(attempts) && minimum_is_due(attempts) && nothing_holds(attempts);
   }
   /// More digits are of use only where the blocks come from the decimals of the file.
-  static bool digits_are_due(const Climb& climb) {
-    return climb.posed_.wide && climb.posed_.lmi.represents_points() && nothing_holds_at_all(climb);
+  static bool digits_are_due(const Attempts& attempts) {
+    return attempts.posed_.wide && attempts.posed_.lmi.represents_points() &&
+           nothing_holds_at_all(attempts);
   }
   /// Nothing holds, or a certificate excludes that is not exact.
-  static bool faces_are_due(const Climb& climb) {
-    const Attempt* refuted = climb.refutation();
-    const bool inexact = refuted != nullptr && !refuted->refutation->exact && climb.posed_.wide &&
-                         climb.posed_.check.describe;
-    return climb.posed_.lmi.represents_points() && (nothing_holds_at_all(climb) || inexact) &&
-           climb.find(AttemptKind::on_equations) == nullptr;
+  static bool faces_are_due(const Attempts& attempts) {
+    const Attempt* refuted = attempts.refutation();
+    const bool inexact = refuted != nullptr && !refuted->refutation->exact &&
+                         attempts.posed_.wide && attempts.posed_.check.describe;
+    return attempts.posed_.lmi.represents_points() && (nothing_holds_at_all(attempts) || inexact) &&
+           attempts.find(AttemptKind::on_equations) == nullptr;
   }
-  static bool equations_are_due(const Climb& climb) {
-    return climb.posed_.lmi.represents_points() && !has_room(climb);
+  static bool equations_are_due(const Attempts& attempts) {
+    return attempts.posed_.lmi.represents_points() && !has_room(attempts);
   }
   /// A yes at a minimum, with a gain that is large without being at its bound.
-  static bool tighter_is_due(const Climb& climb) {
-    const Attempt* point = climb.point();
-    if (!climb.posed_.check.describe || point == nullptr || !climb.is_yes(*point) ||
-        !has_minimum(climb) || climb.is_free(*point))
+  static bool tighter_is_due(const Attempts& attempts) {
+    const Attempt* point = attempts.point();
+    if (!attempts.posed_.check.describe || point == nullptr || !attempts.is_yes(*point) ||
+        !has_minimum(attempts) || attempts.is_free(*point))
       return false;
-    const auto bounds = lmi::reached_bounds(climb.bounds_, point->x);
+    const auto bounds = lmi::reached_bounds(attempts.bounds_, point->x);
     return std::any_of(bounds.begin(), bounds.end(), [](const model::GainBound& bound) {
       return !bound.active && bound.reached > kNear * bound.bound;
     });
   }
 
-  static Attempt ask(const Climb& climb, Question question) {
-    return measured(climb, attempt(climb.posed_, std::move(question), climb.solve_));
+  static Attempt ask(const Attempts& attempts, Question question) {
+    return measured(attempts, attempt(attempts.posed_, std::move(question), attempts.solve_));
   }
   /// With its largest gain, where no bound was asked for.
-  static Attempt measured(const Climb& climb, Attempt result) {
-    if (result.point && climb.is_free(result)) {
-      const lmi::Inequalities& of = climb.posed_.inequalities;
+  static Attempt measured(const Attempts& attempts, Attempt result) {
+    if (result.point && attempts.is_free(result)) {
+      const lmi::Inequalities& of = attempts.posed_.inequalities;
       numbers::Values values = of.instance.values;
       for (auto& [name, matrix] : of.unknowns.values(result.x)) values[name] = matrix;
       result.largest_gain = largest_gain(of, values);
       result.reached_gain = result.largest_gain;
       // In the units of the bound.
-      if (!climb.bounds_.units.empty() && !climb.bounds_.list.empty()) {
+      if (!attempts.bounds_.units.empty() && !attempts.bounds_.list.empty()) {
         result.reached_gain = 0;
-        for (const auto& bound : lmi::reached_bounds(climb.bounds_, result.x))
+        for (const auto& bound : lmi::reached_bounds(attempts.bounds_, result.x))
           result.reached_gain =
-              std::max(result.reached_gain, bound.reached / bound.bound * climb.bounds_.beta);
+              std::max(result.reached_gain, bound.reached / bound.bound * attempts.bounds_.beta);
       }
     }
     return result;
   }
   /// Relative gap 1e-8, with the margin that the problem asks for.
-  static Question objective(const Climb& climb, lmi::GainBounds bounds) {
-    return {lmi::Goal::objective, std::move(bounds), {"auto", 1e-8}, climb.posed_.choices().margin};
+  static Question objective(const Attempts& attempts, lmi::GainBounds bounds) {
+    return {
+        lmi::Goal::objective, std::move(bounds), {"auto", 1e-8}, attempts.posed_.choices().margin};
   }
   static Question interior(lmi::GainBounds bounds, Effort effort = {}) {
     return {lmi::Goal::interior, std::move(bounds), std::move(effort), 0};
   }
 
-  static std::optional<Attempt> minimum(const Climb& climb) {
-    return ask(climb, objective(climb, climb.bounds_));
+  static std::optional<Attempt> minimum(const Attempts& attempts) {
+    return ask(attempts, objective(attempts, attempts.bounds_));
   }
-  static std::optional<Attempt> inside(const Climb& climb) {
-    return climb.inside_ ? *climb.inside_ : ask(climb, interior(climb.bounds_));
+  static std::optional<Attempt> inside(const Attempts& attempts) {
+    return attempts.inside_ ? *attempts.inside_ : ask(attempts, interior(attempts.bounds_));
   }
   /// Not ended by a certificate against x below some 1e16.
-  static std::optional<Attempt> large_minimum(const Climb& climb) {
-    Question question = objective(climb, climb.bounds_);
+  static std::optional<Attempt> large_minimum(const Attempts& attempts) {
+    Question question = objective(attempts, attempts.bounds_);
     question.effort.certificate_tolerance = 1e-16;
-    return ask(climb, std::move(question));
+    return ask(attempts, std::move(question));
   }
-  static std::optional<Attempt> blended(const Climb& climb) {
-    return design::blended(climb.posed_, *last_minimum(climb), *climb.find(AttemptKind::inside),
-                           climb.solve_);
+  static std::optional<Attempt> blended(const Attempts& attempts) {
+    return design::blended(attempts.posed_, *last_minimum(attempts),
+                           *attempts.find(AttemptKind::inside), attempts.solve_);
   }
-  static std::optional<Attempt> free_minimum(const Climb& climb) {
-    return ask(climb, objective(climb, {}));
+  static std::optional<Attempt> free_minimum(const Attempts& attempts) {
+    return ask(attempts, objective(attempts, {}));
   }
-  static std::optional<Attempt> free_inside(const Climb& climb) { return ask(climb, interior({})); }
-  static std::optional<Attempt> in_31_digits(const Climb& climb) {
-    return ask(climb, interior({}, {"quad", 1e-22}));
+  static std::optional<Attempt> free_inside(const Attempts& attempts) {
+    return ask(attempts, interior({}));
+  }
+  static std::optional<Attempt> in_31_digits(const Attempts& attempts) {
+    return ask(attempts, interior({}, {"quad", 1e-22}));
   }
   /// Without bounds on gains; where its gains are too large, once more with them.
-  static std::optional<Attempt> facial_reduction(const Climb& climb) {
-    auto found = measured(climb, attempt_facial_reduction(climb.posed_, {}, climb.solve_));
-    if (!found || !found->holds() || climb.is_yes(*found)) return found;
-    auto within = attempt_facial_reduction(climb.posed_, climb.bounds_, climb.solve_);
+  static std::optional<Attempt> facial_reduction(const Attempts& attempts) {
+    auto found = measured(attempts, attempt_facial_reduction(attempts.posed_, {}, attempts.solve_));
+    if (!found || !found->holds() || attempts.is_yes(*found)) return found;
+    auto within = attempt_facial_reduction(attempts.posed_, attempts.bounds_, attempts.solve_);
     return within && within->holds() ? std::move(within) : std::move(found);
   }
-  static std::optional<Attempt> measured(const Climb& climb, std::optional<Attempt> found) {
-    if (found) found = measured(climb, std::move(*found));
+  static std::optional<Attempt> measured(const Attempts& attempts, std::optional<Attempt> found) {
+    if (found) found = measured(attempts, std::move(*found));
     return found;
   }
-  static std::optional<Attempt> tighter(const Climb& climb) {
-    return ask(climb, objective(climb, lmi::gain_bounds(climb.posed_.inequalities,
-                                                        kTighter * climb.bounds_.beta,
-                                                        climb.bounds_.units)));
+  static std::optional<Attempt> tighter(const Attempts& attempts) {
+    return ask(attempts, objective(attempts, lmi::gain_bounds(attempts.posed_.inequalities,
+                                                              kTighter * attempts.bounds_.beta,
+                                                              attempts.bounds_.units)));
   }
 };
 
@@ -170,39 +176,40 @@ namespace {
 /// One line of the table in attempts.h: its condition, its question and its name for progress.
 struct Row {
   AttemptKind kind;
-  bool (*is_due)(const Climb&);
-  std::optional<Attempt> (*tries)(const Climb&);
+  bool (*is_due)(const Attempts&);
+  std::optional<Attempt> (*tries)(const Attempts&);
   const char* doing;
 };
 
 constexpr std::array<Row, 11> kAttempts = {{
-    {AttemptKind::on_equations, Attempts::equations_are_due, Attempts::facial_reduction,
+    {AttemptKind::on_equations, AttemptRules::equations_are_due, AttemptRules::facial_reduction,
      "a face that the equations leave"},
-    {AttemptKind::minimum, Attempts::minimum_is_due, Attempts::minimum, "the minimum"},
-    {AttemptKind::free_inside, Attempts::free_inside_is_due, Attempts::free_inside,
+    {AttemptKind::minimum, AttemptRules::minimum_is_due, AttemptRules::minimum, "the minimum"},
+    {AttemptKind::free_inside, AttemptRules::free_inside_is_due, AttemptRules::free_inside,
      "the largest margin, gains of any size"},
-    {AttemptKind::inside, Attempts::nothing_holds, Attempts::inside, "the largest margin"},
-    {AttemptKind::large_minimum, Attempts::large_minimum_is_due, Attempts::large_minimum,
+    {AttemptKind::inside, AttemptRules::nothing_holds, AttemptRules::inside, "the largest margin"},
+    {AttemptKind::large_minimum, AttemptRules::large_minimum_is_due, AttemptRules::large_minimum,
      "the minimum, unknowns of any size"},
-    {AttemptKind::blended, Attempts::blended_is_due, Attempts::blended, "a point near the minimum"},
-    {AttemptKind::free_minimum, Attempts::free_minimum_is_due, Attempts::free_minimum,
+    {AttemptKind::blended, AttemptRules::blended_is_due, AttemptRules::blended,
+     "a point near the minimum"},
+    {AttemptKind::free_minimum, AttemptRules::free_minimum_is_due, AttemptRules::free_minimum,
      "the minimum, gains of any size"},
-    {AttemptKind::free_inside, Attempts::bounds_leave_nothing, Attempts::free_inside,
+    {AttemptKind::free_inside, AttemptRules::bounds_leave_nothing, AttemptRules::free_inside,
      "the largest margin, gains of any size"},
-    {AttemptKind::in_31_digits, Attempts::digits_are_due, Attempts::in_31_digits,
+    {AttemptKind::in_31_digits, AttemptRules::digits_are_due, AttemptRules::in_31_digits,
      "the largest margin in 31 digits"},
-    {AttemptKind::facial_reduction, Attempts::faces_are_due, Attempts::facial_reduction,
+    {AttemptKind::facial_reduction, AttemptRules::faces_are_due, AttemptRules::facial_reduction,
      "a face that all solutions share"},
-    {AttemptKind::tighter, Attempts::tighter_is_due, Attempts::tighter, "smaller gains"},
+    {AttemptKind::tighter, AttemptRules::tighter_is_due, AttemptRules::tighter, "smaller gains"},
 }};
 
 }  // namespace
 
-Climb::Climb(const Posed& posed, lmi::GainBounds bounds, Solve solve)
+Attempts::Attempts(const Posed& posed, lmi::GainBounds bounds, Solve solve)
     : posed_(posed), bounds_(std::move(bounds)), solve_(std::move(solve)) {}
 
 template <class Tries>
-void Climb::make(AttemptKind kind, const char* what, const Tries& tries) {
+void Attempts::make(AttemptKind kind, const char* what, const Tries& tries) {
   using Clock = std::chrono::steady_clock;
   check_stop();
   doing_ = what;
@@ -222,16 +229,16 @@ void Climb::make(AttemptKind kind, const char* what, const Tries& tries) {
   seconds_ += std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-void Climb::to_point() { climb(false); }
+void Attempts::to_point() { attempts(false); }
 
-void Climb::to_end() { climb(true); }
+void Attempts::to_end() { attempts(true); }
 
-void Climb::to_near_minimum(std::optional<Attempt> inside) {
+void Attempts::to_near_minimum(std::optional<Attempt> inside) {
   const Attempt* minimum = find(AttemptKind::minimum);
   inside_ = std::move(inside);
   if (minimum == nullptr || !minimum->point || minimum->holds()) return;
   if (!inside_) {
-    make(AttemptKind::inside, "the largest margin", [&] { return Attempts::inside(*this); });
+    make(AttemptKind::inside, "the largest margin", [&] { return AttemptRules::inside(*this); });
     const Attempt* found = find(AttemptKind::inside);
     if (found == nullptr || !found->holds()) return;
     inside_ = *found;
@@ -243,7 +250,7 @@ void Climb::to_near_minimum(std::optional<Attempt> inside) {
   if (find(AttemptKind::blended) == nullptr) done_.erase(AttemptKind::blended);
 }
 
-void Climb::climb(bool to_end) {
+void Attempts::attempts(bool to_end) {
   for (const Row& row : kAttempts) {
     if (!to_end && (point() != nullptr || refutation() != nullptr)) return;
     if (out_of_allowance_) return;
@@ -252,7 +259,7 @@ void Climb::climb(bool to_end) {
   }
 }
 
-double Climb::allowance() const {
+double Attempts::allowance() const {
   // Seconds, and times the work of one solution in double.
   constexpr double kLeast = 2, kMost = 60, kTimes = 20;
   // Iterations of the interior-point method, as a rule.
@@ -263,12 +270,12 @@ double Climb::allowance() const {
   return std::max(2 * solver, std::clamp(kTimes * solver, kLeast, kMost));
 }
 
-const Attempt* Climb::find(AttemptKind kind) const {
+const Attempt* Attempts::find(AttemptKind kind) const {
   const auto found = tried_.find(kind);
   return found == tried_.end() ? nullptr : &found->second;
 }
 
-const Attempt* Climb::point() const {
+const Attempt* Attempts::point() const {
   // A minimum is worth more than a point inside; within the bounds more than without.
   constexpr AttemptKind kWorth[] = {
       AttemptKind::minimum,      AttemptKind::large_minimum, AttemptKind::blended,
@@ -286,7 +293,7 @@ const Attempt* Climb::point() const {
   return holding != nullptr ? holding : first;
 }
 
-const Attempt* Climb::refutation() const {
+const Attempt* Attempts::refutation() const {
   const Attempt* first = nullptr;
   for (const auto& [kind, attempt] : tried_) {
     if (!attempt.refuted()) continue;
@@ -296,18 +303,18 @@ const Attempt* Climb::refutation() const {
   return first;
 }
 
-const Attempt& Climb::last() const {
+const Attempt& Attempts::last() const {
   for (const AttemptKind kind :
        {AttemptKind::in_31_digits, AttemptKind::free_inside, AttemptKind::inside})
     if (const Attempt* attempt = find(kind)) return *attempt;
   return tried_.begin()->second;
 }
 
-bool Climb::is_yes(const Attempt& attempt) const {
+bool Attempts::is_yes(const Attempt& attempt) const {
   return attempt.holds() && (!is_free(attempt) || attempt.reached_gain <= bounds_.beta);
 }
 
-bool Climb::is_free(const Attempt& attempt) const {
+bool Attempts::is_free(const Attempt& attempt) const {
   return !bounds_.list.empty() && attempt.question.bounds.list.empty();
 }
 

@@ -51,10 +51,10 @@ enum class AttemptKind {
 };
 
 /// The attempts so far.
-class Climb {
+class Attempts {
  public:
   /// `bounds` are those of the problem.
-  Climb(const Posed& posed, lmi::GainBounds bounds, Solve solve);
+  Attempts(const Posed& posed, lmi::GainBounds bounds, Solve solve);
 
   /// The attempts up to the first point, or the refutation.
   void to_point();
@@ -92,11 +92,11 @@ class Climb {
   bool is_out_of_allowance() const { return out_of_allowance_; }
 
  private:
-  friend struct Attempts;
+  friend struct AttemptRules;
 
   /// Makes the attempts that are due, in their order; without `to_end` until a point or a
   /// refutation.
-  void climb(bool to_end);
+  void attempts(bool to_end);
   /// One attempt, within the allowance.
   template <class Tries>
   void make(AttemptKind kind, const char* doing, const Tries& tries);
@@ -124,6 +124,6 @@ using ExcludesObjective = std::function<std::optional<model::CertificateRecord>(
 /// messages. A yes is a check of the decimals that are written, a no a certificate that was checked
 /// on the decimals of the file; never the solver's own word. `excludes` is asked where weak duality
 /// shows no lower bound near the minimum.
-void conclude(const Climb& climb, const ExcludesObjective& excludes, model::Gains& gains);
+void conclude(const Attempts& attempts, const ExcludesObjective& excludes, model::Gains& gains);
 
 }  // namespace gainsmith::design

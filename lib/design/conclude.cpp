@@ -110,8 +110,8 @@ const lmi::Block& block_at(const lmi::Lmi& lmi, const lmi::GainBounds& bounds, s
 }
 
 /// The multipliers by the name and point of their block.
-model::NamedMatrices named_multipliers(const Climb& climb, const Attempt& attempt) {
-  const lmi::Lmi& lmi = climb.posed().lmi;
+model::NamedMatrices named_multipliers(const Attempts& attempts, const Attempt& attempt) {
+  const lmi::Lmi& lmi = attempts.posed().lmi;
   const lmi::GainBounds& bounds = attempt.question.bounds;
   const auto list = lmi::multipliers(lmi, bounds, attempt.formulation, attempt.solution);
   model::NamedMatrices result;
@@ -125,8 +125,8 @@ model::NamedMatrices named_multipliers(const Climb& climb, const Attempt& attemp
 }
 
 /// What each inequality and each bound on gains costs the minimum, in the units of the objective.
-std::vector<model::Multiplier> multipliers_of(const Climb& climb, const Attempt& minimum) {
-  const lmi::Lmi& lmi = climb.posed().lmi;
+std::vector<model::Multiplier> multipliers_of(const Attempts& attempts, const Attempt& minimum) {
+  const lmi::Lmi& lmi = attempts.posed().lmi;
   const lmi::GainBounds& bounds = minimum.question.bounds;
   const auto list = lmi::multipliers(lmi, bounds, minimum.formulation, minimum.solution);
   std::vector<model::Multiplier> result;
@@ -138,7 +138,7 @@ std::vector<model::Multiplier> multipliers_of(const Climb& climb, const Attempt&
 }
 
 /// Shown by weak duality, within the gain bounds.
-void add_lower_bound(const Climb& climb, const Attempt& point, model::Gains& gains) {
+void add_lower_bound(const Attempts& attempts, const Attempt& point, model::Gains& gains) {
   const auto add = [&](double least) {
     gains.objective_lower_bound = std::min(*gains.objective, least);
   };
@@ -146,12 +146,12 @@ void add_lower_bound(const Climb& climb, const Attempt& point, model::Gains& gai
     if (point.least) add(*point.least);
     return;
   }
-  const lmi::Lmi& lmi = climb.posed().lmi;
+  const lmi::Lmi& lmi = attempts.posed().lmi;
   lmi::GainBounds bounds = point.question.bounds;
   // What limits unknowns alone is no inequality of the problem (blended()).
-  if (point.approached) bounds.blocks.resize(climb.bounds().blocks.size());
+  if (point.approached) bounds.blocks.resize(attempts.bounds().blocks.size());
   const auto within = [&](const lmi::GainBounds& gain_bounds) {
-    return verdict::lower_bound(climb.posed().inequalities, lmi, gain_bounds, point.formulation,
+    return verdict::lower_bound(attempts.posed().inequalities, lmi, gain_bounds, point.formulation,
                                 point.solution);
   };
   // What the inequalities alone show is about all gains, and anybody can repeat it.
@@ -171,14 +171,14 @@ void add_lower_bound(const Climb& climb, const Attempt& point, model::Gains& gai
 }
 
 /// What the solver found, whatever is shown of it.
-std::optional<double> solver_objective(const Climb& climb) {
+std::optional<double> solver_objective(const Attempts& attempts) {
   for (const AttemptKind kind : {AttemptKind::on_equations, AttemptKind::facial_reduction})
-    if (const Attempt* face = climb.find(kind); face != nullptr && face->reached)
+    if (const Attempt* face = attempts.find(kind); face != nullptr && face->reached)
       return face->reached;
-  const Attempt* minimum = climb.find(AttemptKind::minimum);
+  const Attempt* minimum = attempts.find(AttemptKind::minimum);
   if (minimum == nullptr || !minimum->is_near_optimal()) return std::nullopt;
-  return climb.posed().lmi.objective_at(
-      lmi::read_back(climb.posed().lmi, minimum->formulation, minimum->solution));
+  return attempts.posed().lmi.objective_at(
+      lmi::read_back(attempts.posed().lmi, minimum->formulation, minimum->solution));
 }
 
 /// The greater of two lower bounds near the objective that a certificate shows.
@@ -202,7 +202,7 @@ void bound_by_certificate(const ExcludesObjective& excludes, model::Gains& gains
 
 /// A minimum is one that a bound brackets to 1e-6 of its size: for all solutions, or for those
 /// whose unknowns are at most twice as large. A margin that was asked for has its price.
-void note_bracket(const Climb& climb, const Attempt& point, const ExcludesObjective& excludes,
+void note_bracket(const Attempts& attempts, const Attempt& point, const ExcludesObjective& excludes,
                   model::Gains& gains) {
   const auto& least = gains.objective_lower_bound;
   const auto is_near = [&](double low) {
@@ -211,10 +211,10 @@ void note_bracket(const Climb& climb, const Attempt& point, const ExcludesObject
   if (least && is_near(*least)) return;
   if (point.holds() && excludes) bound_by_certificate(excludes, gains);
   if (least && is_near(*least)) return;
-  const bool is_priced = climb.posed().choices().margin > model::SynthesisOptions{}.margin;
-  const bool is_estimated =
-      !point.on_face && is_near(lmi::objective_lower_bound(climb.posed().lmi, point.question.bounds,
-                                                           point.formulation, point.solution));
+  const bool is_priced = attempts.posed().choices().margin > model::SynthesisOptions{}.margin;
+  const bool is_estimated = !point.on_face && is_near(lmi::objective_lower_bound(
+                                                  attempts.posed().lmi, point.question.bounds,
+                                                  point.formulation, point.solution));
   if (!is_priced && !is_estimated) gains.solver.status = "feasible";
   gains.solver.add_message(
       least ? "the optimum is between the lower bound " + brief_below(*least, 10) +
@@ -227,11 +227,11 @@ void note_bracket(const Climb& climb, const Attempt& point, const ExcludesObject
 
 /// The objective of a point: with a lower bound where it is a minimum, else with the reason why
 /// not.
-void note_objective(const Climb& climb, const Attempt& point, const ExcludesObjective& excludes,
-                    model::Gains& gains) {
-  const lmi::Lmi& lmi = climb.posed().lmi;
+void note_objective(const Attempts& attempts, const Attempt& point,
+                    const ExcludesObjective& excludes, model::Gains& gains) {
+  const lmi::Lmi& lmi = attempts.posed().lmi;
   if (!lmi.has_objective) return;
-  if (!lmi::has_minimum(lmi, climb.bounds())) {
+  if (!lmi::has_minimum(lmi, attempts.bounds())) {
     // Its value at a point that may be scaled says nothing.
     gains.solver.add_message(
         "the objective was not used: without constant parts every solution may be scaled, so its "
@@ -241,17 +241,17 @@ void note_objective(const Climb& climb, const Attempt& point, const ExcludesObje
   }
   gains.objective = lmi.objective_at(point.x);
   if (point.question.goal == lmi::Goal::objective) {
-    add_lower_bound(climb, point, gains);
-    if (!point.on_face) gains.multipliers = multipliers_of(climb, point);
+    add_lower_bound(attempts, point, gains);
+    if (!point.on_face) gains.multipliers = multipliers_of(attempts, point);
     if (point.approached)
       gains.solver.add_message(
           "the least value of the objective is only approached, as unknowns and gains grow without "
           "end; this one is near it");
     else
-      note_bracket(climb, point, excludes, gains);
+      note_bracket(attempts, point, excludes, gains);
     return;
   }
-  const Attempt* minimum = climb.find(AttemptKind::minimum);
+  const Attempt* minimum = attempts.find(AttemptKind::minimum);
   gains.solver.unbounded =
       point.unbounded ||
       (minimum != nullptr && minimum->solution.status == sdp::Status::dual_infeasible);
@@ -260,7 +260,7 @@ void note_objective(const Climb& climb, const Attempt& point, const ExcludesObje
         "the objective is that of a point inside: the solver finds it unbounded below");
     return;
   }
-  const auto value = solver_objective(climb);
+  const auto value = solver_objective(attempts);
   gains.solver.add_message(
       "the objective is that of a point inside, not its minimum: the minimum was not found" +
       (value ? "; the solver's is " + brief(*value, 10) + ", near no decimals that hold"
@@ -270,24 +270,24 @@ void note_objective(const Climb& climb, const Attempt& point, const ExcludesObje
 /// A yes with its unknowns, margins and bounds, or what the best point falls short of. A yes
 /// without the bounds on gains is undecided where the problem states a bound and its gains exceed
 /// it.
-void accept_point(const Climb& climb, const Attempt& point, const ExcludesObjective& excludes,
+void accept_point(const Attempts& attempts, const Attempt& point, const ExcludesObjective& excludes,
                   model::Gains& gains) {
-  const lmi::Lmi& lmi = climb.posed().lmi;
-  const lmi::Unknowns& unknowns = climb.posed().inequalities.unknowns;
+  const lmi::Lmi& lmi = attempts.posed().lmi;
+  const lmi::Unknowns& unknowns = attempts.posed().inequalities.unknowns;
   gains.margins = point.margins.margins;
   if (point.holds()) gains.solution_within = point.margins.solution_within;
   const numbers::Values values = unknowns.values(point.x);
   for (const lmi::Unknown& unknown : unknowns.list())
     gains.unknowns.emplace_back(unknown.name, values.at(unknown.name));
-  const lmi::GainBounds& bounds = climb.bounds();
+  const lmi::GainBounds& bounds = attempts.bounds();
   gains.bounds = lmi::reached_bounds(bounds, point.x);
-  note_objective(climb, point, excludes, gains);
+  note_objective(attempts, point, excludes, gains);
   if (!point.holds()) return note_failures(point, gains);
   gains.verdict = model::Verdict::yes;
-  if (climb.is_free(point)) {
+  if (attempts.is_free(point)) {
     const double largest = point.largest_gain;
     for (model::GainBound& bound : gains.bounds) bound.active = false;
-    if (!(largest <= bounds.beta) && climb.posed().choices().gain_bound_stated) {
+    if (!(largest <= bounds.beta) && attempts.posed().choices().gain_bound_stated) {
       gains.verdict = model::Verdict::undecided;
       gains.bound_only = largest;
       // They are those of the inequalities without the bound.
@@ -298,7 +298,7 @@ void accept_point(const Climb& climb, const Attempt& point, const ExcludesObject
       gains.multipliers.clear();
       gains.margins.clear();
       gains.solver.add_message(
-          (climb.posed().choices().gain_bounds.empty()
+          (attempts.posed().choices().gain_bounds.empty()
                ? "no gains were found under the gain bound " + brief(bounds.beta) +
                      ", whose condition is sufficient only; without it there are gains"
                : std::string("no gains were found under the gain bounds, whose conditions are "
@@ -313,7 +313,7 @@ void accept_point(const Climb& climb, const Attempt& point, const ExcludesObject
           " in balanced units were found; synthesis.gain_bound states what is acceptable");
   }
   note_wishes(point, gains);
-  if (const Attempt* tighter = climb.find(AttemptKind::tighter))
+  if (const Attempt* tighter = attempts.find(AttemptKind::tighter))
     mark_free_gains(*tighter, lmi, gains);
 }
 
@@ -355,9 +355,9 @@ model::NamedMatrices rounded_multipliers(const verdict::AlgebraicCertificate& ce
 }
 
 /// A no with its certificate: exact multipliers, a chain of steps, or multipliers in double.
-void accept_refutation(const Climb& climb, const Attempt& refuted, model::Gains& gains) {
+void accept_refutation(const Attempts& attempts, const Attempt& refuted, model::Gains& gains) {
   const verdict::Refutation& found = *refuted.refutation;
-  const lmi::Lmi& lmi = climb.posed().lmi;
+  const lmi::Lmi& lmi = attempts.posed().lmi;
   gains.verdict = model::Verdict::no;
   gains.certificate = model::CertificateRecord{found.exact, found.backward_error, found.digits, {}};
   if (!refuted.chain.empty()) {
@@ -368,20 +368,20 @@ void accept_refutation(const Climb& climb, const Attempt& refuted, model::Gains&
     gains.certificate->algebraic = record_of(*found.algebraic, lmi);
     gains.certificate->multipliers = rounded_multipliers(*found.algebraic, lmi);
   } else if (refuted.chain.empty()) {
-    gains.certificate->multipliers = named_multipliers(climb, refuted);
+    gains.certificate->multipliers = named_multipliers(attempts, refuted);
   }
 }
 
 /// What shows that the last program has no solution. It is exact of the coefficients in double
 /// where these are of corners that no value of the variables reaches.
-model::CertificateRecord relaxed_certificate(const Climb& climb) {
-  const lmi::Lmi& lmi = climb.posed().lmi;
-  const Attempt& last = climb.last();
+model::CertificateRecord relaxed_certificate(const Attempts& attempts) {
+  const lmi::Lmi& lmi = attempts.posed().lmi;
+  const Attempt& last = attempts.last();
   model::CertificateRecord record{false, last.relaxed_backward_error, kDoubleDigits,
-                                  named_multipliers(climb, last), ""};
+                                  named_multipliers(attempts, last), ""};
   if (lmi.represents_points()) return record;
   const auto found = verdict::refute<Decimal100>(
-      climb.posed().inequalities, lmi, last.formulation,
+      attempts.posed().inequalities, lmi, last.formulation,
       verdict::multipliers_of(last.formulation, lmi.blocks.size(), last.solution));
   if (!found.exact) return record;
   record.exact = true;
@@ -391,8 +391,8 @@ model::CertificateRecord relaxed_certificate(const Climb& climb) {
 
 /// What is known where neither a point nor a certificate decides.
 /// The largest margin, and the backward error of the best certificate.
-void note_undecided(const Climb& climb, model::Gains& gains) {
-  const Attempt& last = climb.last();
+void note_undecided(const Attempts& attempts, model::Gains& gains) {
+  const Attempt& last = attempts.last();
   const auto& refutation = last.refutation;
   // A certificate is a direction, and an iterate outside has no margin.
   if (last.question.goal == lmi::Goal::interior && !last.solution.x.empty() &&
@@ -406,37 +406,38 @@ void note_undecided(const Climb& climb, model::Gains& gains) {
 
 }  // namespace
 
-void conclude(const Climb& climb, const ExcludesObjective& excludes, model::Gains& gains) {
+void conclude(const Attempts& attempts, const ExcludesObjective& excludes, model::Gains& gains) {
   gains.verdict = model::Verdict::undecided;
-  const Attempt* point = climb.point();
-  const Attempt* refuted = climb.refutation();
-  const bool has_objective = climb.posed().lmi.has_objective;
-  if (point == nullptr || !point->holds()) gains.solver = record_of(climb.last(), has_objective);
+  const Attempt* point = attempts.point();
+  const Attempt* refuted = attempts.refutation();
+  const bool has_objective = attempts.posed().lmi.has_objective;
+  if (point == nullptr || !point->holds()) gains.solver = record_of(attempts.last(), has_objective);
   if (point != nullptr && (point->holds() || refuted == nullptr)) {
     gains.solver = record_of(*point, has_objective);
     if (!point->holds()) gains.solver.status = "undecided";
-    return accept_point(climb, *point, excludes, gains);
+    return accept_point(attempts, *point, excludes, gains);
   }
   if (refuted != nullptr) {
     gains.solver = record_of(*refuted, has_objective);
-    return accept_refutation(climb, *refuted, gains);
+    return accept_refutation(attempts, *refuted, gains);
   }
-  if (climb.is_out_of_allowance()) {
+  if (attempts.is_out_of_allowance()) {
     gains.solver.out_of_allowance = true;
     gains.solver.add_message(
         "the search for a point or a certificate in more digits was ended after its allowance of "
         "work; `--effort full`, or `effort: full` under `synthesis`, lets it go on");
   }
-  if (climb.posed().lmi.has_objective) gains.objective = solver_objective(climb);
+  if (attempts.posed().lmi.has_objective) gains.objective = solver_objective(attempts);
   for (const AttemptKind kind : {AttemptKind::on_equations, AttemptKind::facial_reduction})
-    if (const Attempt* faces = climb.find(kind)) return gains.solver.add_message(faces->left_open);
-  if (climb.last().relaxation_refuted()) {
+    if (const Attempt* faces = attempts.find(kind))
+      return gains.solver.add_message(faces->left_open);
+  if (attempts.last().relaxation_refuted()) {
     // What it is about is said by the plan (synthesize.cpp).
-    gains.certificate = relaxed_certificate(climb);
+    gains.certificate = relaxed_certificate(attempts);
     gains.solver.status = "undecided";
     return;
   }
-  note_undecided(climb, gains);
+  note_undecided(attempts, gains);
 }
 
 }  // namespace gainsmith::design

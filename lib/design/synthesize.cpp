@@ -174,7 +174,7 @@ class Synthesis {
     bool stopped = false;
     try {
       prepare();
-      while (climbs_again()) ++round_;
+      while (tries_again()) ++round_;
     } catch (const Stopped&) {
       stopped = true;
     } catch (const expr::EvaluationError&) {
@@ -183,15 +183,15 @@ class Synthesis {
       throw;
     }
     const Concluding concluding;
-    if (climb_ && climb_->has_begun()) {
-      conclude(*climb_, stopped || depth_ != Depth::thorough ? ExcludesObjective() : excludes(),
+    if (attempts_ && attempts_->has_begun()) {
+      conclude(*attempts_, stopped || depth_ != Depth::thorough ? ExcludesObjective() : excludes(),
                gains);
       report_plans(plan_, round_, gains);
     }
     // A point inside, where a minimum was asked for, is not all that was to come.
     if (stopped &&
         (gains.verdict == model::Verdict::undecided || gains.solver.status == "feasible"))
-      note_stop(climb_ ? climb_->doing() : "", iterations_, gains);
+      note_stop(attempts_ ? attempts_->doing() : "", iterations_, gains);
     add_gains(inequalities_, gains);
     if (gains.verdict != model::Verdict::yes) note_causes(gains);
     gains.timings = {
@@ -253,30 +253,32 @@ class Synthesis {
   }
 
   /// All attempts on the plan; whether it has grown by what they showed.
-  bool climbs_again() {
-    climb_.emplace(Posed{inequalities_, plan_, lmi_, depth_ != Depth::quick, check_options(depth_)},
-                   bounds_, [this](const auto&... asked) { return solve(asked...); });
-    climb_->to_point();
+  bool tries_again() {
+    attempts_.emplace(
+        Posed{inequalities_, plan_, lmi_, depth_ != Depth::quick, check_options(depth_)}, bounds_,
+        [this](const auto&... asked) { return solve(asked...); });
+    attempts_->to_point();
     // After so many rounds the points of an exchange draw together, and a point near the minimum
     // may end it.
     constexpr int kDrawsOn = 6;  // rounds after which an exchange does
     if (round_ >= kDrawsOn) {
-      climb_->to_near_minimum(std::move(inside_));
-      inside_ = climb_->inside();
+      attempts_->to_near_minimum(std::move(inside_));
+      inside_ = attempts_->inside();
     }
     bool again = grown();
     if (!again) {
-      climb_->to_end();
+      attempts_->to_end();
       again = grown();
     }
-    const Attempt* point = climb_->point();
+    const Attempt* point = attempts_->point();
     // Neither yes nor no.
-    const bool undecided = climb_->refutation() == nullptr && (point == nullptr || !point->holds());
+    const bool undecided =
+        attempts_->refutation() == nullptr && (point == nullptr || !point->holds());
     // What the hull's own expansion of the functions rounded away shows at points.
     if (!again && undecided) again = plan_.leave_hulls(inequalities_.design());
-    solve_seconds_ += climb_->seconds();
+    solve_seconds_ += attempts_->seconds();
     if (!again) return false;
-    climb_.reset();
+    attempts_.reset();
     const auto compiling = Clock::now();
     lmi_ = lmi::compile(inequalities_, plan_);
     compile_seconds_ += seconds_since(compiling);
@@ -287,12 +289,13 @@ class Synthesis {
   bool grown() {
     // Rounds of an exchange.
     constexpr int kMostRounds = 60;
-    const Attempt* point = climb_->point();
-    if (point == nullptr || point->holds() || climb_->refutation() != nullptr ||
+    const Attempt* point = attempts_->point();
+    if (point == nullptr || point->holds() || attempts_->refutation() != nullptr ||
         round_ >= kMostRounds)
       return false;
     // What a minimum violates may be too little to be told; a point inside leads to one near it.
-    const bool by_point = grown_by(point), by_inside = grown_by(climb_->find(AttemptKind::inside));
+    const bool by_point = grown_by(point),
+               by_inside = grown_by(attempts_->find(AttemptKind::inside));
     return by_point || by_inside;
   }
 
@@ -322,7 +325,7 @@ class Synthesis {
   forall::Plan plan_;
   lmi::Lmi lmi_;
   lmi::GainBounds bounds_;
-  std::optional<Climb> climb_;
+  std::optional<Attempts> attempts_;
   std::optional<Attempt> inside_;  ///< a point that holds, of an exchange that draws on
   int round_ = 1;
   int iterations_ = 0;  ///< of the solver, in all

@@ -70,21 +70,21 @@ Solution conclude(const Problem& problem, const Presolved& presolved, const Opti
 }
 
 /// One solve: runs of the loop in wider and wider arithmetic until one decides.
-class Ladder {
+class WideningSolve {
  public:
-  Ladder(const Problem& problem, const Presolved& presolved, const Options& options,
-         int iterations = 0)
+  WideningSolve(const Problem& problem, const Presolved& presolved, const Options& options,
+                int iterations = 0)
       : problem_(problem), presolved_(presolved), options_(options), iterations_(iterations) {}
 
   /// From the point `from`, where there is one, or from a far point.
-  Solution climb(int digits, const Iterate<double>* from = nullptr) {
+  Solution run_all(int digits, const Iterate<double>* from = nullptr) {
     try {
-      rise(digits, from);
-      settle();
+      widen(digits, from);
+      finish();
       if (!from) go_nearby();
     } catch (const Stopped&) {
       best_.cause = Cause::interrupted;
-      settle();
+      finish();
     }
     return std::move(best_);
   }
@@ -93,10 +93,10 @@ class Ladder {
   /// With more digits than double's asked for: one run in that arithmetic. Else double from `from`
   /// or a far point, the program on a face (for "auto"), and the homogeneous model. For "auto" 31
   /// and 100 digits follow as far as their cost permits.
-  void rise(int digits, const Iterate<double>* from) {
+  void widen(int digits, const Iterate<double>* from) {
     strict_ = digits > kDoubleDigits;
-    if (digits > kQuadDigits) return rise_in<Decimal100>(kFarthest);
-    if (digits > kDoubleDigits) return rise_in<DoubleDouble>(kFarther);
+    if (digits > kQuadDigits) return solve_in<Decimal100>(kFarthest);
+    if (digits > kDoubleDigits) return solve_in<DoubleDouble>(kFarther);
     Ipm<double> narrow(problem_, presolved_, options_);
     wider_ = digits == 0 && cost() <= kQuadCost;
     if (from) {
@@ -115,13 +115,13 @@ class Ladder {
       wide.start_from(narrow.point());
       run(wide, Model::fixed);
     }
-    if (!over() && !relay(narrow, Leave::imprecise, wide, kFarther)) attempt(wide, kFarther);
+    if (!over() && !hand_over(narrow, Leave::imprecise, wide, kFarther)) attempt(wide, kFarther);
     search_in_both_directions(narrow);
     if (over() || cost() > kWideCost) return;
     reason_ = reason(name_of<DoubleDouble>());
     Ipm<Decimal100> widest(problem_, presolved_, options_);
     // 100 digits are dear: only for what 31 digits bring as near as kInSight.
-    relay(wide, Leave::never, widest, kFarthest);
+    hand_over(wide, Leave::never, widest, kFarthest);
   }
 
   /// How much farther than far_X, far_Y a run in wide arithmetic starts: problems that need it tend
@@ -142,7 +142,7 @@ class Ladder {
   static constexpr double kQuadCost = 1e9, kWideCost = 6e4, kNearbyCost = 2e6;
 
   template <typename T>
-  void rise_in(double factor) {
+  void solve_in(double factor) {
     Ipm<T> ipm(problem_, presolved_, options_);
     attempt(ipm, factor);
   }
@@ -150,7 +150,7 @@ class Ladder {
   /// Data that are rounded may have no Y at all for their equations, or one that has nothing to do
   /// with the data before rounding: then residuals stop falling at the rounding of the data. Where
   /// all errors are below the tolerance there, they decide.
-  void settle() {
+  void finish() {
     if (over() || !strict_ || best_error_ > options_.tolerance) return;
     if (worst(best_) > options_.tolerance) return;
     best_.status = Status::optimal;
@@ -182,7 +182,7 @@ class Ladder {
   /// where it leaves, and `wide` goes on from there. False when `narrow` comes to nothing: what it
   /// cannot get through, more digits rarely can.
   template <typename Narrow, typename Wide>
-  bool relay(Ipm<Narrow>& narrow, Leave leave, Ipm<Wide>& wide, double factor) {
+  bool hand_over(Ipm<Narrow>& narrow, Leave leave, Ipm<Wide>& wide, double factor) {
     narrow.start_far(factor);
     const Cause cause = narrow.run({.model = Model::fixed,
                                     .aim = kInSight,
@@ -228,7 +228,7 @@ class Ladder {
 /// One run, measured on the raw problem. best_ becomes its result where that decides or has the
 /// least error so far.
 template <typename T>
-void Ladder::run(Ipm<T>& ipm, Model model) {
+void WideningSolve::run(Ipm<T>& ipm, Model model) {
   const double feasibility =
       strict_ ? std::min(kWideFeasibility, options_.tolerance) : options_.tolerance;
   const Cause cause = ipm.run({.model = model,
@@ -255,7 +255,7 @@ void Ladder::run(Ipm<T>& ipm, Model model) {
 
 /// The program over Z is solved like any other, from the projection of the point. What it found
 /// counts only where it is optimal for the raw problem too.
-void Ladder::descend(const Ipm<double>& narrow) {
+void WideningSolve::descend(const Ipm<double>& narrow) {
   if (over()) return;
   const auto face = find_face(problem_, presolved_, narrow.point());
   if (!face) return;
@@ -267,7 +267,8 @@ void Ladder::descend(const Ipm<double>& narrow) {
   const Iterate<double> from = restrict_to(
       *face, problem_, restore<double>(problem_, presolved_, end.x, end.X, end.Y, end.tau),
       restricted, presolved);
-  const Solution found = Ladder(restricted, presolved, options_, iterations_).climb(0, &from);
+  const Solution found =
+      WideningSolve(restricted, presolved, options_, iterations_).run_all(0, &from);
   iterations_ = best_.iterations = found.iterations;
   if (stopped(found.cause)) best_.cause = found.cause;
   if (found.status != Status::optimal) return;
@@ -285,7 +286,7 @@ void Ladder::descend(const Ipm<double>& narrow) {
   best_ = std::move(lifted);
 }
 
-void Ladder::go_nearby() {
+void WideningSolve::go_nearby() {
   if (over() || !wider_ || cost() > kNearbyCost) return;
   Solution found = solve_nearby(problem_, presolved_, options_, iterations_);
   best_.iterations = found.iterations = iterations_;
@@ -296,7 +297,7 @@ void Ladder::go_nearby() {
 }
 
 /// Multiplications of one iteration: products, factors and the Schur complement.
-double Ladder::cost() const {
+double WideningSolve::cost() const {
   const Layout& layout = presolved_.data.layout;
   const double m = presolved_.data.m();
   double sum = m * m * m / 6;
@@ -349,7 +350,7 @@ Solution solve_here(const Problem& problem, const Options& options) {
   Solution solution =
       presolved.free_descent >= 0
           ? free_descent(problem, presolved, options)
-          : Ladder(problem, presolved, options).climb(digits, from ? &*from : nullptr);
+          : WideningSolve(problem, presolved, options).run_all(digits, from ? &*from : nullptr);
   solution.message = explain(solution);
   solution.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   return solution;

@@ -88,7 +88,7 @@ TEST(Attempts, AMinimumThatDoesNotHoldIsBlendedWithAPointInside) {
               (AttemptKinds{AttemptKind::minimum, AttemptKind::inside, AttemptKind::blended}))
         << x;
     EXPECT_EQ(run.gains.verdict, Verdict::yes) << run.message();
-    EXPECT_EQ(run.climb.point(), &run.at(AttemptKind::blended));
+    EXPECT_EQ(run.attempts.point(), &run.at(AttemptKind::blended));
     EXPECT_GT(run.unknown("x"), 1);
     EXPECT_LT(run.unknown("x") - x, std::max(4e-12, 20 * (1 - x)));
     EXPECT_EQ(run.gains.objective, run.unknown("x"));
@@ -419,13 +419,13 @@ TEST(Attempts, WhatIsNoNumberIsNoYes) {
   for (const std::string& method : {kFloor, window("1", "2")})
     for (const double x : {nan, std::numeric_limits<double>::infinity()}) {
       const Case of(method);
-      Climb climb(of.posed(), of.bounds, [&](const sdp::Problem& problem, const Effort&) {
+      Attempts attempts(of.posed(), of.bounds, [&](const sdp::Problem& problem, const Effort&) {
         return problem.c.back() == -1 ? inside(of, {x}, x)(problem) : minimum(of, {x})(problem);
       });
-      climb.to_point();
-      climb.to_end();
+      attempts.to_point();
+      attempts.to_end();
       model::Gains gains;
-      conclude(climb, {}, gains);
+      conclude(attempts, {}, gains);
       EXPECT_EQ(gains.verdict, Verdict::undecided) << x;
     }
 }

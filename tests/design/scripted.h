@@ -1,4 +1,4 @@
-// A solver that answers from a script, and climbs over it.
+// A solver that answers from a script, and attempts with it.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -133,7 +133,7 @@ inline constexpr AttemptKind kKinds[] = {AttemptKind::minimum,       AttemptKind
                                          AttemptKind::free_minimum,  AttemptKind::free_inside,
                                          AttemptKind::in_31_digits,  AttemptKind::tighter};
 
-/// One climb over a script, with what holds for every climb: each kind is tried once, in their
+/// Attempts with a script, and what holds for all of them: each kind is tried once, in their
 /// order, and a record stays as it was.
 class Scripted {
  public:
@@ -150,27 +150,27 @@ class Scripted {
   }
 
   Scripted(const Answer& answer, const Case& of)
-      : climb(of.posed(), of.bounds,
-              [this, &of, answer](const sdp::Problem& problem, const Effort& effort) {
-                (is_asked_again(of, problem) ? again : asked).push_back(problem);
-                if (!is_asked_again(of, problem)) efforts.push_back(effort);
-                return answer(problem);
-              }) {
-    climb.to_point();
+      : attempts(of.posed(), of.bounds,
+                 [this, &of, answer](const sdp::Problem& problem, const Effort& effort) {
+                   (is_asked_again(of, problem) ? again : asked).push_back(problem);
+                   if (!is_asked_again(of, problem)) efforts.push_back(effort);
+                   return answer(problem);
+                 }) {
+    attempts.to_point();
     const auto before = records();
-    climb.to_end();
+    attempts.to_end();
     const auto after = records();
     for (const Record& record : before)
       EXPECT_NE(std::find(after.begin(), after.end(), record), after.end())
           << "a record has changed";
-    conclude(climb, {}, gains);
+    conclude(attempts, {}, gains);
     const std::size_t programs = asked.size();
-    climb.to_point();
-    climb.to_end();
+    attempts.to_point();
+    attempts.to_end();
     EXPECT_TRUE(records() == after);
     EXPECT_EQ(asked.size(), programs) << "a kind was tried twice";
     for (const AttemptKind kind : tried) {
-      const sdp::Problem& posed = climb.find(kind)->formulation.problem;
+      const sdp::Problem& posed = attempts.find(kind)->formulation.problem;
       const auto is_posed = [&](const sdp::Problem& problem) {
         return posed.blocks == problem.blocks && posed.c == problem.c && posed.f == problem.f;
       };
@@ -178,7 +178,7 @@ class Scripted {
     }
   }
 
-  const Attempt& at(AttemptKind kind) const { return *climb.find(kind); }
+  const Attempt& at(AttemptKind kind) const { return *attempts.find(kind); }
   const std::string& message() const { return gains.solver.message; }
   bool says(const std::string& text) const { return message().find(text) != std::string::npos; }
   double unknown(const std::string& name) const { return (*gains.find(name))(0, 0); }
@@ -187,7 +187,7 @@ class Scripted {
   std::vector<Effort> efforts;
   std::vector<AttemptKind> tried;
   model::Gains gains;
-  Climb climb;
+  Attempts attempts;
 
  private:
   using Record = std::tuple<AttemptKind, lmi::Goal, double, sdp::Status, bool, std::vector<double>,
@@ -197,7 +197,7 @@ class Scripted {
     std::vector<Record> list;
     tried.clear();
     for (const AttemptKind kind : kKinds) {
-      const Attempt* attempt = climb.find(kind);
+      const Attempt* attempt = attempts.find(kind);
       if (attempt == nullptr) continue;
       tried.push_back(kind);
       std::vector<double> reached;
