@@ -71,10 +71,10 @@ std::vector<std::vector<ClaimOfRuns>> grouped(std::vector<ClaimOfRuns> claims, b
   while (!claims.empty()) {
     std::vector<ClaimOfRuns> group = {claims.front()};
     claims.erase(claims.begin());
-    const auto fits = [&](const ClaimOfRuns& one) {
+    const auto fits = [&](const ClaimOfRuns& claim_of_runs) {
       return !alone && std::any_of(group.begin(), group.end(), [&](const ClaimOfRuns& member) {
-        const auto [least, greatest] = std::minmax(one.most, member.most);
-        return one.unit == member.unit && one.negative == member.negative &&
+        const auto [least, greatest] = std::minmax(claim_of_runs.most, member.most);
+        return claim_of_runs.unit == member.unit && claim_of_runs.negative == member.negative &&
                (greatest <= kFar * least || greatest == 0);
       });
     };
@@ -131,7 +131,7 @@ drawing::Panel panel_of(const std::vector<ClaimOfRuns>& group, const std::vector
 }  // namespace
 
 std::vector<drawing::Panel> claim_panels(const std::vector<std::size_t>& claims,
-                                        const std::vector<DrawnRun>& runs, const RunView& view) {
+                                         const std::vector<DrawnRun>& runs, const RunView& view) {
   std::vector<ClaimOfRuns> all;
   for (const std::size_t column : claims) all.push_back(claim_of(column, runs, view));
   std::vector<drawing::Panel> panels;

@@ -72,15 +72,15 @@ class Table {
 void add_matrices(const std::vector<Results>& all, const std::string& prefix,
                   model::NamedMatrices model::Gains::*list, Table& table) {
   std::vector<std::string> names;
-  for (const Results& one : all)
-    for (const auto& [name, value] : one.gains.*list)
+  for (const Results& results : all)
+    for (const auto& [name, value] : results.gains.*list)
       if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   for (const std::string& name : names) {
     std::vector<const numbers::Matrix*> values;
-    for (const Results& one : all) {
+    for (const Results& results : all) {
       const auto found = std::ranges::find_if(
-          one.gains.*list, [&](const auto& entry) { return entry.first == name; });
-      values.push_back(found == (one.gains.*list).end() ? nullptr : &found->second);
+          results.gains.*list, [&](const auto& entry) { return entry.first == name; });
+      values.push_back(found == (results.gains.*list).end() ? nullptr : &found->second);
     }
     table.add(prefix + name, values);
   }
@@ -92,10 +92,10 @@ void add_numbers(const std::vector<SystemNumber>& all, std::size_t designs, Tabl
     if (!done.insert(first.what).second) continue;
     std::vector<numbers::Matrix> values(designs);
     std::vector<const numbers::Matrix*> known(designs, nullptr);
-    for (const SystemNumber& one : all)
-      if (one.what == first.what) {
-        values[one.design] = numbers::Matrix::Constant(1, 1, one.value);
-        known[one.design] = &values[one.design];
+    for (const SystemNumber& system_number : all)
+      if (system_number.what == first.what) {
+        values[system_number.design] = numbers::Matrix::Constant(1, 1, system_number.value);
+        known[system_number.design] = &values[system_number.design];
       }
     table.add(first.what, known);
   }
@@ -103,7 +103,7 @@ void add_numbers(const std::vector<SystemNumber>& all, std::size_t designs, Tabl
 
 void add_campaigns(const std::vector<Results>& all, Table& table) {
   std::vector<std::string> lines;
-  for (const Results& one : all) lines.push_back(one.campaign_line);
+  for (const Results& results : all) lines.push_back(results.campaign_line);
   if (std::ranges::any_of(lines, [](const std::string& line) { return !line.empty(); }))
     table.add("campaign", lines);
 }
@@ -123,9 +123,9 @@ void add_data(const std::vector<NamedDesign>& designs, Table& table) {
       values.push_back(found == design.loaded.stated.values.end() ? nullptr : &found->second);
     }
     const numbers::Matrix* first = values.front();
-    const bool same = std::ranges::all_of(values, [&](const numbers::Matrix* one) {
-      return first != nullptr && one != nullptr && one->rows() == first->rows() &&
-             one->cols() == first->cols() && *one == *first;
+    const bool same = std::ranges::all_of(values, [&](const numbers::Matrix* matrix) {
+      return first != nullptr && matrix != nullptr && matrix->rows() == first->rows() &&
+             matrix->cols() == first->cols() && *matrix == *first;
     });
     if (!same) table.add(name, values);
   }
@@ -191,11 +191,11 @@ page::Comparison compared(const std::vector<std::string>& paths,
     for (const Results& one : results) texts.push_back(text_of(one));
     table.add(what, texts);
   };
-  add_texts("problem", [](const Results& one) { return one.gains.problem_name; });
-  add_texts("method", [](const Results& one) { return one.gains.statement.method_name; });
-  add_texts("verdict", [](const Results& one) { return to_string(one.gains.verdict); });
-  add_texts("objective", [](const Results& one) {
-    return one.gains.objective ? brief(*one.gains.objective) : std::string();
+  add_texts("problem", [](const Results& entry) { return entry.gains.problem_name; });
+  add_texts("method", [](const Results& entry) { return entry.gains.statement.method_name; });
+  add_texts("verdict", [](const Results& entry) { return to_string(entry.gains.verdict); });
+  add_texts("objective", [](const Results& entry) {
+    return entry.gains.objective ? brief(*entry.gains.objective) : std::string();
   });
   add_data(designs, table);
   add_matrices(results, "", &model::Gains::gains, table);
@@ -203,10 +203,12 @@ page::Comparison compared(const std::vector<std::string>& paths,
   add_campaigns(results, table);
   const std::vector<SystemResult> figures = system_results(designs);
   std::vector<SystemNumber> numbers;
-  for (const SystemResult& one : figures) {
-    numbers.insert(numbers.end(), one.numbers.begin(), one.numbers.end());
+  for (const SystemResult& system_result : figures) {
+    numbers.insert(numbers.end(), system_result.numbers.begin(), system_result.numbers.end());
     comparison.figures.push_back(
-        {one.figure.title, one.missing.empty() ? drawing::svg(one.figure) : "", one.facts});
+        {system_result.figure.title,
+         system_result.missing.empty() ? drawing::svg(system_result.figure) : "",
+         system_result.facts});
   }
   add_numbers(numbers, designs.size(), table);
   try {

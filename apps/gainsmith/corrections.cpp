@@ -19,9 +19,10 @@ using Kind = Dynamics::VariableKind;
 std::optional<std::size_t> column_of(const verify::Replay& replay, const std::string& variable,
                                      int element) {
   for (std::size_t k = 0; k < replay.columns.size(); ++k) {
-    const verify::Column& one = replay.columns[k];
-    const std::string name = one.observer.empty() ? one.stem : one.observer + "." + one.stem;
-    if (name == variable && one.element == element) return k;
+    const verify::Column& column = replay.columns[k];
+    const std::string name =
+        column.observer.empty() ? column.stem : column.observer + "." + column.stem;
+    if (name == variable && column.element == element) return k;
   }
   return std::nullopt;
 }
@@ -29,22 +30,22 @@ std::optional<std::size_t> column_of(const verify::Replay& replay, const std::st
 /// The texts of the states of observers: of flows and of jumps.
 std::vector<const expr::Program*> texts_of(const Dynamics& dynamics) {
   std::vector<const expr::Program*> texts;
-  const auto add = [&](const Dynamics::Assignment& one) {
-    if (dynamics.components[dynamics.variables[one.variable].component].observer)
-      texts.push_back(&one.value.program);
+  const auto add = [&](const Dynamics::Assignment& assignment) {
+    if (dynamics.components[dynamics.variables[assignment.variable].component].observer)
+      texts.push_back(&assignment.value.program);
   };
-  for (const Dynamics::Assignment& one : dynamics.flow) add(one);
+  for (const Dynamics::Assignment& assignment : dynamics.flow) add(assignment);
   for (const Dynamics::Reaction& reaction : dynamics.reactions)
     for (const Dynamics::Pass& pass : reaction.passes)
-      for (const Dynamics::Assignment& one : pass.map) add(one);
+      for (const Dynamics::Assignment& assignment : pass.map) add(assignment);
   return texts;
 }
 
 /// Whether an instruction is part of a larger difference.
 bool is_summed(const expr::Program& text, int at) {
-  return std::ranges::any_of(text.code, [&](const expr::Instruction& one) {
-    return (one.op == expr::Op::subtract || one.op == expr::Op::add) &&
-           std::ranges::find(one.operands, at) != one.operands.end();
+  return std::ranges::any_of(text.code, [&](const expr::Instruction& instruction) {
+    return (instruction.op == expr::Op::subtract || instruction.op == expr::Op::add) &&
+           std::ranges::find(instruction.operands, at) != instruction.operands.end();
   });
 }
 
@@ -53,13 +54,13 @@ expr::Program part_at(const expr::Program& text, std::size_t at) {
   expr::Assembly all;
   std::vector<int> places;
   for (std::size_t k = 0; k <= at; ++k) {
-    expr::Instruction one = text.code[k];
-    for (int& operand : one.operands) operand = places[static_cast<std::size_t>(operand)];
+    expr::Instruction instruction = text.code[k];
+    for (int& operand : instruction.operands) operand = places[static_cast<std::size_t>(operand)];
     places.push_back(
-        one.op == expr::Op::input
-            ? all.add_input(text.inputs[static_cast<std::size_t>(one.attributes[0])].name,
-                            one.shape, one)
-            : all.add(std::move(one)));
+        instruction.op == expr::Op::input
+            ? all.add_input(text.inputs[static_cast<std::size_t>(instruction.attributes[0])].name,
+                            instruction.shape, instruction)
+            : all.add(std::move(instruction)));
   }
   return all.extract(places.back());
 }
@@ -160,8 +161,8 @@ std::vector<Correction> corrections(const hybrid::System& system, const verify::
       measured = column_of(replay, system.layout.slots[terms[0].slot].name, terms[0].element);
     const auto of = column_of(replay, system.layout.slots[estimate.slot].name, estimate.element);
     if (!measured || !of) return;
-    const Correction one{*measured, *of};
-    if (std::ranges::find(found, one) == found.end()) found.push_back(one);
+    const Correction correction{*measured, *of};
+    if (std::ranges::find(found, correction) == found.end()) found.push_back(correction);
   };
   for (const expr::Program* text : texts_of(system.dynamics))
     for (std::size_t k = 0; k < text->code.size(); ++k) {

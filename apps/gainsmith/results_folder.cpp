@@ -63,10 +63,13 @@ void add_problem(const fs::path& gains, const fs::path& problem_file, page::Resu
 void add_figures(const fs::path& path, page::Results& results) {
   if (!results.problem || results.problem->figures.empty()) return;
   try {
-    for (const SystemResult& one : system_results({{"", load_gains(path)}})) {
+    for (const SystemResult& system_result : system_results({{"", load_gains(path)}})) {
       page::SystemFigure& figure = results.figures.emplace_back(
-          one.figure.title, one.missing.empty() ? drawing::svg(one.figure) : "", one.facts);
-      if (!one.missing.empty()) figure.facts.push_back("No picture: " + one.missing + ".");
+          system_result.figure.title,
+          system_result.missing.empty() ? drawing::svg(system_result.figure) : "",
+          system_result.facts);
+      if (!system_result.missing.empty())
+        figure.facts.push_back("No picture: " + system_result.missing + ".");
     }
   } catch (const InputError& error) {
     results.figures.push_back({"Figures", "", {error.message()}});

@@ -110,14 +110,14 @@ std::string report_file(const RunOptions& options) {
 void write_report(const RunOptions& options, const std::vector<JobResult>& results) {
   std::vector<page::Results> all;
   for (const JobResult& result : results) {
-    page::Results one;
+    page::Results shown;
     if (!result.interrupted && !result.gains_hash.empty())
-      one = read_folder(fs::path(options.output) / result.name, result.name);
+      shown = read_folder(fs::path(options.output) / result.name, result.name);
     else
-      one.error = result.line;
-    one.name = result.name;
-    one.mark = mark_of(result.exit);
-    all.push_back(std::move(one));
+      shown.error = result.line;
+    shown.name = result.name;
+    shown.mark = mark_of(result.exit);
+    all.push_back(std::move(shown));
   }
   const std::string title = all.size() == 1 ? all.front().name : title_of(options.output);
   write_atomically(report_file(options), page::page(all, title));

@@ -54,16 +54,17 @@ std::vector<PlannedPanel> parted(const PlannedPanel& planned) {
 PlannedPanel with_measurements(PlannedPanel panel, const DrawnRun& run) {
   constexpr int kGrey = 7;
   std::vector<PlannedLine> lines;
-  for (const Correction& one : run.corrections) {
+  for (const Correction& correction : run.corrections) {
     const auto draws = [&](std::size_t column) {
       return [column](const PlannedLine& line) {
         return line.columns == std::vector{column} && !line.across && !line.size;
       };
     };
-    if (std::ranges::any_of(panel.lines, draws(one.estimate)) &&
-        std::ranges::none_of(panel.lines, draws(one.measured)) &&
-        std::ranges::none_of(lines, draws(one.measured)))
-      lines.push_back({{one.measured}, {}, run.replay.columns[one.measured].name, false, kGrey});
+    if (std::ranges::any_of(panel.lines, draws(correction.estimate)) &&
+        std::ranges::none_of(panel.lines, draws(correction.measured)) &&
+        std::ranges::none_of(lines, draws(correction.measured)))
+      lines.push_back(
+          {{correction.measured}, {}, run.replay.columns[correction.measured].name, false, kGrey});
   }
   panel.lines.insert(panel.lines.begin(), lines.begin(), lines.end());
   return panel;
@@ -250,7 +251,7 @@ drawing::Panel panel_of(const PlannedPanel& planned, const std::vector<DrawnRun>
 }
 
 drawing::Figure run_figure(const std::string& title, const claims::RunSetup& setup,
-                          const std::vector<DrawnRun>& runs, RunView view) {
+                           const std::vector<DrawnRun>& runs, RunView view) {
   drawing::Figure figure;
   figure.title = title;
   const Replay& first = runs.front().replay;

@@ -64,7 +64,7 @@ class Planner {
       if (!column.observer.empty() &&
           std::find(observers_.begin(), observers_.end(), column.observer) == observers_.end())
         observers_.push_back(column.observer);
-    for (const Covariance& one : view.covariances) check(one);
+    for (const Covariance& covariance : view.covariances) check(covariance);
   }
 
   std::vector<PlannedPanel> usual() {
@@ -137,7 +137,8 @@ class Planner {
   /// What may be an axis of a plane. The values of claims have their own panels.
   std::vector<std::string> names_of_axes() const {
     std::vector<std::string> all;
-    for (const std::size_t k : columns([](const Column& one) { return one.kind != Kind::claim; }))
+    for (const std::size_t k :
+         columns([](const Column& column) { return column.kind != Kind::claim; }))
       all.push_back(column(k).name);
     return all;
   }
@@ -179,9 +180,9 @@ class Planner {
 
   void add(PlannedPanel panel) {
     for (const PlannedLine& line : panel.lines)
-      for (const Covariance& one : view_.covariances)
+      for (const Covariance& covariance : view_.covariances)
         if (line.columns.size() == 1)
-          if (const auto variance = variance_of(column(line.columns.front()), one))
+          if (const auto variance = variance_of(column(line.columns.front()), covariance))
             panel.bands.push_back({line.columns.front(), *variance, line.colour});
     panels_.push_back(std::move(panel));
   }
@@ -202,10 +203,11 @@ class Planner {
 
   /// Each state of the plant, and each output that is estimated.
   void add_states() {
-    const auto shown = columns([&](const Column& one) {
-      if (!one.observer.empty()) return false;
-      const auto k = static_cast<std::size_t>(&one - replay_.columns.data());
-      return one.kind == Kind::state || (one.kind == Kind::signal && !estimates_of(k).empty());
+    const auto shown = columns([&](const Column& column) {
+      if (!column.observer.empty()) return false;
+      const auto k = static_cast<std::size_t>(&column - replay_.columns.data());
+      return column.kind == Kind::state ||
+             (column.kind == Kind::signal && !estimates_of(k).empty());
     });
     for (const std::size_t k : shown)
       if (panels_.size() < kMostPanels) add_quantity({k});
@@ -220,8 +222,8 @@ class Planner {
       });
     };
     std::vector<std::string> names;
-    for (const std::size_t k : columns([&](const Column& one) {
-           return one.kind == Kind::state && !one.observer.empty() && !is_band(one);
+    for (const std::size_t k : columns([&](const Column& column) {
+           return column.kind == Kind::state && !column.observer.empty() && !is_band(column);
          }))
       if (const std::string name = own_name(column(k));
           std::find(names.begin(), names.end(), name) == names.end())
@@ -230,20 +232,20 @@ class Planner {
                           [](const auto& one) { return !is_of_matrix(one); });
     for (const std::string& name : names)
       if (panels_.size() < kMostPanels)
-        add_quantity(columns([&](const Column& one) {
-          return one.kind == Kind::state && !one.observer.empty() && own_name(one) == name;
+        add_quantity(columns([&](const Column& column) {
+          return column.kind == Kind::state && !column.observer.empty() && own_name(column) == name;
         }));
   }
 
   /// One panel an input. By custom u is an input, a signal or a state that an observer
   /// holds, and the signal z is to stay small.
   void add_inputs() {
-    const auto is_shown = [&](const Column& one) {
-      const bool held = one.kind == Kind::state && !one.observer.empty();
-      if (one.stem == "u" && (held || one.kind == Kind::signal)) return true;
-      if (one.stem == "z" && one.kind == Kind::signal) return true;
-      return (one.kind == Kind::signal || one.kind == Kind::other) && one.observer.empty() &&
-             view_.inputs.contains(one.stem);
+    const auto is_shown = [&](const Column& column) {
+      const bool held = column.kind == Kind::state && !column.observer.empty();
+      if (column.stem == "u" && (held || column.kind == Kind::signal)) return true;
+      if (column.stem == "z" && column.kind == Kind::signal) return true;
+      return (column.kind == Kind::signal || column.kind == Kind::other) &&
+             column.observer.empty() && view_.inputs.contains(column.stem);
     };
     std::vector<std::string> stems;
     for (const std::size_t k : columns(is_shown))
@@ -252,7 +254,7 @@ class Planner {
     for (const std::string& stem : stems) {
       PlannedPanel panel{stem, "", false, {}};
       for (const std::size_t k :
-           columns([&](const Column& one) { return is_shown(one) && one.stem == stem; })) {
+           columns([&](const Column& column) { return is_shown(column) && column.stem == stem; })) {
         panel.unit = unit_of(view_, column(k));
         panel.lines.push_back(line(k));
         if (column(k).observer.empty())
@@ -288,10 +290,11 @@ class Planner {
 
   /// What a name under --panels asks for.
   void add(const std::string& name) {
-    const auto named = columns([&](const Column& one) { return is_named(one, name); });
+    const auto named = columns([&](const Column& column) { return is_named(column, name); });
     if (named.empty()) return add_group(name);
-    add_claims(
-        columns([&](const Column& one) { return one.kind == Kind::claim && is_named(one, name); }));
+    add_claims(columns([&](const Column& column) {
+      return column.kind == Kind::claim && is_named(column, name);
+    }));
     std::vector<std::size_t> left = named;
     std::erase_if(left, [&](std::size_t k) { return column(k).kind == Kind::claim; });
     while (!left.empty()) {
@@ -311,26 +314,28 @@ class Planner {
     if (name == "inputs") add_inputs();
     if (name == "errors") add_errors();
     if (name == "claims")
-      add_claims(columns([](const Column& one) { return one.kind == Kind::claim; }));
+      add_claims(columns([](const Column& column) { return column.kind == Kind::claim; }));
     const auto& groups = panel_groups();
     const bool is_group = std::find(groups.begin(), groups.end(), name) != groups.end();
     if (is_group && panels_.size() == before)
       throw InputError({"--panels"}, "the run has no " + name);
     std::vector<std::string> known = groups;
-    for (const auto& more : {stems(), names([](const Column& one) { return one.name; })})
+    for (const auto& more : {stems(), names([](const Column& column) { return column.name; })})
       known.insert(known.end(), more.begin(), more.end());
     require(is_group, "--panels", name, known);
   }
 
   /// The elements of a name: exactly it, or that of each observer.
   std::vector<std::size_t> elements(const std::string& name) const {
-    std::vector<std::size_t> found =
-        columns([&](const Column& one) { return one.name == name || own_name(one) == name; });
-    if (found.empty() && !columns([&](const Column& one) { return has_stem(one, name); }).empty())
+    std::vector<std::size_t> found = columns(
+        [&](const Column& column) { return column.name == name || own_name(column) == name; });
+    if (found.empty() &&
+        !columns([&](const Column& column) { return has_stem(column, name); }).empty())
       throw InputError(
           {"--phase"},
           "'" + name + "' has several elements; name one, such as " +
-              column(columns([&](const Column& one) { return has_stem(one, name); }).front()).name);
+              column(columns([&](const Column& column) { return has_stem(column, name); }).front())
+                  .name);
     require(!found.empty(), "--phase", name, names_of_axes());
     return found;
   }

@@ -46,20 +46,22 @@ design::SearchRequest wanted_search(const model::Instance& instance) {
 }
 
 void state_search(const model::Search& search, model::Problem& problem) {
-  const auto end = [](const expr::Expression& one) {
-    const std::string& text = one.text->str();
+  const auto end = [](const expr::Expression& expression) {
+    const std::string& text = expression.text->str();
     const bool is_plain = text.find_first_of(",[]{}#:'") == std::string::npos;
     return is_plain ? text : '"' + text + '"';
   };
-  const auto range = [&](const model::ScalarRange& one) {
-    return fmt::format("{}: [{}, {}]", one.name, end(one.low), end(one.high));
+  const auto range = [&](const model::ScalarRange& scalar_range) {
+    return fmt::format("{}: [{}, {}]", scalar_range.name, end(scalar_range.low),
+                       end(scalar_range.high));
   };
   std::string parts;
   if (search.extreme)
     parts =
         fmt::format("{}: {{{}}}", search.largest ? "largest" : "smallest", range(*search.extreme));
   std::string over;
-  for (const model::ScalarRange& one : search.over) over += (over.empty() ? "" : ", ") + range(one);
+  for (const model::ScalarRange& scalar_range : search.over)
+    over += (over.empty() ? "" : ", ") + range(scalar_range);
   if (!over.empty()) parts += (parts.empty() ? "over: {" : ", over: {") + over + "}";
   std::erase_if(problem.settings, [](const auto& one) { return one.name == model::kSearch; });
   problem.settings.push_back({model::kSearch, "{" + parts + "}"});

@@ -24,10 +24,10 @@ struct Least {
 Least least_of(const std::vector<SystemCase>& cases,
                const std::function<std::optional<double>(const DrawnSystem&)>& number) {
   Least least;
-  for (const SystemCase& one : cases) {
-    if (!is_stable(one.drawn)) continue;
-    const auto value = number(one.drawn);
-    if (value && (least.at == nullptr || *value < least.value)) least = {*value, &one};
+  for (const SystemCase& system_case : cases) {
+    if (!is_stable(system_case.drawn)) continue;
+    const auto value = number(system_case.drawn);
+    if (value && (least.at == nullptr || *value < least.value)) least = {*value, &system_case};
   }
   return least;
 }
@@ -118,7 +118,7 @@ std::string worst_damping(const std::vector<SystemCase>& cases) {
 
 /// "stable in all", or how many are not, and which is the first.
 std::string stability(const std::vector<SystemCase>& cases, bool loop) {
-  const auto unstable = [](const SystemCase& one) { return !is_stable(one.drawn); };
+  const auto unstable = [](const SystemCase& system_case) { return !is_stable(system_case.drawn); };
   const auto first = std::find_if(cases.begin(), cases.end(), unstable);
   const std::string what = loop ? "the closed loop is" : "it is";
   if (first == cases.end()) return what + " stable in all";
@@ -146,8 +146,8 @@ void add_numbers(const std::vector<SystemCase>& cases, SystemResult& result) {
           {0, result.name + ", " + cases.front().drawn.label + ": " + what, least.value});
   };
   const auto itself = [](double value) { return std::abs(value); };
-  const auto unstable =
-      std::ranges::count_if(cases, [](const SystemCase& one) { return !is_stable(one.drawn); });
+  const auto unstable = std::ranges::count_if(
+      cases, [](const SystemCase& system_case) { return !is_stable(system_case.drawn); });
   result.numbers.push_back({0,
                             result.name + ", " + cases.front().drawn.label +
                                 fmt::format(": not stable, of {}", cases.size()),
@@ -180,14 +180,14 @@ std::string worst_of(const std::vector<SystemCase>& cases, SystemPicture kind,
 
 io::Json cases_json(const std::vector<SystemCase>& cases, SystemPicture kind) {
   io::Json json = {{"system", cases.front().drawn.label}};
-  for (const SystemCase& one : cases) {
-    json["stable"].push_back(is_stable(one.drawn));
-    if (const auto& margins = one.drawn.margins) {
+  for (const SystemCase& system_case : cases) {
+    json["stable"].push_back(is_stable(system_case.drawn));
+    if (const auto& margins = system_case.drawn.margins) {
       json["gain_margin"].push_back(margin_json(margins->gain));
       json["phase_margin"].push_back(margin_json(margins->phase));
       json["delay_margin"].push_back(margin_json(margins->delay));
     }
-    if (kind == SystemPicture::poles) json["locus"].push_back(rows_json(one.drawn.poles));
+    if (kind == SystemPicture::poles) json["locus"].push_back(rows_json(system_case.drawn.poles));
   }
   return json;
 }

@@ -33,7 +33,8 @@ drawing::Curve guide(std::vector<double> x, std::vector<double> y) {
   return made;
 }
 
-void add_margins(const DrawnSystem& drawn, int colour, drawing::Panel& size, drawing::Panel& phase) {
+void add_margins(const DrawnSystem& drawn, int colour, drawing::Panel& size,
+                 drawing::Panel& phase) {
   if (!drawn.margins) return;
   drawing::Curve at_size = points(drawing::Mark::dot, colour), at_phase = at_size;
   const auto phases = response::phase(drawn.sweep, 0, 0);
@@ -68,8 +69,8 @@ void add_margins(const DrawnSystem& drawn, int colour, drawing::Panel& size, dra
 /// A line at a value that the curves of a panel pass.
 void add_level(double value, drawing::Panel& panel) {
   double low = kNone, high = kNone;
-  for (const drawing::Curve& one : panel.curves)
-    for (const double each : one.value) {
+  for (const drawing::Curve& curve : panel.curves)
+    for (const double each : curve.value) {
       low = std::fmin(low, each);
       high = std::fmax(high, each);
     }
@@ -128,7 +129,7 @@ void add_singular_values(const std::vector<DrawnSystem>& systems, drawing::Figur
       for (Eigen::Index k = 0; k < count; ++k)
         curves[static_cast<std::size_t>(k)].value.push_back(decibels(gains(k)));
     }
-    for (drawing::Curve& one : curves) panel.curves.push_back(std::move(one));
+    for (drawing::Curve& curve : curves) panel.curves.push_back(std::move(curve));
     if (drawn.peak && std::isfinite(drawn.peak->frequency)) {
       drawing::Curve top = points(drawing::Mark::dot, colour);
       const auto& range = drawn.sweep.frequency;
@@ -305,8 +306,9 @@ void add_poles(const std::vector<DrawnSystem>& systems, drawing::Figure& figure)
   drawing::Panel panel;
   panel.title = "imaginary part; lines of damping 0.1, 0.3, 0.5, 0.7, 0.9";
   panel.across = "real part";
-  const bool sampled = std::any_of(systems.begin(), systems.end(),
-                                   [](const DrawnSystem& one) { return one.system.is_sampled(); });
+  const bool sampled =
+      std::any_of(systems.begin(), systems.end(),
+                  [](const DrawnSystem& drawn_system) { return drawn_system.system.is_sampled(); });
   panel.equal = sampled;
   add_guides(systems, sampled, panel);
   const auto add_all = [&](bool crosses) {

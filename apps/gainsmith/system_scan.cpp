@@ -96,8 +96,8 @@ drawing::Figure margins_picture(const Scanned& all, const std::string& axis) {
       curve.t = all.values;
     }
     curves.front().label = cases.front().drawn.label;
-    for (const SystemCase& one : cases) {
-      const response::Margins& margins = *one.drawn.margins;
+    for (const SystemCase& system_case : cases) {
+      const response::Margins& margins = *system_case.drawn.margins;
       const auto add = [&](drawing::Curve& curve, const std::optional<response::Margin>& margin) {
         curve.value.push_back(margins.stable && margin ? margin->value : kNoMargin);
       };
@@ -162,9 +162,9 @@ void add_curves(const SystemFigure& figure, const model::Stated& stated, const S
                 SystemResult& result) {
   std::vector<DrawnSystem> systems;
   for (const std::vector<SystemCase>& cases : all.systems)
-    for (const SystemCase& one : cases) {
-      systems.push_back(one.drawn);
-      systems.back().label += " " + one.where;
+    for (const SystemCase& system_case : cases) {
+      systems.push_back(system_case.drawn);
+      systems.back().label += " " + system_case.where;
     }
   const auto range = range_of(figure, stated, systems);
   for (DrawnSystem& drawn : systems) {
@@ -190,7 +190,7 @@ void add_scan(const SystemFigure& figure, const LoadedGains& loaded, SystemResul
     add_curves(figure, nominal(loaded), all, result);
   } else {
     for (std::vector<SystemCase>& cases : all.systems) {
-      for (SystemCase& one : cases) compute(figure, {}, one.drawn);
+      for (SystemCase& system_case : cases) compute(figure, {}, system_case.drawn);
       result.facts.push_back(
           worst_of(cases, figure.kind,
                    fmt::format("over {} values of {} from {} to {}", cases.size(), name,

@@ -135,13 +135,13 @@ const model::Dynamics::Event* timer_event(const Binding& binding) {
 /// Relative and absolute accuracy of runs, the latter also of single states.
 void bind_accuracy(Binding& binding, const model::RunAccuracy& accuracy) {
   model::Design::RunAccuracy bound{accuracy.relative, accuracy.absolute, {}};
-  for (const model::RunAccuracy::OfState& one : accuracy.states) {
-    std::vector<std::string> names = binding.dynamics_names->states(one.state);
-    if (names.empty()) names.push_back(one.state);
+  for (const model::RunAccuracy::OfState& of_state : accuracy.states) {
+    std::vector<std::string> names = binding.dynamics_names->states(of_state.state);
+    if (names.empty()) names.push_back(of_state.state);
     for (const std::string& name : names) {
       const std::size_t state = state_of(*binding.design, name);
-      if (state == binding.design->states.size()) throw no_state(binding, name, one.place);
-      bound.states.emplace_back(state, one.absolute);
+      if (state == binding.design->states.size()) throw no_state(binding, name, of_state.place);
+      bound.states.emplace_back(state, of_state.absolute);
     }
   }
   binding.design->campaign.accuracy = std::move(bound);
@@ -179,9 +179,9 @@ void bind_starts(Binding& binding) {
     const auto names = binding.dynamics_names->states(initial.state);
     if (names.empty()) starts.push_back(start(binding, initial));
     for (const std::string& name : names) {
-      model::InitialValue one = initial;
-      one.state = name;
-      starts.push_back(start(binding, one));
+      model::InitialValue initial_value = initial;
+      initial_value.state = name;
+      starts.push_back(start(binding, initial_value));
     }
   }
   if (!binding.design->dynamics) return;

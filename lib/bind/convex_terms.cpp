@@ -285,9 +285,9 @@ NodePtr with_terms(const Binding& binding, const expr::Expression& text, const N
     if (terms.size() == kMostTerms)
       throw InputError(text.place(*node), "a sum of norms, moduli or eigenvalues has at most " +
                                               std::to_string(kMostTerms) + " terms");
-    const expr::Expression one =
+    const expr::Expression expression =
         expr::instantiate({text.text, node->children.back()}, member.indices, scope.families);
-    terms.push_back(placed(*with_terms(binding, one, one.root, scope), *node));
+    terms.push_back(placed(*with_terms(binding, expression, expression.root, scope), *node));
   }
   return sum_of(terms, *node);
 }
@@ -314,7 +314,9 @@ NodePtr bounding_unknown(Binding& binding, const expr::Expression& text, const N
            scope.dimensions.contains(name) || name == timer_name(binding.method()) ||
            has_named(binding.method().gains, name) ||
            std::any_of(binding.method().observers.begin(), binding.method().observers.end(),
-                       [&](const model::Component& one) { return names_of(one).contains(name); }) ||
+                       [&](const model::Component& component) {
+                         return names_of(component).contains(name);
+                       }) ||
            names_of(binding.method().plant).contains(name);
   };
   for (int k = 1; unknown.name.empty() || is_taken(unknown.name); ++k)

@@ -425,13 +425,14 @@ void add_unknowns(Binding& binding) {
     }
     scope.families[unknown.name] = ranges(unknown.indices, scope);
     for (const Member& member : members(unknown.indices, {}, scope)) {
-      model::UnknownDeclaration one = unknown;
-      one.name = member.name_of(unknown.name);
-      if (one.degree) one.degree = instantiate(*one.degree, member, scope);
-      if (one.in)
-        for (expr::Expression* end : {&one.in->low, &one.in->high})
+      model::UnknownDeclaration unknown_declaration = unknown;
+      unknown_declaration.name = member.name_of(unknown.name);
+      if (unknown_declaration.degree)
+        unknown_declaration.degree = instantiate(*unknown_declaration.degree, member, scope);
+      if (unknown_declaration.in)
+        for (expr::Expression* end : {&unknown_declaration.in->low, &unknown_declaration.in->high})
           *end = instantiate(*end, member, scope);
-      add_unknown(binding, one);
+      add_unknown(binding, unknown_declaration);
     }
   }
 }

@@ -53,19 +53,20 @@ void DynamicsBinding::set_reader(const model::Component* component) {
   using Kind = model::Dynamics::VariableKind;
   const bool by_observer = component != nullptr && component->name != "plant";
   scope_->without_past.clear();
-  for (const model::Dynamics::Variable& one : result_.variables) {
-    const bool measured = one.kind == Kind::measured || one.kind == Kind::measured_rate;
-    const bool drawn =
-        one.kind == Kind::noise && (result_.noise[one.of].event || result_.noise[one.of].every);
-    const bool of_plant = by_observer && one.kind == Kind::state && one.component == 0;
+  for (const model::Dynamics::Variable& variable : result_.variables) {
+    const bool measured = variable.kind == Kind::measured || variable.kind == Kind::measured_rate;
+    const bool drawn = variable.kind == Kind::noise &&
+                       (result_.noise[variable.of].event || result_.noise[variable.of].every);
+    const bool of_plant = by_observer && variable.kind == Kind::state && variable.component == 0;
     if (of_plant)
-      scope_->without_past[one.name] =
-          "e has what the observer measures of '" + one.name +
+      scope_->without_past[variable.name] =
+          "e has what the observer measures of '" + variable.name +
           "', and the past of measurements is not kept; it may have the observer's own states, the "
           "time and inputs that are functions of it";
     else if (measured || drawn)
-      scope_->without_past[one.name] =
-          "e has '" + one.name + "', whose past is not kept; it may have functions of the time";
+      scope_->without_past[variable.name] =
+          "e has '" + variable.name +
+          "', whose past is not kept; it may have functions of the time";
   }
 }
 

@@ -168,8 +168,9 @@ void DynamicsBinding::check_ends(const std::string& event, const model::Formula&
 /// length and of its first length, `at` has times. What never changes is refused.
 void DynamicsBinding::bind_event(const model::EventText& text, const model::Component* component,
                                  std::size_t at) {
-  const auto read = [&](const expr::Expression& one) {
-    return component != nullptr ? names_->within(*component, one) : names_->outside(one);
+  const auto read = [&](const expr::Expression& expression) {
+    return component != nullptr ? names_->within(*component, expression)
+                                : names_->outside(expression);
   };
   model::Dynamics::Event& event = result_.events[at];
   const auto moves = [&](const std::string& name) { return is_moving(name); };
@@ -207,8 +208,8 @@ void DynamicsBinding::bind_event(const model::EventText& text, const model::Comp
     }
   }
   if (text.kind == EventKind::at)
-    for (const expr::Expression& one : text.numbers)
-      event.times.push_back(constant(read(one), std::nullopt));
+    for (const expr::Expression& expression : text.numbers)
+      event.times.push_back(constant(read(expression), std::nullopt));
   if (text.only_if) event.only_if = condition(read(*text.only_if), component, at, *scope_);
 }
 
@@ -247,8 +248,8 @@ void DynamicsBinding::bind_reaction(const model::ReactionText& text,
   bound.event = event(&component, text.event, text.place);
   bound.component = at;
   bound.place = text.place;
-  for (const model::PassText& one : text.passes)
-    bound.passes.push_back(pass(one, component, at, bound.event));
+  for (const model::PassText& pass_text : text.passes)
+    bound.passes.push_back(pass(pass_text, component, at, bound.event));
   result_.reactions.push_back(std::move(bound));
 }
 

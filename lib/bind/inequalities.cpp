@@ -281,8 +281,8 @@ model::Design::Inequality inequality(Binding& binding, const model::Requirement&
   add_comparisons(comparisons, bound, requirement.name, member.label, scope);
   for (const auto& comparison : bound.comparisons)
     refuse_estimate(*binding.design, comparison.difference, "'" + requirement.name + "'");
-  for (const model::Design::Variable& one : bound.domain)
-    for (const model::Formula& point : one.points)
+  for (const model::Design::Variable& variable : bound.domain)
+    for (const model::Formula& point : variable.points)
       refuse_estimate(*binding.design, point.program, "'" + requirement.name + "'");
   return bound;
 }

@@ -58,7 +58,9 @@ std::optional<QuadraticForm> form_of(const std::vector<NodePtr>& factors, const 
 /// Factors are tried as written first, then with those in parentheses.
 std::optional<QuadraticForm> quadratic_form(const NodePtr& node) {
   const Trees trees(*node);
-  const auto turned = [&](const NodePtr& one) { return trees.make(NodeKind::transpose, {one}); };
+  const auto turned = [&](const NodePtr& node_ptr) {
+    return trees.make(NodeKind::transpose, {node_ptr});
+  };
   const bool of_elements = node->kind == NodeKind::call && node->text == "sum" &&
                            node->children.size() == 1 &&
                            node->children[0]->kind == NodeKind::elementwise_power;

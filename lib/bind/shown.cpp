@@ -40,7 +40,8 @@ std::vector<Named> everything(const model::Design& design) {
         all.push_back({variable.name, variable.shape});
   for (const model::Design::Claim& claim : design.claims) all.push_back({claim.name, scalar});
   for (const model::Design::Datum& datum : design.data) all.push_back({datum.name, datum.shape});
-  for (const model::Design::Datum& one : design.parameters) all.push_back({one.name, one.shape});
+  for (const model::Design::Datum& datum : design.parameters)
+    all.push_back({datum.name, datum.shape});
   for (const model::Design::Gain& gain : design.gains) all.push_back({gain.name, gain.shape});
   all.push_back({"t", scalar});
   if (design.objective || design.quotient) all.push_back({"objective", scalar});
@@ -55,11 +56,11 @@ std::vector<Named> find(const std::string& name, const std::vector<Named>& among
   const auto add = [&](const std::string& one) {
     if (std::find(known.begin(), known.end(), one) == known.end()) known.push_back(one);
   };
-  for (const Named& one : among) {
-    if (one.is(name)) found.push_back(one);
-    add(one.own());
+  for (const Named& named : among) {
+    if (named.is(name)) found.push_back(named);
+    add(named.own());
   }
-  for (const Named& one : among) add(one.name);
+  for (const Named& named : among) add(named.name);
   if (found.empty())
     throw InputError(place, what + " is named '" + name + "'" + suggestion(name, known));
   return found;
@@ -69,8 +70,8 @@ std::vector<Named> find(const std::string& name, const std::vector<Named>& among
 void check(const model::UnitText& text, const std::vector<Named>& among) {
   const auto found = find(text.name, among, "units: nothing", text.place);
   const bool fits =
-      text.units.size() == 1 || std::any_of(found.begin(), found.end(), [&](const Named& one) {
-        return static_cast<std::size_t>(one.shape.size()) == text.units.size();
+      text.units.size() == 1 || std::any_of(found.begin(), found.end(), [&](const Named& named) {
+        return static_cast<std::size_t>(named.shape.size()) == text.units.size();
       });
   if (!fits)
     throw InputError(text.place, "units: " + text.name + " is " + to_string(found.front().shape) +

@@ -78,15 +78,15 @@ void bind_system_figures(Binding& binding) {
     figure.place = text.place;
     for (const model::SystemFigureText::System& one : text.systems)
       figure.systems.push_back(system(one, text.kind, scope));
-    for (const model::SystemFigure::System& one : figure.systems)
+    for (const model::SystemFigure::System& system : figure.systems)
       if (figure.kind == model::SystemPicture::poles &&
-          one.step.has_value() != figure.systems.front().step.has_value())
-        throw InputError(one.place, "figures: " + text.name +
-                                        ": poles of continuous and of sampled systems need two "
-                                        "pictures");
-    for (const model::SystemFigure::System& one : figure.systems)
+          system.step.has_value() != figure.systems.front().step.has_value())
+        throw InputError(system.place, "figures: " + text.name +
+                                           ": poles of continuous and of sampled systems need two "
+                                           "pictures");
+    for (const model::SystemFigure::System& system : figure.systems)
       for (const model::Dynamics::Noise& noise : binding.design->varied.noise)
-        figure.varies = figure.varies || one.matrix.uses(noise.name);
+        figure.varies = figure.varies || system.matrix.uses(noise.name);
     if (text.over)
       figure.over = {scalar(text.over->first, scope), scalar(text.over->second, scope)};
     if (text.scan) figure.scan = scanned(*text.scan, binding);

@@ -13,8 +13,8 @@ std::vector<std::string> unread_names(const Binding& binding, const std::set<std
   // What is declared elsewhere may be meant for other problems.
   const auto is_own = [&](const auto& one) { return one.place.file == binding.problem().file; };
   std::set<std::string> defaults;
-  for (const model::Declaration& one : method.data)
-    if (one.fallback) defaults.merge(expr::names_in(*one.fallback));
+  for (const model::Declaration& declaration : method.data)
+    if (declaration.fallback) defaults.merge(expr::names_in(*declaration.fallback));
   // Also by a member of its family or by a part of a component.
   const auto is_read = [&](const std::string& name) {
     const auto member = read.lower_bound(name + "_");

@@ -181,7 +181,9 @@ Finding ClaimCheck::nonincreasing(const Track& track, bool holds) const {
       noise = std::max(noise, top / std::abs(scale));
     } else if (judgement != Judgement::held) {
       const Finding found = finding_at(track, k, v[k], high, scale, judgement);
-      const auto rank = [](const Finding& one) { return std::pair(one.violated(), one.score); };
+      const auto rank = [](const Finding& finding) {
+        return std::pair(finding.violated(), finding.score);
+      };
       if (!worst || rank(found) > rank(*worst)) worst = found;
     }
     if (v[k].value - low.value < v[k].bound - low.bound) low = v[k];
@@ -231,8 +233,8 @@ Finding ClaimCheck::bounded(const Track& track, bool holds) const {
   std::optional<Finding> worst;
   double noise = 0;
   bool leaves_bound = false;  // from a start that is the bound
-  const auto rank = [](const Finding& one) {
-    return std::tuple(one.violated(), one.undecided(), one.score);
+  const auto rank = [](const Finding& finding) {
+    return std::tuple(finding.violated(), finding.undecided(), finding.score);
   };
   for (std::size_t k = 0; k < v.size(); ++k) {
     if (!counts(track, k)) continue;
@@ -271,8 +273,8 @@ Finding ClaimCheck::cost(const Track& track, bool holds) const {
   const Bounded most = eased(bound, std::abs(bound.value), bound.bound);
   const double scale = bound.value;
   std::optional<Finding> worst;
-  const auto rank = [](const Finding& one) {
-    return std::tuple(one.violated(), one.undecided(), one.score);
+  const auto rank = [](const Finding& finding) {
+    return std::tuple(finding.violated(), finding.undecided(), finding.score);
   };
   for (std::size_t k = 0; k < track.samples(); ++k) {
     if (is_of_another(track, k)) continue;

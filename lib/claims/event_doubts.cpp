@@ -54,8 +54,8 @@ EventDoubts::EventDoubts(const hybrid::System& system)
   const auto moves = [&](const std::string& name) { return system.layout.moves(name); };
   for (const model::Dynamics::Reaction& reaction : system.dynamics.reactions)
     for (const model::Dynamics::Pass& pass : reaction.passes)
-      for (const model::Dynamics::Assignment& one : pass.map) {
-        hybrid::Breaks breaks(one.value.program, system.layout, system.constants, moves);
+      for (const model::Dynamics::Assignment& assignment : pass.map) {
+        hybrid::Breaks breaks(assignment.value.program, system.layout, system.constants, moves);
         if (!breaks.none()) breaks_[reaction.event].push_back(std::move(breaks));
       }
 }
@@ -79,8 +79,9 @@ std::optional<std::string> EventDoubts::of_turn(const NearTurn& turn, const Twin
   VectorXd here;
   for (int k = 0; k < points; ++k) {
     const double t = last - (last - from) * k / 16;
-    const auto at = [&](const hybrid::FlowPiece& one) {
-      return whole(state_at(one, std::min((t - one.from()) / length(one), 1.0)));
+    const auto at = [&](const hybrid::FlowPiece& flow_piece) {
+      return whole(
+          state_at(flow_piece, std::min((t - flow_piece.from()) / length(flow_piece), 1.0)));
     };
     const VectorXd own = at(*flow.flow);
     if (k == 0) here = own;

@@ -74,11 +74,11 @@ void RunCosts::add_to(std::vector<DenseStep>& steps, Integral& integral, bool mo
         if (moved) series(0) += 2 * half * part.noise;
         series(0) += integral.total;
       }
-      DenseStep one = part_of(step, part, series.size());
-      one.coefficients.row(integral.element).setZero();
-      one.coefficients.row(integral.element).head(series.size()) = series;
+      DenseStep dense_step = part_of(step, part, series.size());
+      dense_step.coefficients.row(integral.element).setZero();
+      dense_step.coefficients.row(integral.element).head(series.size()) = series;
       integral.total = series.sum();
-      all.push_back(std::move(one));
+      all.push_back(std::move(dense_step));
     }
   }
   steps = std::move(all);

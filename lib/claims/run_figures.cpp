@@ -115,8 +115,9 @@ std::optional<double> FigureOf::at_time(const Trajectory& run) {
     }
     const auto& flow = std::get<FlowPiece>(part);
     if (flow.from() > t) break;
-    const auto step = std::partition_point(flow.steps.begin(), flow.steps.end(),
-                                           [&](const DenseStep& one) { return one.to < t; });
+    const auto step =
+        std::partition_point(flow.steps.begin(), flow.steps.end(),
+                             [&](const DenseStep& dense_step) { return dense_step.to < t; });
     moment_ = step == flow.steps.end() ? flow.end : (*step)(t);
   }
   return value_->number(moment_);

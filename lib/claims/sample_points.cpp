@@ -18,8 +18,9 @@ using hybrid::DenseStep;
 using hybrid::FlowPiece;
 
 Eigen::VectorXd state_at_time(const FlowPiece& flow, double t) {
-  const auto step = std::partition_point(flow.steps.begin(), std::prev(flow.steps.end()),
-                                         [&](const DenseStep& one) { return one.to < t; });
+  const auto step =
+      std::partition_point(flow.steps.begin(), std::prev(flow.steps.end()),
+                           [&](const DenseStep& dense_step) { return dense_step.to < t; });
   return (*step)(t);
 }
 
@@ -73,16 +74,18 @@ std::vector<Stretch> stretches_of(const FlowPiece& flow, RunValue& function, dou
 /// The ends and middles of the stretches of steps on which the value breaks.
 void add_places(const FlowPiece& flow, RunValue& function, Breaks& breaks,
                 const std::function<void(double)>& add) {
-  for (const Stretch& one : stretches_of(flow, function, flow.from(), &breaks))
-    for (const double t : {one.from, one.from + (one.to - one.from) / 2, one.to}) add(t);
+  for (const Stretch& stretch : stretches_of(flow, function, flow.from(), &breaks))
+    for (const double t :
+         {stretch.from, stretch.from + (stretch.to - stretch.from) / 2, stretch.to})
+      add(t);
 }
 
 /// The time of a peak; a value that is no number is one.
 double time_of(const SamplePoints::Peak& peak, const FlowPiece& flow, RunValue& function) {
   std::vector<Top> tops;
-  for (const Stretch& one : stretches_of(flow, function, peak.after)) {
-    if (one.part.undefined) return *one.part.undefined;
-    add_tops(one.part, one.from, one.to, peak.sign, tops);
+  for (const Stretch& stretch : stretches_of(flow, function, peak.after)) {
+    if (stretch.part.undefined) return *stretch.part.undefined;
+    add_tops(stretch.part, stretch.from, stretch.to, peak.sign, tops);
   }
   std::stable_sort(tops.begin(), tops.end(),
                    [](const Top& a, const Top& b) { return a.value > b.value; });
@@ -161,12 +164,12 @@ std::vector<double> rises_of(const SamplePoints::Falling& falling, const FlowPie
                              RunValue& function, const RiseLimits& limits) {
   std::vector<double> undefined;
   Rises rises(limits.noise, limits.floor(static_cast<Eigen::Index>(falling.function)));
-  for (const Stretch& one :
+  for (const Stretch& stretch :
        stretches_of(flow, function, falling.after, nullptr, limits.agreement, true)) {
-    if (one.part.undefined)
-      undefined.push_back(*one.part.undefined);
+    if (stretch.part.undefined)
+      undefined.push_back(*stretch.part.undefined);
     else
-      add_points(one, rises);
+      add_points(stretch, rises);
   }
   std::vector<double> times = rises.end();
   times.insert(times.end(), undefined.begin(), undefined.end());

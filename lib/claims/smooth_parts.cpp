@@ -134,8 +134,8 @@ class Halving {
 /// halved until it is monotone, has no root, or its integral changes by less than `noise`.
 void add_roots(const numbers::Matrix& c, double low, double high, double noise,
                std::vector<double>& roots) {
-  const auto excludes = [](const numbers::Matrix& one) {
-    return std::abs(one(0)) > one.rightCols(one.cols() - 1).cwiseAbs().sum();
+  const auto excludes = [](const numbers::Matrix& matrix) {
+    return std::abs(matrix(0)) > matrix.rightCols(matrix.cols() - 1).cwiseAbs().sum();
   };
   if (excludes(c)) return;
   const bool is_noise = c.cwiseAbs().sum() * (high - low) <= noise;
@@ -185,16 +185,16 @@ std::vector<SmoothPart> smooth_parts(RunValue& value, const hybrid::DenseStep& s
     part.followed = false;
     return {part};
   }
-  for (const ode::Break& one : *breaks) {
-    part.to = one.left;
+  for (const ode::Break& edge : *breaks) {
+    part.to = edge.left;
     if (part.from < part.to || parts.empty()) halving.halve(part, kMostEvaluations, parts);
-    parts.back().before_jump = one.jumps;
-    part = {one.right, step.to, one.jumps};
+    parts.back().before_jump = edge.jumps;
+    part = {edge.right, step.to, edge.jumps};
   }
   if (part.from < part.to || parts.empty()) halving.halve(part, kMostEvaluations, parts);
   if (noise)
-    for (SmoothPart& one : parts)
-      if (!one.undefined) one.noise += halving.noise();
+    for (SmoothPart& smooth_part : parts)
+      if (!smooth_part.undefined) smooth_part.noise += halving.noise();
   return parts;
 }
 

@@ -251,16 +251,16 @@ class Fixing {
     Replaced given;
     given.inputs.emplace(datum_name(gain.name), value_of(gain, function));
     const expr::Program program = expr::substitute(solution, given);
-    Replaced one;
+    Replaced replaced;
     if (unknown(name).variable.empty())
-      one.inputs.emplace(name, program);
+      replaced.inputs.emplace(name, program);
     else
-      one.functions.emplace(name, expr::Body{gain.variable, program});
-    for (auto& [known, earlier] : replaced_.inputs) earlier = expr::substitute(earlier, one);
+      replaced.functions.emplace(name, expr::Body{gain.variable, program});
+    for (auto& [known, earlier] : replaced_.inputs) earlier = expr::substitute(earlier, replaced);
     for (auto& [known, earlier] : replaced_.functions)
-      earlier.program = expr::substitute(earlier.program, one);
-    replaced_.inputs.merge(one.inputs);
-    replaced_.functions.merge(one.functions);
+      earlier.program = expr::substitute(earlier.program, replaced);
+    replaced_.inputs.merge(replaced.inputs);
+    replaced_.functions.merge(replaced.functions);
     std::erase_if(design_.unknowns,
                   [&](const model::Design::Unknown& known) { return known.name == name; });
   }

@@ -34,16 +34,17 @@ Changed changed(const model::Instance& instance, const sdp::Options& solver) {
 /// The sums of the multipliers of an inequality, in the order of their size.
 Limit limit_of(const Design::Inequality& inequality, const model::Gains& gains, double scale) {
   Limit limit{inequality.name, 0, scale, {}, {}};
-  for (const model::Multiplier& one : gains.multipliers) {
-    if (!model::is_comparison_of(one.name, inequality.name)) continue;
-    limit.price += one.trace;
-    if (one.point.empty()) continue;
-    const auto same = std::find_if(limit.points.begin(), limit.points.end(),
-                                   [&](const auto& point) { return point.first == one.point; });
+  for (const model::Multiplier& multiplier : gains.multipliers) {
+    if (!model::is_comparison_of(multiplier.name, inequality.name)) continue;
+    limit.price += multiplier.trace;
+    if (multiplier.point.empty()) continue;
+    const auto same =
+        std::find_if(limit.points.begin(), limit.points.end(),
+                     [&](const auto& point) { return point.first == multiplier.point; });
     if (same != limit.points.end())
-      same->second += one.trace;
+      same->second += multiplier.trace;
     else
-      limit.points.emplace_back(one.point, one.trace);
+      limit.points.emplace_back(multiplier.point, multiplier.trace);
   }
   std::stable_sort(limit.points.begin(), limit.points.end(),
                    [](const auto& a, const auto& b) { return a.second > b.second; });
@@ -53,11 +54,11 @@ Limit limit_of(const Design::Inequality& inequality, const model::Gains& gains, 
 /// Whether a multiplier of the bounds on gains is more than what the solver leaves of 0.
 bool bounds_cost(const Design& design, const model::Gains& gains, double largest_trace) {
   return std::any_of(
-      gains.multipliers.begin(), gains.multipliers.end(), [&](const model::Multiplier& one) {
-        return one.trace > kNothing * largest_trace &&
+      gains.multipliers.begin(), gains.multipliers.end(), [&](const model::Multiplier& multiplier) {
+        return multiplier.trace > kNothing * largest_trace &&
                std::none_of(design.inequalities.begin(), design.inequalities.end(),
                             [&](const Design::Inequality& inequality) {
-                              return model::is_comparison_of(one.name, inequality.name);
+                              return model::is_comparison_of(multiplier.name, inequality.name);
                             });
       });
 }
@@ -181,8 +182,8 @@ Limits find_limits(const model::Instance& instance, const model::Gains& gains,
     largest = std::max(largest, all.back().price * all.back().scale);
     largest_trace = std::max(largest_trace, all.back().price);
   }
-  for (const model::Multiplier& one : gains.multipliers)
-    largest_trace = std::max(largest_trace, one.trace);
+  for (const model::Multiplier& multiplier : gains.multipliers)
+    largest_trace = std::max(largest_trace, multiplier.trace);
   for (Limit& limit : all)
     if (limit.price * limit.scale > kNothing * largest)
       limits.active.push_back(std::move(limit));

@@ -57,17 +57,19 @@ class Refinement {
  private:
   static constexpr double kDear = 1e-3;  // dearer is no matter of the solver's digits
 
-  double value_of(const Minimum& one) const {
-    return posed_.lmi.objective_at(lmi::read_back(posed_.lmi, one.formulation, one.solution));
+  double value_of(const Minimum& minimum) const {
+    return posed_.lmi.objective_at(
+        lmi::read_back(posed_.lmi, minimum.formulation, minimum.solution));
   }
 
   bool is_good() const { return is_point_ && price_ <= kCheap; }
 
   /// Sets is_point_ and price_.
-  void rate(const Minimum& one) {
-    is_point_ = one.solution.status == sdp::Status::optimal &&
-                is_positive(posed_, lmi::read_back(posed_.lmi, one.formulation, one.solution));
-    price_ = price_of(posed_, asked_.bounds, one.formulation, one.solution);
+  void rate(const Minimum& minimum) {
+    is_point_ =
+        minimum.solution.status == sdp::Status::optimal &&
+        is_positive(posed_, lmi::read_back(posed_.lmi, minimum.formulation, minimum.solution));
+    price_ = price_of(posed_, asked_.bounds, minimum.formulation, minimum.solution);
   }
 
   /// A point before none, the cheaper of two.

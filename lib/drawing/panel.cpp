@@ -189,15 +189,15 @@ std::string field_of(const Panel& panel, const Axis& across, const Axis& up, con
       fastest = std::max(fastest, speed);
     }
   std::string lines;
-  for (const Arrow& one : arrows) {
-    const double length = longest * std::cbrt(one.speed / fastest);
-    const double x = one.right * length, y = one.down * length;
+  for (const Arrow& arrow : arrows) {
+    const double length = longest * std::cbrt(arrow.speed / fastest);
+    const double x = arrow.right * length, y = arrow.down * length;
     const auto barb = [&](double side) {
-      return "l" + pixels(-head * (one.right - side * one.down)) + "," +
-             pixels(-head * (one.down + side * one.right));
+      return "l" + pixels(-head * (arrow.right - side * arrow.down)) + "," +
+             pixels(-head * (arrow.down + side * arrow.right));
     };
-    lines += "M" + pixels(one.x - x / 2) + "," + pixels(one.y - y / 2) + "l" + pixels(x) + "," +
-             pixels(y) + barb(0.5) + "M" + pixels(one.x + x / 2) + "," + pixels(one.y + y / 2) +
+    lines += "M" + pixels(arrow.x - x / 2) + "," + pixels(arrow.y - y / 2) + "l" + pixels(x) + "," +
+             pixels(y) + barb(0.5) + "M" + pixels(arrow.x + x / 2) + "," + pixels(arrow.y + y / 2) +
              barb(-0.5);
   }
   return lines.empty() ? lines

@@ -168,7 +168,7 @@ class CObserver : public ObserverWriter {
     std::string body;
     for (std::size_t k = 0; k < fields_.size(); ++k) {
       const bool flows = std::any_of(observer_.rate.begin(), observer_.rate.end(),
-                                     [&](const Assigned& one) { return one.state == k; });
+                                     [&](const Assigned& assigned) { return assigned.state == k; });
       if (flows) continue;
       for (const std::string& element :
            c_elements("rate->" + fields_[k], observer_.states[k].shape))
@@ -257,8 +257,9 @@ class CObserver : public ObserverWriter {
   /// The flow over the period T of the first event that has one: Phi and Psi of step_matrices() are
   /// tables, so that a step costs one product. Nothing without such an event.
   std::string flow_period(const Code& made, const std::vector<const Variable*>& inputs) const {
-    const auto jump = std::find_if(observer_.jumps.begin(), observer_.jumps.end(),
-                                   [](const Jump& one) { return one.period.has_value(); });
+    const auto jump =
+        std::find_if(observer_.jumps.begin(), observer_.jumps.end(),
+                     [](const Jump& candidate) { return candidate.period.has_value(); });
     if (jump == observer_.jumps.end()) return "";
     const auto [Phi, Psi] = step_matrices(observer_.linear->M, *jump->period);
     const int n = observer_.size();

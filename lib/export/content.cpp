@@ -179,9 +179,9 @@ class Collector {
         [&] {
           if (dynamics_.components[component_].frozen)
             throw LeftOut{"`frozen` stops it for some modes"};
-          for (const Dynamics::Assignment& one : dynamics_.flow)
-            if (const auto place = place_.find(one.variable); place != place_.end())
-              observer_.rate.push_back({place->second, taken(one.value.program)});
+          for (const Dynamics::Assignment& assignment : dynamics_.flow)
+            if (const auto place = place_.find(assignment.variable); place != place_.end())
+              observer_.rate.push_back({place->second, taken(assignment.value.program)});
           observer_.linear = linear_flow();
         },
         kWithoutFlow);
@@ -200,13 +200,14 @@ class Collector {
   std::optional<LinearFlow> linear_flow() const {
     if (observer_.rate.empty()) return std::nullopt;
     const auto moves = [&](const std::string& key) {
-      return is_state(key) || std::any_of(observer_.inputs.begin(), observer_.inputs.end(),
-                                          [&](const Variable& one) { return one.key == key; });
+      return is_state(key) ||
+             std::any_of(observer_.inputs.begin(), observer_.inputs.end(),
+                         [&](const Variable& variable) { return variable.key == key; });
     };
-    for (const Assigned& one : observer_.rate) {
+    for (const Assigned& assigned : observer_.rate) {
       // The degree in states and inputs together: x u is not affine, though it is so in x.
-      const auto degrees = numbers::degrees(one.value, moves);
-      if (degrees[static_cast<std::size_t>(one.value.result)] >= numbers::kNotAffine)
+      const auto degrees = numbers::degrees(assigned.value, moves);
+      if (degrees[static_cast<std::size_t>(assigned.value.result)] >= numbers::kNotAffine)
         return std::nullopt;
     }
     for (const Variable& input : observer_.inputs)
@@ -217,10 +218,10 @@ class Collector {
   /// The rate of all elements with the states as they are in `at`.
   numbers::Vector rate_at(const numbers::Values& at) const {
     numbers::Vector rate = numbers::Vector::Zero(observer_.size());
-    for (const Assigned& one : observer_.rate) {
+    for (const Assigned& assigned : observer_.rate) {
       Eigen::Index first = 0;
-      for (std::size_t k = 0; k < one.state; ++k) first += observer_.states[k].shape.size();
-      const numbers::Matrix value = numbers::evaluate(one.value, at);
+      for (std::size_t k = 0; k < assigned.state; ++k) first += observer_.states[k].shape.size();
+      const numbers::Matrix value = numbers::evaluate(assigned.value, at);
       rate.segment(first, value.size()) = value.reshaped();
     }
     return rate;
@@ -256,9 +257,9 @@ class Collector {
     for (const Dynamics::Pass& pass : reaction.passes) {
       if (pass.repeats) throw LeftOut{"it is a loop"};
       jump.passes.emplace_back();
-      for (const Dynamics::Assignment& one : pass.map)
-        if (const auto place = place_.find(one.variable); place != place_.end())
-          jump.passes.back().push_back({place->second, taken(one.value.program)});
+      for (const Dynamics::Assignment& assignment : pass.map)
+        if (const auto place = place_.find(assignment.variable); place != place_.end())
+          jump.passes.back().push_back({place->second, taken(assignment.value.program)});
     }
     observer_.jumps.push_back(std::move(jump));
   }

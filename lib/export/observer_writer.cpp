@@ -49,14 +49,14 @@ Code ObserverWriter::code(const std::vector<expr::Program>& programs) {
 
 std::vector<expr::Program> ObserverWriter::programs_of(const std::vector<Assigned>& list) {
   std::vector<expr::Program> programs;
-  for (const Assigned& one : list) programs.push_back(one.value);
+  for (const Assigned& assigned : list) programs.push_back(assigned.value);
   return programs;
 }
 
 std::vector<expr::Program> ObserverWriter::programs_of(const Jump& jump) {
   std::vector<expr::Program> programs;
   for (const auto& pass : jump.passes)
-    for (const Assigned& one : pass) programs.push_back(one.value);
+    for (const Assigned& assigned : pass) programs.push_back(assigned.value);
   return programs;
 }
 
@@ -95,7 +95,8 @@ std::vector<expr::Program> ObserverWriter::rate_at_rest() const {
     zero.inputs.emplace(state.key, compose.take(compose.apply(expr::Op::zeros, {}, state.shape)));
   }
   std::vector<expr::Program> rates;
-  for (const Assigned& one : observer_.rate) rates.push_back(expr::substitute(one.value, zero));
+  for (const Assigned& assigned : observer_.rate)
+    rates.push_back(expr::substitute(assigned.value, zero));
   return rates;
 }
 

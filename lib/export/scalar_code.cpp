@@ -73,12 +73,12 @@ class Writer {
     // Operands precede what reads them: from the last node on all readers of a node are counted.
     for (std::size_t k = uses_.size(); k-- > 0;) {
       if (uses_[k] == 0) continue;
-      const Node& one = graph_.nodes()[k];
-      if (one.op == ScalarOp::element)
-        for (const auto& operand : graph_.blocks()[at(one.a)].operands)
+      const Node& node = graph_.nodes()[k];
+      if (node.op == ScalarOp::element)
+        for (const auto& operand : graph_.blocks()[at(node.a)].operands)
           for (const int read : operand) ++uses_[at(read)];
-      if (has_operands(one))
-        for (const int read : {one.a, one.b, one.c})
+      if (has_operands(node))
+        for (const int read : {node.a, node.b, node.c})
           if (read >= 0) ++uses_[at(read)];
     }
   }
@@ -122,50 +122,50 @@ class Writer {
 
   /// a o b. The right operand binds more tightly: a - (b - c) and a / (b / c) keep their
   /// parentheses.
-  Term binary(const Node& one, const char* sign, Term::Binding own) const {
+  Term binary(const Node& node, const char* sign, Term::Binding own) const {
     const auto tighter = static_cast<Term::Binding>(own + 1);
-    return {within(terms_[at(one.a)], own) + sign + within(terms_[at(one.b)], tighter), own};
+    return {within(terms_[at(node.a)], own) + sign + within(terms_[at(node.b)], tighter), own};
   }
 
   /// f(a), or f(a, b).
-  Term call(const std::string& function, const Node& one) const {
-    std::string text = function + "(" + terms_[at(one.a)].text;
-    if (one.b >= 0) text += ", " + terms_[at(one.b)].text;
+  Term call(const std::string& function, const Node& node) const {
+    std::string text = function + "(" + terms_[at(node.a)].text;
+    if (node.b >= 0) text += ", " + terms_[at(node.b)].text;
     return {text + ")", Term::atom};
   }
 
   /// A function of the language's library.
-  Term library(const std::string& name, const Node& one) {
+  Term library(const std::string& name, const Node& node) {
     code_.library = true;
     switch (dialect_.language) {
       case Language::c:
-        return call(name + (dialect_.single ? "f" : ""), one);
+        return call(name + (dialect_.single ? "f" : ""), node);
       case Language::python:
-        return call("math." + name, one);
+        return call("math." + name, node);
       case Language::matlab:
         break;
     }
-    return call(name, one);
+    return call(name, node);
   }
 
   /// A function of helper_text().
-  Term helper(const std::string& name, const Node& one) {
+  Term helper(const std::string& name, const Node& node) {
     code_.helpers.insert(name);
     code_.library = code_.library || name == "mod";
-    return call(dialect_.prefix + name, one);
+    return call(dialect_.prefix + name, node);
   }
 
   /// A function that the language has under this name, and C has not.
-  Term own(const std::string& name, const Node& one) {
-    return dialect_.language == Language::c ? helper(name, one) : call(name, one);
+  Term own(const std::string& name, const Node& node) {
+    return dialect_.language == Language::c ? helper(name, node) : call(name, node);
   }
 
   /// b where a > 0, or a >= 0, and otherwise c. MATLAB has no such expression and gets a function.
-  Term choice(const Node& one, const char* sign) {
+  Term choice(const Node& node, const char* sign) {
     const std::string condition =
-        within(terms_[at(one.a)], Term::sum) + sign + number_text(0, dialect_);
-    const std::string yes = within(terms_[at(one.b)], Term::sum);
-    const std::string no = within(terms_[at(one.c)], Term::sum);
+        within(terms_[at(node.a)], Term::sum) + sign + number_text(0, dialect_);
+    const std::string yes = within(terms_[at(node.b)], Term::sum);
+    const std::string no = within(terms_[at(node.c)], Term::sum);
     switch (dialect_.language) {
       case Language::c:
         return {condition + " ? " + yes + " : " + no, Term::loose};
@@ -178,40 +178,40 @@ class Writer {
     return {"choose(" + condition + ", " + yes + ", " + no + ")", Term::atom};
   }
 
-  Term formula(const Node& one) {
-    switch (one.op) {
+  Term formula(const Node& node) {
+    switch (node.op) {
       case ScalarOp::add:
-        return binary(one, " + ", Term::sum);
+        return binary(node, " + ", Term::sum);
       case ScalarOp::subtract:
-        return binary(one, " - ", Term::sum);
+        return binary(node, " - ", Term::sum);
       case ScalarOp::multiply:
-        return binary(one, "*", Term::product);
+        return binary(node, "*", Term::product);
       case ScalarOp::divide:
-        return binary(one, "/", Term::product);
+        return binary(node, "/", Term::product);
       case ScalarOp::negate:
-        return {"-" + within(terms_[at(one.a)], Term::atom), Term::loose};
+        return {"-" + within(terms_[at(node.a)], Term::atom), Term::loose};
       case ScalarOp::minimum:
-        return own("min", one);
+        return own("min", node);
       case ScalarOp::maximum:
-        return own("max", one);
+        return own("max", node);
       case ScalarOp::where_positive:
-        return choice(one, " > ");
+        return choice(node, " > ");
       case ScalarOp::where_nonnegative:
-        return choice(one, " >= ");
+        return choice(node, " >= ");
       case ScalarOp::power:
-        return dialect_.language == Language::matlab ? call("power", one) : library("pow", one);
+        return dialect_.language == Language::matlab ? call("power", node) : library("pow", node);
       case ScalarOp::mod:
         return dialect_.language == Language::python
-                   ? Term{within(terms_[at(one.a)], Term::atom) + " % " +
-                              within(terms_[at(one.b)], Term::atom),
+                   ? Term{within(terms_[at(node.a)], Term::atom) + " % " +
+                              within(terms_[at(node.b)], Term::atom),
                           Term::loose}
-                   : own("mod", one);
+                   : own("mod", node);
       case ScalarOp::angle:
-        return angle(one);
+        return angle(node);
       case ScalarOp::abs:
-        return dialect_.language == Language::c ? library("fabs", one) : call("abs", one);
+        return dialect_.language == Language::c ? library("fabs", node) : call("abs", node);
       case ScalarOp::sign:
-        return dialect_.language == Language::matlab ? call("sign", one) : helper("sign", one);
+        return dialect_.language == Language::matlab ? call("sign", node) : helper("sign", node);
       default:
         break;
     }
@@ -223,16 +223,16 @@ class Writer {
                                    {sin, "sin"},
                                    {cos, "cos"},
                                    {tanh, "tanh"}})
-      if (op == one.op) return library(name, one);
+      if (op == node.op) return library(name, node);
     throw std::logic_error("a node that is no operation");
   }
 
   /// Zeros lose their signs, which do not count.
-  Term angle(const Node& one) {
+  Term angle(const Node& node) {
     code_.library = true;
     const std::string zero = " + " + number_text(0, dialect_);
-    const Term both{within(terms_[at(one.a)], Term::sum) + zero + ", " +
-                        within(terms_[at(one.b)], Term::sum) + zero,
+    const Term both{within(terms_[at(node.a)], Term::sum) + zero + ", " +
+                        within(terms_[at(node.b)], Term::sum) + zero,
                     Term::atom};
     const std::string name = dialect_.language == Language::python ? "math.atan2"
                              : dialect_.single                     ? "atan2f"

@@ -77,14 +77,14 @@ class ClaimCode {
     const int fresh = graph_.input(Flown::fresh);
     const int none = is_.number(0);
     field_[Flown::peak] = is_.pick(fresh, is_.number(kLeast), field_[Flown::peak]);
-    for (const Flown::Field one : {Flown::violated, Flown::floor, Flown::seen})
-      field_[one] = is_.pick(fresh, none, field_[one]);
+    for (const Flown::Field field : {Flown::violated, Flown::floor, Flown::seen})
+      field_[field] = is_.pick(fresh, none, field_[field]);
     begins_ = is_.both(counts_, is_.no(field_[Flown::seen]));
     field_[Flown::seen] = is_.either(counts_, field_[Flown::seen]);
-    for (const Flown::Field one : {Flown::first, Flown::low, Flown::high})
-      field_[one] = is_.pick(begins_, start_.value, field_[one]);
-    for (const Flown::Field one : {Flown::first_error, Flown::low_error, Flown::high_error})
-      field_[one] = is_.pick(begins_, start_.error, field_[one]);
+    for (const Flown::Field field : {Flown::first, Flown::low, Flown::high})
+      field_[field] = is_.pick(begins_, start_.value, field_[field]);
+    for (const Flown::Field field : {Flown::first_error, Flown::low_error, Flown::high_error})
+      field_[field] = is_.pick(begins_, start_.error, field_[field]);
   }
 
   /// Of the value anywhere up to s.
@@ -276,7 +276,7 @@ FlightSystem::Places places_of(const PackClaim& claim, std::size_t& next) {
             Flown::high_error, Flown::floor, Flown::last,      Flown::seen};
   FlightSystem::Places places;
   places.fill(-1);
-  for (const Flown::Field one : kept) places[one] = static_cast<int>(next++);
+  for (const Flown::Field field : kept) places[field] = static_cast<int>(next++);
   return places;
 }
 

@@ -222,14 +222,15 @@ class EventFinder {
     int first = is_.number(kNoTime), other = is_.number(0), rate = is_.number(1);
     int sure = is_.number(0);
     for (const Side& side : sides_) end.sides.push_back(side.sign);
-    for (const Candidate& one : candidates) {
-      const std::vector<Side> sides = sides_after(one);
-      Due due = due_at(one, sides);
-      const int is_before = is_.is_positive(is_.minus(first, one.time));
-      const int takes = is_.both(is_.is_positive(one.time), is_.both(is_before, due.possible));
-      first = is_.pick(takes, one.time, first);
-      other = is_.pick(takes, one.other, other);
-      rate = is_.pick(takes, one.rate, rate);
+    for (const Candidate& candidate : candidates) {
+      const std::vector<Side> sides = sides_after(candidate);
+      Due due = due_at(candidate, sides);
+      const int is_before = is_.is_positive(is_.minus(first, candidate.time));
+      const int takes =
+          is_.both(is_.is_positive(candidate.time), is_.both(is_before, due.possible));
+      first = is_.pick(takes, candidate.time, first);
+      other = is_.pick(takes, candidate.other, other);
+      rate = is_.pick(takes, candidate.rate, rate);
       sure = is_.pick(takes, due.sure, sure);
       end.event = is_.pick(takes, due.event, end.event);
       for (std::size_t w = 0; w < sides.size(); ++w)
@@ -279,7 +280,7 @@ class EventFinder {
     int possible = 0, sure = 0, event = 0;
   };
   /// The first event that may be due, and whether it is. A flow set that is left is none.
-  Due due_at(const Candidate& one, const std::vector<Side>& sides) {
+  Due due_at(const Candidate& candidate, const std::vector<Side>& sides) {
     Due due{is_.number(0), is_.number(0), is_.number(-1)};
     const auto add = [&](const Certainty& is, double event) {
       const int is_new = is_.both(is_.no(due.possible), is.possible);
@@ -290,8 +291,8 @@ class EventFinder {
     for (std::size_t e = 0; e < pack_.events.size(); ++e) {
       const PackEvent& event = pack_.events[e];
       if (event.when) add(truth(*event.when, sides), static_cast<double>(e));
-      if (event.crossing && event.crossing->watch == one.watch) {
-        const int is = wanted(e, sides[one.watch].sign);
+      if (event.crossing && event.crossing->watch == candidate.watch) {
+        const int is = wanted(e, sides[candidate.watch].sign);
         const int is_second = is_.both(due.possible, is);
         add({is, is}, static_cast<double>(e));
         // Whether it happens after the jump of another event is left to steps.

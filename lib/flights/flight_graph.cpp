@@ -37,10 +37,10 @@ FlightPair FlightGraph::pair(const Series& first, const Series& second) {
 }
 
 /// kErrorOfFlights |p_j - q_j| + kTermRounding size_j.
-int FlightGraph::error_of(const FlightPair& one, std::size_t j) {
-  const int apart = is_.abs(is_.minus(one.first.value[j], one.second[j]));
+int FlightGraph::error_of(const FlightPair& flight_pair, std::size_t j) {
+  const int apart = is_.abs(is_.minus(flight_pair.first.value[j], flight_pair.second[j]));
   return is_.add(is_.part(kErrorOfFlights, apart),
-                 is_.part(hybrid::kTermRounding, one.first.size[j]));
+                 is_.part(hybrid::kTermRounding, flight_pair.first.size[j]));
 }
 
 }  // namespace gainsmith::flights

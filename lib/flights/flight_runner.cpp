@@ -23,7 +23,8 @@ FlightRunner::FlightRunner(const PackSystem& pack, const FlightSystem& flights)
       scratch_(Eigen::VectorXd::Zero(pack.system->size)),
       largest_(scratch_) {
   for (const PackEvent& event : pack.events) jumps_.emplace_back(*event.jump);
-  for (LaneValues& one : states_) one = LaneValues(static_cast<std::size_t>(pack.system->size));
+  for (LaneValues& lane_values : states_)
+    lane_values = LaneValues(static_cast<std::size_t>(pack.system->size));
   const auto& variables = pack.system->dynamics.variables;
   for (std::size_t i = 0; i < variables.size(); ++i)
     if (variables[i].kind == model::Dynamics::VariableKind::since)

@@ -139,19 +139,19 @@ Series FlightSeries::scaled(const Series& a, int factor, int size) {
 }
 
 /// By what rests along flows.
-Series FlightSeries::chosen(const ScalarGraph::Node& one) {
-  if (of_node(one.a).degree() > 0) throw NoFormula();
-  Series yes = of_node(one.b);
-  Series no = of_node(one.c);
+Series FlightSeries::chosen(const ScalarGraph::Node& node) {
+  if (of_node(node.a).degree() > 0) throw NoFormula();
+  Series yes = of_node(node.b);
+  Series no = of_node(node.c);
   const std::size_t terms = std::max(yes.value.size(), no.value.size());
-  const bool strict = one.op == ScalarOp::where_positive;
+  const bool strict = node.op == ScalarOp::where_positive;
   for (Series* branch : {&yes, &no}) {
     branch->value.resize(terms, graph_.constant(0));
     if (sizes_) branch->size.resize(terms, graph_.constant(0));
   }
   for (std::size_t j = 0; j < terms; ++j) {
-    yes.value[j] = graph_.where(strict, one.a, yes.value[j], no.value[j]);
-    if (sizes_) yes.size[j] = graph_.where(strict, one.a, yes.size[j], no.size[j]);
+    yes.value[j] = graph_.where(strict, node.a, yes.value[j], no.value[j]);
+    if (sizes_) yes.size[j] = graph_.where(strict, node.a, yes.size[j], no.size[j]);
   }
   return yes;
 }

@@ -22,12 +22,13 @@ void add_ends(FlightGraph& graph, const FlightEnd& end, std::vector<Nodes>& resu
   const std::vector<int>& rows = graph.pack().rows;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const std::size_t row = index(rows[k]);
-    const FlightPair one = graph.pair(first.of_value(row), graph.second().of_value(row));
-    const int size = first.at(one.first.size, end.length);
+    const FlightPair flight_pair = graph.pair(first.of_value(row), graph.second().of_value(row));
+    const int size = first.at(flight_pair.first.size, end.length);
     const int move = graph.input(graph.made().move_of_row(k));
-    results[FlightSystem::ends].push_back(first.at(one.first.value, end.length));
-    results[FlightSystem::other_ends].push_back(is.add(
-        first.at(one.second, end.other_length), is.part(packs::kMoved, is.times(size, move))));
+    results[FlightSystem::ends].push_back(first.at(flight_pair.first.value, end.length));
+    results[FlightSystem::other_ends].push_back(
+        is.add(first.at(flight_pair.second, end.other_length),
+               is.part(packs::kMoved, is.times(size, move))));
   }
   for (std::size_t k = 0; k < graph.pack().whole; ++k) {
     const int size = first.at(first.of_value(k).size, end.length);
@@ -71,18 +72,19 @@ void make_code(const PackSystem& pack, const std::vector<claims::Claim>& claims,
 bool may_fly(const PackSystem& pack, const std::vector<claims::Claim>& claims) {
   const model::Dynamics& dynamics = pack.system->dynamics;
   const bool has_branches = std::any_of(pack.watches.begin(), pack.watches.end(),
-                                        [](const Watch& one) { return !one.branches.empty(); });
-  const bool is_plain = std::all_of(
-      pack.events.begin(), pack.events.end(),
-      [](const PackEvent& one) { return (one.when || one.crossing) && !one.only_if && !one.lost; });
+                                        [](const Watch& watch) { return !watch.branches.empty(); });
+  const bool is_plain =
+      std::all_of(pack.events.begin(), pack.events.end(), [](const PackEvent& pack_event) {
+        return (pack_event.when || pack_event.crossing) && !pack_event.only_if && !pack_event.lost;
+      });
   constexpr std::size_t most_events = 64;
   return is_plain && !pack.events.empty() && pack.events.size() <= most_events && !has_branches &&
          pack.kinks.empty() && pack.flats.empty() && pack.costs.empty() && dynamics.noise.empty() &&
          !pack.system->pulses &&
-         std::none_of(claims.begin(), claims.end(), [](const claims::Claim& one) {
-           return one.stated() &&
-                  (one.after > 0 || one.tolerance > 0 || one.kind == ClaimKind::cost ||
-                   (one.kind == ClaimKind::shrinks && one.over));
+         std::none_of(claims.begin(), claims.end(), [](const claims::Claim& claim) {
+           return claim.stated() &&
+                  (claim.after > 0 || claim.tolerance > 0 || claim.kind == ClaimKind::cost ||
+                   (claim.kind == ClaimKind::shrinks && claim.over));
          });
 }
 

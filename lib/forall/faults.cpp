@@ -166,12 +166,12 @@ Point labelled(Point point, const std::vector<const Variable*>& axes, const At& 
 }
 
 /// What is said of an operation whose divisor is 0.
-std::string said_of_zero(const expr::Instruction& one) {
+std::string said_of_zero(const expr::Instruction& instruction) {
   try {
-    if (one.op == Op::inverse) expr::fault::singular(one);
+    if (instruction.op == Op::inverse) expr::fault::singular(instruction);
     expr::fault::division_by_zero();
   } catch (const expr::EvaluationError& error) {
-    return expr::fault::said_of(one, error.message());
+    return expr::fault::said_of(instruction, error.message());
   }
 }
 
@@ -198,19 +198,20 @@ std::optional<Fault> find_fault(const expr::Program& difference, const Domain& d
                          [&](const Variable* axis) { return axis->name == input.name; });
     };
     for (std::size_t k = 0; k < program.code.size(); ++k) {
-      const expr::Instruction& one = program.code[k];
-      if (!is_partial(one.op)) continue;
+      const expr::Instruction& instruction = program.code[k];
+      if (!is_partial(instruction.op)) continue;
       // Only what this operation needs, so that another fault does not hide it.
       const Program part = part_of(program, static_cast<int>(k));
       if (!std::all_of(part.inputs.begin(), part.inputs.end(), is_known)) continue;
       if (const auto found = without_value(part, values, axes, points))
-        return Fault{one.place(), found->second, labelled(fixed, axes, found->first)};
-      const bool inverted = one.op == Op::inverse;
-      const bool divides = one.op == Op::divide || one.op == Op::elementwise_quotient;
+        return Fault{instruction.place(), found->second, labelled(fixed, axes, found->first)};
+      const bool inverted = instruction.op == Op::inverse;
+      const bool divides =
+          instruction.op == Op::divide || instruction.op == Op::elementwise_quotient;
       if (!inverted && !divides) continue;
-      const Program divisor = part_of(program, one.operands[inverted ? 0 : 1]);
+      const Program divisor = part_of(program, instruction.operands[inverted ? 0 : 1]);
       if (const auto zero = zero_of(divisor, inverted, values, axes, points))
-        return Fault{one.place(), said_of_zero(one), labelled(fixed, axes, *zero)};
+        return Fault{instruction.place(), said_of_zero(instruction), labelled(fixed, axes, *zero)};
     }
   }
   return std::nullopt;

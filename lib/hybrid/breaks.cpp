@@ -61,10 +61,10 @@ bool add_roots(const ode::RootFunction& g, bool jumps, double from, double to,
     return found.whole;
   };
   double left = from;
-  for (ode::Break& one : breaks) {
-    one.jumps = one.jumps || (jumps && g.value(one.left) * g.value(one.right) <= 0);
-    if (!add(left, one.left)) return false;
-    left = one.right;
+  for (ode::Break& edge : breaks) {
+    edge.jumps = edge.jumps || (jumps && g.value(edge.left) * g.value(edge.right) <= 0);
+    if (!add(left, edge.left)) return false;
+    left = edge.right;
   }
   if (!add(left, to)) return false;
   breaks.insert(breaks.end(), fresh.begin(), fresh.end());
@@ -105,13 +105,13 @@ void merge(std::vector<ode::Break>& breaks, double from, double to) {
       kAddedUp * (to - from) + kOneInstant * std::max(std::abs(from), std::abs(to));
   std::size_t kept = 0;
   for (std::size_t k = 1; k < breaks.size(); ++k) {
-    const ode::Break& one = breaks[k];
-    if (one.left - breaks[kept].right > nothing) {
-      breaks[++kept] = one;
+    const ode::Break& edge = breaks[k];
+    if (edge.left - breaks[kept].right > nothing) {
+      breaks[++kept] = edge;
       continue;
     }
-    breaks[kept].right = std::max(breaks[kept].right, one.right);
-    breaks[kept].jumps = breaks[kept].jumps || one.jumps;
+    breaks[kept].right = std::max(breaks[kept].right, edge.right);
+    breaks[kept].jumps = breaks[kept].jumps || edge.jumps;
   }
   if (!breaks.empty()) breaks.resize(kept + 1);
 }
@@ -120,8 +120,8 @@ void merge(std::vector<ode::Break>& breaks, double from, double to) {
 
 bool may_wave(const Program& program) {
   using enum Op;
-  return std::ranges::any_of(program.code, [](const Instruction& one) {
-    return is_one_of(one.op,
+  return std::ranges::any_of(program.code, [](const Instruction& instruction) {
+    return is_one_of(instruction.op,
                      {sin, cos, tanh, exp, matrix_exponential, mod, floor, atan2, flow_map});
   });
 }

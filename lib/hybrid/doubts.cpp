@@ -36,8 +36,8 @@ bool reads(const Dynamics::Event& event, const std::string& name) {
 std::ptrdiff_t uses(const expr::Program& program, const std::string& name) {
   std::ptrdiff_t count = 0;
   for (std::size_t at = 0; at < program.code.size(); ++at) {
-    const expr::Instruction& one = program.code[at];
-    if (one.op != expr::Op::input || program.input_of(one).name != name) continue;
+    const expr::Instruction& instruction = program.code[at];
+    if (instruction.op != expr::Op::input || program.input_of(instruction).name != name) continue;
     for (const expr::Instruction& user : program.code)
       count += std::count(user.operands.begin(), user.operands.end(), static_cast<int>(at)) *
                (user.op == expr::Op::fill ? user.shape.size() : 1);
@@ -84,8 +84,9 @@ class Readers {
     const auto observes = [&](std::size_t component) {
       return dynamics_.components[component].observer;
     };
-    const auto flows = [&](const Dynamics::Assignment& one) {
-      return observes(dynamics_.variables[one.variable].component) && one.value.program.uses(name_);
+    const auto flows = [&](const Dynamics::Assignment& assignment) {
+      return observes(dynamics_.variables[assignment.variable].component) &&
+             assignment.value.program.uses(name_);
     };
     return std::ranges::any_of(dynamics_.flow, flows) ||
            std::ranges::any_of(dynamics_.reactions, [&](const auto& one) {
@@ -130,16 +131,16 @@ class Doubts {
       changes[dynamics_.variables[flow.variable].component] = 1;
     for (const Dynamics::Reaction& reaction : dynamics_.reactions) changes[reaction.component] = 1;
     for (std::size_t k = 0; k < dynamics_.components.size(); ++k) {
-      const Dynamics::Component& one = dynamics_.components[k];
-      if (one.observer && has_states[k] != 0 && changes[k] == 0)
-        found_.push_back(
-            (one.name == "observer" ? "the observer" : "the observer " + quoted(one.name)) +
-            " never changes: it has no flow, and no map at an event");
+      const Dynamics::Component& component = dynamics_.components[k];
+      if (component.observer && has_states[k] != 0 && changes[k] == 0)
+        found_.push_back((component.name == "observer" ? "the observer"
+                                                       : "the observer " + quoted(component.name)) +
+                         " never changes: it has no flow, and no map at an event");
     }
     for (std::size_t k = 0; k < dynamics_.events.size(); ++k)
       if (dynamics_.events[k].lost > 0 &&
-          std::ranges::none_of(dynamics_.reactions, [&](const Dynamics::Reaction& one) {
-            return one.event == k && dynamics_.components[one.component].observer;
+          std::ranges::none_of(dynamics_.reactions, [&](const Dynamics::Reaction& reaction) {
+            return reaction.event == k && dynamics_.components[reaction.component].observer;
           }))
         found_.push_back("the event " + quoted(dynamics_.events[k].name) +
                          " may be lost, and no observer has a map there: a loss changes nothing");
@@ -157,8 +158,8 @@ class Doubts {
     });
   }
 
-  static bool is_own(const Dynamics::Variable& one) {
-    return one.kind == VariableKind::state || one.kind == VariableKind::mode;
+  static bool is_own(const Dynamics::Variable& variable) {
+    return variable.kind == VariableKind::state || variable.kind == VariableKind::mode;
   }
 
   /// A `shrinks` whose factor exceeds 1.

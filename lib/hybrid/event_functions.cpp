@@ -97,7 +97,8 @@ Truth EventCondition::truth(const Part& part, const Compare& compare) {
   if (part.kind != ConditionKind::all && part.kind != ConditionKind::any &&
       part.kind != ConditionKind::none)
     return compare(part.comparison);
-  return expr::joined(part.kind, part.parts, [&](const Part& one) { return truth(one, compare); });
+  return expr::joined(part.kind, part.parts,
+                      [&](const Part& inner) { return truth(inner, compare); });
 }
 
 bool EventCondition::is_true(std::size_t comparison, const VectorXd& values) {
@@ -129,11 +130,11 @@ bool EventCondition::if_changed(const VectorXd& values, std::size_t comparison) 
 
 std::string EventCondition::differences(const VectorXd& values) {
   std::string result;
-  for (Comparison& one : comparisons_) {
-    const numbers::Matrix& difference = one.function(values);
+  for (Comparison& comparison : comparisons_) {
+    const numbers::Matrix& difference = comparison.function(values);
     if (difference.size() == 0) continue;
     if (!result.empty()) result += ", ";
-    result += one.text + ": " + brief(difference.minCoeff(), 4);
+    result += comparison.text + ": " + brief(difference.minCoeff(), 4);
   }
   return result;
 }

@@ -63,8 +63,8 @@ std::vector<Law> make_laws(const std::vector<model::Design::Law>& given, double 
   std::vector<Law> laws;
   for (const model::Design::Law& law : given) {
     Law result{law.kind, low, high, {}};
-    for (const model::Formula& one : law.values)
-      result.values.push_back(checked_value(one.place, system.scalar(one), low, high));
+    for (const model::Formula& formula : law.values)
+      result.values.push_back(checked_value(formula.place, system.scalar(formula), low, high));
     const bool needs_values = law.kind == LawKind::constant || law.kind == LawKind::list;
     if (needs_values && result.values.empty())
       throw InputError(law.place, "the sampling law " + model::to_string(law.kind) +

@@ -15,9 +15,9 @@ using expr::Op;
 /// By instruction, whether a sine or cosine is part of it.
 std::vector<char> waves_of(const expr::Program& program) {
   std::vector<char> waves;
-  for (const Instruction& one : program.code)
-    waves.push_back(one.op == Op::sin || one.op == Op::cos ||
-                    std::ranges::any_of(one.operands, [&](int operand) {
+  for (const Instruction& instruction : program.code)
+    waves.push_back(instruction.op == Op::sin || instruction.op == Op::cos ||
+                    std::ranges::any_of(instruction.operands, [&](int operand) {
                       return waves[static_cast<std::size_t>(operand)] != 0;
                     }));
   return waves;
@@ -38,17 +38,17 @@ bool has_pulses(const expr::Program& program,
     return degrees[at] == numbers::kNotAffine && waves[at] == 0;
   };
   int tangents = 0;
-  for (const Instruction& one : program.code) {
-    switch (one.op) {
+  for (const Instruction& instruction : program.code) {
+    switch (instruction.op) {
       case Op::tanh:
-        if (degrees[static_cast<std::size_t>(one.operands[0])] > 0) ++tangents;
+        if (degrees[static_cast<std::size_t>(instruction.operands[0])] > 0) ++tangents;
         [[fallthrough]];
       case Op::exp:
-        if (turns_alone(one.operands[0])) return true;
+        if (turns_alone(instruction.operands[0])) return true;
         break;
       case Op::divide:
       case Op::elementwise_quotient:
-        if (turns_alone(one.operands[1])) return true;
+        if (turns_alone(instruction.operands[1])) return true;
         break;
       default:
         break;

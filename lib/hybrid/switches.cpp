@@ -94,11 +94,11 @@ class BranchFixer {
       : moves_(moves), switches_(switches) {}
 
   Program rewritten(const Program& program) {
-    const auto replace = [&](const Instruction& one, const Instruction& copy) {
-      if (one.op != Op::input) return std::optional(add(copy));
-      const expr::Input& input = program.input_of(one);
+    const auto replace = [&](const Instruction& instruction, const Instruction& copy) {
+      if (instruction.op != Op::input) return std::optional(add(copy));
+      const expr::Input& input = program.input_of(instruction);
       return std::optional(
-          note(assembly_.add_input(input.name, input.shape, one), moves_(input.name)));
+          note(assembly_.add_input(input.name, input.shape, instruction), moves_(input.name)));
     };
     return assembly_.extract(assembly_.add_program(program, replace));
   }

@@ -21,11 +21,12 @@ using Kind = Dynamics::VariableKind;
 
 /// Sees to it that the texts that a run evaluates use variables and constants only.
 void check_texts(System& system) {
-  model::for_each_run_program(system.dynamics, [&](const expr::Program& one, const Place& place) {
-    for (const expr::Input& input : one.inputs)
-      if (!system.slot(input.name) && !system.constants.contains(input.name))
-        throw InputError(place, "there is no value for " + input.name);
-  });
+  model::for_each_run_program(
+      system.dynamics, [&](const expr::Program& program, const Place& place) {
+        for (const expr::Input& input : program.inputs)
+          if (!system.slot(input.name) && !system.constants.contains(input.name))
+            throw InputError(place, "there is no value for " + input.name);
+      });
 }
 
 /// Offsets of all variables. All rest at first, except clocks.
@@ -41,8 +42,8 @@ void stack_variables(System& system) {
 
 /// What has the rate 0 rests.
 void leave_out_resting(System& system) {
-  std::erase_if(system.dynamics.flow, [&](const Dynamics::Assignment& one) {
-    const expr::Program& rate = one.value.program;
+  std::erase_if(system.dynamics.flow, [&](const Dynamics::Assignment& assignment) {
+    const expr::Program& rate = assignment.value.program;
     if (!std::ranges::all_of(rate.inputs, [&](const expr::Input& input) {
           return system.constants.contains(input.name);
         }))
@@ -57,18 +58,18 @@ void leave_out_resting(System& system) {
 
 /// Replaces branches of flows by inputs H, and appends one slot for each H to the layout.
 void fix_branches_of_flows(System& system) {
-  for (const Dynamics::Assignment& one : system.dynamics.flow)
-    system.moves[one.variable] = Moves::flows;
+  for (const Dynamics::Assignment& assignment : system.dynamics.flow)
+    system.moves[assignment.variable] = Moves::flows;
   const auto moves = [&](const std::string& name) { return system.is_moving(name); };
-  for (Dynamics::Assignment& one : system.dynamics.flow) {
-    expr::Program fixed = fix_branches(one.value.program, moves, system.switches);
+  for (Dynamics::Assignment& assignment : system.dynamics.flow) {
+    expr::Program fixed = fix_branches(assignment.value.program, moves, system.switches);
     const auto is_branch = [&](const expr::Input& input) {
-      return !one.value.program.uses(input.name);
+      return !assignment.value.program.uses(input.name);
     };
     const bool branches = std::any_of(fixed.inputs.begin(), fixed.inputs.end(), is_branch);
-    system.free_flow.push_back(branches ? std::optional(std::move(one.value.program))
+    system.free_flow.push_back(branches ? std::optional(std::move(assignment.value.program))
                                         : std::nullopt);
-    one.value.program = std::move(fixed);
+    assignment.value.program = std::move(fixed);
   }
   for (const Switch& one : system.switches) {
     system.layout.slots.push_back({one.input, one.difference.shape(), system.whole});
@@ -81,11 +82,11 @@ void fix_branches_of_flows(System& system) {
 /// Tells states of steady rate from others.
 void classify_flows(System& system) {
   std::vector<std::size_t> steady;
-  for (const Dynamics::Assignment& one : system.dynamics.flow) {
-    const auto& inputs = one.value.program.inputs;
+  for (const Dynamics::Assignment& assignment : system.dynamics.flow) {
+    const auto& inputs = assignment.value.program.inputs;
     if (std::none_of(inputs.begin(), inputs.end(),
                      [&](const expr::Input& input) { return system.is_moving(input.name); }))
-      steady.push_back(one.variable);
+      steady.push_back(assignment.variable);
   }
   for (const std::size_t variable : steady) system.moves[variable] = Moves::steady;
   const auto moves = [&](const std::string& name) { return system.is_moving(name); };
@@ -258,9 +259,11 @@ void read_passes(System& system) {
 
 /// Whether a program has values that keep still while what it reads moves.
 bool has_levels(const expr::Program& program) {
-  return std::any_of(program.code.begin(), program.code.end(), [](const expr::Instruction& one) {
-    return one.op == expr::Op::sign || one.op == expr::Op::floor || one.op == expr::Op::where;
-  });
+  return std::any_of(
+      program.code.begin(), program.code.end(), [](const expr::Instruction& instruction) {
+        return instruction.op == expr::Op::sign || instruction.op == expr::Op::floor ||
+               instruction.op == expr::Op::where;
+      });
 }
 
 /// What moves along a flow is equal to something at single instants, between the numbers.

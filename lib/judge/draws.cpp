@@ -298,10 +298,10 @@ class Draws {
   }
 
   /// How many vertices or corners it has.
-  std::uint64_t count_of(const Dynamics::Noise& one) const {
-    if (one.kind == Dynamics::NoiseKind::vertices) return one.values.size();
-    const numbers::Matrix low = filled(one.values[0], one.shape);
-    const numbers::Matrix high = filled(one.values[1], one.shape);
+  std::uint64_t count_of(const Dynamics::Noise& noise) const {
+    if (noise.kind == Dynamics::NoiseKind::vertices) return noise.values.size();
+    const numbers::Matrix low = filled(noise.values[0], noise.shape);
+    const numbers::Matrix high = filled(noise.values[1], noise.shape);
     return std::uint64_t{1} << static_cast<unsigned>((low.array() != high.array()).count());
   }
 

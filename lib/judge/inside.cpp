@@ -146,7 +146,7 @@ void FlowInside::watch_condition(const hybrid::FlowPiece& piece, const std::vect
   const auto holds = [&](double t) { return guard(sample(piece, t).x); };
   const auto depth = [&](double t) { return guard.depth(sample(piece, t).x); };
   std::vector<double> depths;
-  for (const Sample& one : all) depths.push_back(guard.depth(one.x));
+  for (const Sample& sample : all) depths.push_back(guard.depth(sample.x));
   // Found true at `at`, false or spent at `before`.
   const auto found = [&](double before, const Sample& at) {
     if (truth(guard, at, event ? 1 : hybrid::kPlain) != Truth::yes) return;
@@ -185,7 +185,7 @@ void FlowInside::watch_crossing(const hybrid::FlowPiece& piece, const std::vecto
     return side_of(crossing, at.x, rounding_at(texts_, at.t, at.x, at.sizes));
   };
   std::vector<double> values;
-  for (const Sample& one : all) values.push_back(crossing(one.x)(0, 0));
+  for (const Sample& sample : all) values.push_back(crossing(sample.x)(0, 0));
   // Rounding hides where zero is left: it may be where `if` is false.
   const auto look_at_if = [&](const Sample& at) {
     if (!memory.at_zero || must_jump(event, at)) return;

@@ -200,40 +200,41 @@ MapText Texts::map_text(const Dynamics::Assignment& entry) const {
 ReactionTexts Texts::reaction_texts(const Dynamics::Reaction& reaction) const {
   ReactionTexts texts{reaction.event, reaction.component, {}};
   for (const Dynamics::Pass& pass : reaction.passes) {
-    PassTexts one;
-    for (const Dynamics::Assignment& entry : pass.map) one.map.push_back(map_text(entry));
-    one.repeats = pass.repeats;
-    if (pass.until) one.until.emplace(*pass.until, layout, stated);
-    if (pass.at_most) one.at_most = std::llround(scalar(*pass.at_most));
-    one.go_on = pass.go_on;
-    texts.passes.push_back(std::move(one));
+    PassTexts pass_texts;
+    for (const Dynamics::Assignment& entry : pass.map) pass_texts.map.push_back(map_text(entry));
+    pass_texts.repeats = pass.repeats;
+    if (pass.until) pass_texts.until.emplace(*pass.until, layout, stated);
+    if (pass.at_most) pass_texts.at_most = std::llround(scalar(*pass.at_most));
+    pass_texts.go_on = pass.go_on;
+    texts.passes.push_back(std::move(pass_texts));
   }
   return texts;
 }
 
 /// The least and largest value of box, vertices or corners; 10 deviations around the center of
 /// normal noise.
-NoiseRange Texts::noise_range(const Dynamics::Noise& one) const {
+NoiseRange Texts::noise_range(const Dynamics::Noise& source) const {
   const auto fitted = [&](const model::Formula& formula) {
     const numbers::Matrix value = constant(formula);
     if (value.size() != 1) return value;
-    return numbers::Matrix(numbers::Matrix::Constant(one.shape.rows, one.shape.cols, value(0, 0)));
+    return numbers::Matrix(
+        numbers::Matrix::Constant(source.shape.rows, source.shape.cols, value(0, 0)));
   };
   NoiseRange range;
-  if (one.every) range.every = scalar(*one.every);
-  if (!one.has_center()) {
-    range.low = range.high = fitted(one.values[0]);
-    for (const model::Formula& formula : one.values) {
+  if (source.every) range.every = scalar(*source.every);
+  if (!source.has_center()) {
+    range.low = range.high = fitted(source.values[0]);
+    for (const model::Formula& formula : source.values) {
       range.low = range.low.cwiseMin(fitted(formula));
       range.high = range.high.cwiseMax(fitted(formula));
     }
     return range;
   }
   // A draw from 53 random bits lies within 8.6 deviations; sums and exponentials have no range.
-  const numbers::Matrix center = fitted(one.values[0]);
+  const numbers::Matrix center = fitted(source.values[0]);
   numbers::Matrix reach = numbers::Matrix::Constant(center.rows(), center.cols(), HUGE_VAL);
-  if (one.kind == Dynamics::NoiseKind::normal && !one.covariance)
-    reach = 10 * fitted(one.values[1]).cwiseAbs();
+  if (source.kind == Dynamics::NoiseKind::normal && !source.covariance)
+    reach = 10 * fitted(source.values[1]).cwiseAbs();
   range.low = center - reach;
   range.high = center + reach;
   return range;

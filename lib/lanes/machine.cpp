@@ -288,28 +288,28 @@ class LaneCode::Maker {
 
   /// An operation without a vector form.
   void add_function(const TapeCode::Step& step, std::size_t k) {
-    OneByOne one;
-    one.op = step.op;
-    one.a = place(step.a);
-    one.b = operands_of(step.op) > 1 ? place(step.b) : one.a;
-    one.c = one.a;
+    OneByOne one_by_one;
+    one_by_one.op = step.op;
+    one_by_one.a = place(step.a);
+    one_by_one.b = operands_of(step.op) > 1 ? place(step.b) : one_by_one.a;
+    one_by_one.c = one_by_one.a;
     release(step, k);
-    one.out = give(step.out, k);
-    push(std::move(one));
+    one_by_one.out = give(step.out, k);
+    push(std::move(one_by_one));
     drop(step.out, k);
   }
 
   void add_block(const TapeCode::Step& step, std::size_t k) {
-    OneByOne one;
-    one.block = step.a;
+    OneByOne one_by_one;
+    one_by_one.block = step.a;
     TapeCode::Block& block = tape_.blocks[step.a];
     // Its results are not among its operands: these are read once for each lane.
     const auto operands = block.operands;
     for (auto& operand : block.operands)
       for (std::uint32_t& from : operand) from = place(from);
     const auto size = static_cast<std::uint32_t>(block.instruction.shape.size());
-    for (std::uint32_t e = 0; e < size; ++e) one.results.push_back(give(step.out + e, k));
-    push(std::move(one));
+    for (std::uint32_t e = 0; e < size; ++e) one_by_one.results.push_back(give(step.out + e, k));
+    push(std::move(one_by_one));
     for (const auto& operand : operands)
       for (const std::uint32_t from : operand)
         if (from >= first_ && last_[from] == k) {
@@ -319,11 +319,11 @@ class LaneCode::Maker {
     for (std::uint32_t e = 0; e < size; ++e) drop(step.out + e, k);
   }
 
-  void push(OneByOne one) {
+  void push(OneByOne one_by_one) {
     LaneStep step;
     step.a = static_cast<std::uint32_t>(code_.one_by_one_.size());
     code_.steps_.push_back(step);
-    code_.one_by_one_.push_back(std::move(one));
+    code_.one_by_one_.push_back(std::move(one_by_one));
   }
 
   TapeCode tape_;
@@ -379,24 +379,24 @@ void LaneMachine::run(std::uint32_t active) {
     if (faults[l] != 0 || std::isnan(faults[l])) faults_ |= 1U << l;
 }
 
-void LaneMachine::run_one_by_one(const LaneCode::OneByOne& one, std::uint32_t active) {
+void LaneMachine::run_one_by_one(const LaneCode::OneByOne& one_by_one, std::uint32_t active) {
   for (std::uint32_t left = active; left != 0; left &= left - 1) {
     const auto l = static_cast<std::size_t>(std::countr_zero(left));
     double* const lane = registers_.get() + l;
-    if (one.op != ScalarOp::block) {
-      const double value =
-          numbers::apply(one.op, lane[one.a * kLanes], lane[one.b * kLanes], lane[one.c * kLanes]);
-      lane[one.out * kLanes] = value;
+    if (one_by_one.op != ScalarOp::block) {
+      const double value = numbers::apply(one_by_one.op, lane[one_by_one.a * kLanes],
+                                          lane[one_by_one.b * kLanes], lane[one_by_one.c * kLanes]);
+      lane[one_by_one.out * kLanes] = value;
       if (!std::isfinite(value)) faults_ |= 1U << l;
       continue;
     }
-    const numbers::Matrix* value = blocks_[one.block][l](lane, kLanes);
+    const numbers::Matrix* value = blocks_[one_by_one.block][l](lane, kLanes);
     if (value == nullptr || !value->allFinite()) {
       faults_ |= 1U << l;
       continue;
     }
-    for (std::size_t e = 0; e < one.results.size(); ++e)
-      lane[one.results[e] * kLanes] = value->data()[e];
+    for (std::size_t e = 0; e < one_by_one.results.size(); ++e)
+      lane[one_by_one.results[e] * kLanes] = value->data()[e];
   }
 }
 

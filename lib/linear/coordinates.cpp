@@ -206,8 +206,8 @@ class Builder {
     Coordinate made;
     // w = expm(K(s)) x at the start and, with s+ and x+, after a jump. It has no flow.
     made.start = product(replace_inputs(map, {{time.name, ticks.start}}), from.start);
-    const auto after = [](const Coordinate& one, const hybrid::Slot& of) {
-      return one.jump ? *one.jump : expr::input_program(of.name, of.shape);
+    const auto after = [](const Coordinate& coordinate, const hybrid::Slot& of) {
+      return coordinate.jump ? *coordinate.jump : expr::input_program(of.name, of.shape);
     };
     made.jump = product(replace_inputs(map, {{time.name, after(ticks, time)}}), after(from, slot));
     add(*name, std::move(made));

@@ -18,9 +18,9 @@ std::size_t count_of(const expr::Program& program, const std::set<std::string>& 
 
 /// The input that an operand is; none where it is something else.
 const expr::Input* input_of(const expr::Program& program, int operand) {
-  const expr::Instruction& one = program.code[static_cast<std::size_t>(operand)];
-  if (one.op != expr::Op::input) return nullptr;
-  return &program.input_of(one);
+  const expr::Instruction& instruction = program.code[static_cast<std::size_t>(operand)];
+  if (instruction.op != expr::Op::input) return nullptr;
+  return &program.input_of(instruction);
 }
 
 }  // namespace
@@ -53,10 +53,11 @@ std::vector<StateDifference> find_differences(const std::vector<expr::Program>& 
 
 ErrorRewriting::ErrorRewriting(const std::vector<StateDifference>& differences,
                                const hybrid::StateLayout& layout) {
-  for (const StateDifference& one : differences) {
-    by_[one.minus] = difference(expr::input_program(one.plus, one.shape),
-                                expr::input_program(one.name, one.shape));
-    names_.insert(one.name);
+  for (const StateDifference& state_difference : differences) {
+    by_[state_difference.minus] =
+        difference(expr::input_program(state_difference.plus, state_difference.shape),
+                   expr::input_program(state_difference.name, state_difference.shape));
+    names_.insert(state_difference.name);
   }
   for (const hybrid::Slot& slot : layout.slots)
     if (!by_.contains(slot.name)) names_.insert(slot.name);

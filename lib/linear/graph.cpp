@@ -293,12 +293,13 @@ Known end_value(const LinearSystem& system, std::size_t c, const LengthTable& fa
   for (const LinearForm& form : system.model.claims[c].value) {
     const LengthTable::Polynomial& function = factors.functions[next];
     const int factor = graph.polynomial(factors, next++, sigma);
-    const Known one = graph.form(form.Q, x);
-    sum.value = graph.add(graph.multiply(factor, one.value), sum.value);
+    const Known known = graph.form(form.Q, x);
+    sum.value = graph.add(graph.multiply(factor, known.value), sum.value);
     const double rounding = 4 * (static_cast<double>(system.model.claims[c].value.size()) + 2) *
                             kUnitRoundoff * function.size;
-    sum.error = graph.add(graph.scaled(function.size * kBoundSlack, one.error), sum.error);
-    sum.error = graph.add(graph.scaled(function.error + rounding, graph.abs(one.value)), sum.error);
+    sum.error = graph.add(graph.scaled(function.size * kBoundSlack, known.error), sum.error);
+    sum.error =
+        graph.add(graph.scaled(function.error + rounding, graph.abs(known.value)), sum.error);
   }
   return sum;
 }

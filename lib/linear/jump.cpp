@@ -72,15 +72,15 @@ std::optional<LinearJump> LinearJump::make(const Coordinates& all, const Wide& s
   }
   // A flow that reads a clock is none of x alone.
   if (!all.linear(made.elements_, clock_elements).isZero(0)) return std::nullopt;
-  for (const Coordinate& one : all.list) {
+  for (const Coordinate& coordinate : all.list) {
     clocks.after.emplace_back();
-    if (one.clock || !one.jump) continue;
-    const auto degrees =
-        numbers::degrees(*one.jump, [&](const std::string& name) { return others.contains(name); });
-    if (degrees[static_cast<std::size_t>(one.jump->result)] == numbers::kNotAffine ||
-        one.jump->uses(all.layout.timer))
+    if (coordinate.clock || !coordinate.jump) continue;
+    const auto degrees = numbers::degrees(
+        *coordinate.jump, [&](const std::string& name) { return others.contains(name); });
+    if (degrees[static_cast<std::size_t>(coordinate.jump->result)] == numbers::kNotAffine ||
+        coordinate.jump->uses(all.layout.timer))
       return std::nullopt;
-    clocks.after.back().emplace(*one.jump, all.layout, all.constants);
+    clocks.after.back().emplace(*coordinate.jump, all.layout, all.constants);
   }
   return made;
 }

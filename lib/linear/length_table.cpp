@@ -69,7 +69,7 @@ std::vector<Series> interpolated(const std::vector<Series>& values, int degree) 
 
 double sum_of_sizes(const Series& series) {
   double sum = 0;
-  for (const Decimal100& one : series) sum += size_of(one);
+  for (const Decimal100& decimal100 : series) sum += size_of(decimal100);
   return sum;
 }
 
@@ -104,7 +104,7 @@ Series in_powers(const Series& series, std::size_t degree) {
 /// The series to where the rest is negligible, and that rest.
 std::size_t cut_degree(const Series& series, double& rest) {
   double most = 0;
-  for (const Decimal100& one : series) most = std::max(most, size_of(one));
+  for (const Decimal100& decimal100 : series) most = std::max(most, size_of(decimal100));
   std::size_t degree = series.size() - 1;
   rest = 0;
   while (degree > 0 && rest + size_of(series[degree]) <= kLengthRest * most)
@@ -133,29 +133,29 @@ std::optional<WideTable> make_wide_table(double from, double to, const WideFunct
     std::vector<Series> all = interpolated(points.of(degree), degree);
     // What is nothing but rounding of 100 digits is 0.
     double most = 0;
-    for (const Series& one : all)
-      for (const Decimal100& value : one) most = std::max(most, size_of(value));
-    for (Series& one : all)
-      if (std::all_of(one.begin(), one.end(), [&](const Decimal100& value) {
+    for (const Series& series : all)
+      for (const Decimal100& value : series) most = std::max(most, size_of(value));
+    for (Series& series : all)
+      if (std::all_of(series.begin(), series.end(), [&](const Decimal100& value) {
             return size_of(value) <= kLengthNoise * most;
           }))
-        std::fill(one.begin(), one.end(), Decimal100(0));
-    const auto has_faded = [&](const Series& one) {
-      return sum_of_sizes(one) <= kLengthFaded * most;
+        std::fill(series.begin(), series.end(), Decimal100(0));
+    const auto has_faded = [&](const Series& series) {
+      return sum_of_sizes(series) <= kLengthFaded * most;
     };
     if (!std::all_of(all.begin(), all.end(),
-                     [&](const Series& one) { return has_faded(one) || follows(one); }))
+                     [&](const Series& series) { return has_faded(series) || follows(series); }))
       continue;
-    for (const Series& one : all) {
+    for (const Series& series : all) {
       // Below kLengthFaded of the largest: 0, with the sum of its coefficients as its error.
-      if (has_faded(one)) {
+      if (has_faded(series)) {
         table.powers.push_back({Decimal100(0)});
-        table.errors.push_back(2 * sum_of_sizes(one));
+        table.errors.push_back(2 * sum_of_sizes(series));
         continue;
       }
       double rest = 0;
-      const std::size_t cut = cut_degree(one, rest);
-      table.powers.push_back(in_powers(one, cut));
+      const std::size_t cut = cut_degree(series, rest);
+      table.powers.push_back(in_powers(series, cut));
       table.errors.push_back(2 * rest);
     }
     return table;

@@ -37,9 +37,10 @@ void append_key(const Program& program, std::string& key) {
 /// Adds a program, inputs replaced by what `by` gives for them; the index of its result.
 int add_program(expr::Assembly& assembly, const Program& program,
                 const std::map<std::string, Program>& by) {
-  const auto replace = [&](const Instruction& one, const Instruction&) -> std::optional<int> {
-    if (one.op != Op::input) return std::nullopt;
-    const auto found = by.find(program.input_of(one).name);
+  const auto replace = [&](const Instruction& instruction,
+                           const Instruction&) -> std::optional<int> {
+    if (instruction.op != Op::input) return std::nullopt;
+    const auto found = by.find(program.input_of(instruction).name);
     if (found == by.end()) return std::nullopt;
     return assembly.add_program(found->second);
   };

@@ -85,8 +85,8 @@ bool is_negative(const std::vector<Matrix>& S) {
   Eigen::VectorXd unit = middle.diagonal();
   if (!(unit.minCoeff() > 0)) return false;
   unit = unit.cwiseSqrt().cwiseInverse();
-  const auto scaled = [&](const Matrix& one) {
-    return Matrix(unit.asDiagonal() * ((one + one.transpose()) / 2) * unit.asDiagonal());
+  const auto scaled = [&](const Matrix& matrix) {
+    return Matrix(unit.asDiagonal() * ((matrix + matrix.transpose()) / 2) * unit.asDiagonal());
   };
   const Matrix whole =
       scaled(middle) - kFlowMargin * Matrix::Identity(middle.rows(), middle.cols());

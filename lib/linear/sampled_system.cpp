@@ -98,11 +98,11 @@ std::unique_ptr<const SampledSystem> make_sampled_system(const hybrid::System& d
     const auto& all = system->variable;
     return static_cast<std::size_t>(std::find(all.begin(), all.end(), variable) - all.begin());
   };
-  for (const Dynamics::Assignment& one : dynamics.dynamics.flow)
-    system->flow.push_back({slot_of(one.variable), one.value.program});
+  for (const Dynamics::Assignment& assignment : dynamics.dynamics.flow)
+    system->flow.push_back({slot_of(assignment.variable), assignment.value.program});
   for (const Dynamics::Reaction& reaction : dynamics.dynamics.reactions)
-    for (const Dynamics::Assignment& one : reaction.passes.front().map)
-      system->jump.push_back({slot_of(one.variable), one.value.program});
+    for (const Dynamics::Assignment& assignment : reaction.passes.front().map)
+      system->jump.push_back({slot_of(assignment.variable), assignment.value.program});
   for (const std::vector<MapEntry>* map : {&system->flow, &system->jump})
     for (const MapEntry& entry : *map)
       if (!has_wide_value(entry.program, system->layout)) return nullptr;

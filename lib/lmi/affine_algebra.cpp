@@ -60,7 +60,7 @@ class Rules {
 
   /// By squaring, so that a large power of one function costs nothing; that of a sum is a sum of as
   /// many functions as its exponent says.
-  AffineForm power(const AffineForm& form, const numbers::Matrix& one, int exponent,
+  AffineForm power(const AffineForm& form, const numbers::Matrix& matrix, int exponent,
                    expr::Op by) const {
     const auto times = [&](const AffineForm& a, const AffineForm& b) {
       AffineForm both = product(a, b, form.shape, by);
@@ -69,7 +69,7 @@ class Rules {
           "the power expands to more than " + std::to_string(kMostFunctions) +
           " functions of the 'forall' variables; use synthesis: {forall: exchange}");
     };
-    AffineForm result = constant_form(one);
+    AffineForm result = constant_form(matrix);
     AffineForm square = form;
     for (int left = exponent; left > 0; left /= 2) {
       if (left % 2 == 1) result = times(result, square);
@@ -282,8 +282,8 @@ struct AffineRules {
     out = rules.quotient(at[0], at[1], op);
   }
   void operator()(Is<Op::power>, const At& at, AffineForm& out) const {
-    const numbers::Matrix one = numbers::Matrix::Identity(at.shape().rows, at.shape().rows);
-    out = rules.power(at[0], one, at.attribute(0), Op::multiply);
+    const numbers::Matrix matrix = numbers::Matrix::Identity(at.shape().rows, at.shape().rows);
+    out = rules.power(at[0], matrix, at.attribute(0), Op::multiply);
   }
   void operator()(Is<Op::elementwise_power>, const At& at, AffineForm& out) const {
     const numbers::Matrix ones = numbers::Matrix::Ones(at.shape().rows, at.shape().cols);
@@ -327,7 +327,7 @@ struct AffineRules {
     std::vector<const numbers::Degree*> operands;
     degrees.reserve(at.operands.size());
     for (const AffineForm* operand : at.operands) degrees.push_back(operand->is_constant() ? 0 : 1);
-    for (const numbers::Degree& one : degrees) operands.push_back(&one);
+    for (const numbers::Degree& of_operand : degrees) operands.push_back(&of_operand);
     numbers::DegreeAlgebra{}.apply(at.instruction, operands, degree);
     std::vector<AffineForm> constants;
     constants.reserve(at.operands.size());

@@ -39,7 +39,7 @@ void visit_run_programs(Dynamics& dynamics, const Visit& visit) {
 
 void for_each_program(const Dynamics& dynamics,
                       const std::function<void(const expr::Program&)>& visit) {
-  visit_run_programs(dynamics, [&](const expr::Program& one, const Place&) { visit(one); });
+  visit_run_programs(dynamics, [&](const expr::Program& program, const Place&) { visit(program); });
   for (const Dynamics::Signal& signal : dynamics.signals) visit(signal.value.program);
 }
 

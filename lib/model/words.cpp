@@ -31,13 +31,13 @@ std::string to_string(Structure structure) {
 
 std::optional<double> SynthesisOptions::share_of_bound(const std::string& gain) const {
   if (gain_bounds.empty()) return 1;
-  for (const BoundOfGain& one : gain_bounds)
-    if (one.gain == gain) return one.bound / gain_bound.value();
+  for (const BoundOfGain& bound_of_gain : gain_bounds)
+    if (bound_of_gain.gain == gain) return bound_of_gain.bound / gain_bound.value();
   return std::nullopt;
 }
 
 void SynthesisOptions::set_gain_bound(double bound) {
-  for (BoundOfGain& one : gain_bounds) one.bound *= bound / gain_bound.value();
+  for (BoundOfGain& bound_of_gain : gain_bounds) bound_of_gain.bound *= bound / gain_bound.value();
   gain_bound = bound;
   gain_bound_stated = true;
 }

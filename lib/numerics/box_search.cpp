@@ -120,12 +120,12 @@ class BoxSearch {
     const std::size_t most = axes_.size() == 1 ? 64 : 8 + 2 * axes_.size();
     sort(samples_);
     std::vector<Sample> chosen;
-    for (const Sample& one : samples_) {
+    for (const Sample& sample : samples_) {
       if (chosen.size() == most) break;
       const bool apart = std::all_of(chosen.begin(), chosen.end(), [&](const Sample& other) {
-        return (other.u - one.u).lpNorm<Eigen::Infinity>() >= apart_by;
+        return (other.u - sample.u).lpNorm<Eigen::Infinity>() >= apart_by;
       });
-      if (apart) chosen.push_back(one);
+      if (apart) chosen.push_back(sample);
     }
     return chosen;
   }
@@ -174,8 +174,8 @@ class BoxSearch {
     for (int iteration = 0; iteration < most; ++iteration) {
       sort(simplex);
       double size = 0;
-      for (const Sample& one : simplex)
-        size = std::max(size, (one.u - simplex.front().u).lpNorm<Eigen::Infinity>());
+      for (const Sample& sample : simplex)
+        size = std::max(size, (sample.u - simplex.front().u).lpNorm<Eigen::Infinity>());
       if (size < finest) break;
       renew(simplex);
     }

@@ -93,8 +93,8 @@ MatrixProduct fastest_product(const std::vector<Matrix>& factors, const ProductO
         if (next.least > 1) longer.push_back(std::move(next));
       }
     // Those that the best so far excludes.
-    std::erase_if(longer, [&](const Branch& one) {
-      return one.least <= std::max(1.0, best.growth * (1 + kClearly));
+    std::erase_if(longer, [&](const Branch& branch) {
+      return branch.least <= std::max(1.0, best.growth * (1 + kClearly));
     });
     branches = std::move(longer);
   }

@@ -267,10 +267,10 @@ Found find_roots(const RootFunction& function, double from, double to,
                               found.turning_points.end());
   };
   double left = from;
-  for (const Break& one : breaks) {
-    add(left, one.left);
-    if (side(one.left) != side(one.right)) all.roots.push_back(one);
-    left = one.right;
+  for (const Break& edge : breaks) {
+    add(left, edge.left);
+    if (side(edge.left) != side(edge.right)) all.roots.push_back(edge);
+    left = edge.right;
   }
   add(left, to);
   return all;

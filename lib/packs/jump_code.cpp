@@ -29,8 +29,8 @@ LaneCode jump_code(const PackSystem& pack, std::size_t event, bool lost) {
     Nodes own = before;
     for (const Dynamics::Pass& pass : reaction.passes) {
       std::vector<Nodes> results;
-      for (const Dynamics::Assignment& one : pass.map)
-        results.push_back(texts.value(one.value.program, own).value);
+      for (const Dynamics::Assignment& assignment : pass.map)
+        results.push_back(texts.value(assignment.value.program, own).value);
       for (std::size_t k = 0; k < results.size(); ++k) {
         const Dynamics::Variable& variable = dynamics.variables[pass.map[k].variable];
         Nodes& value = results[k];
@@ -50,9 +50,9 @@ LaneCode jump_code(const PackSystem& pack, std::size_t event, bool lost) {
       }
     }
     for (const Dynamics::Pass& pass : reaction.passes)
-      for (const Dynamics::Assignment& one : pass.map) {
-        const std::size_t first = offset(one.variable);
-        const auto size = index(dynamics.variables[one.variable].shape.size());
+      for (const Dynamics::Assignment& assignment : pass.map) {
+        const std::size_t first = offset(assignment.variable);
+        const auto size = index(dynamics.variables[assignment.variable].shape.size());
         std::copy_n(own.begin() + static_cast<std::ptrdiff_t>(first), size,
                     after.begin() + static_cast<std::ptrdiff_t>(first));
       }

@@ -92,11 +92,11 @@ std::optional<bool> LaneSet::set_branches(std::size_t l) {
       why_ = Why::sign;
       return std::nullopt;
     }
-    for (const Watch::Branch& one : watch.branches) {
-      const int own = one.factor * side;
-      const double value = one.sign ? own : own > 0 || (own == 0 && !one.strict) ? 1 : -1;
-      changed = changed || fine_.at(one.element, l) != value;
-      set(one.element, l, value);
+    for (const Watch::Branch& branch : watch.branches) {
+      const int own = branch.factor * side;
+      const double value = branch.sign ? own : own > 0 || (own == 0 && !branch.strict) ? 1 : -1;
+      changed = changed || fine_.at(branch.element, l) != value;
+      set(branch.element, l, value);
     }
   }
   return changed;
@@ -121,8 +121,8 @@ bool LaneSet::go_on(std::size_t l) {
 
 /// Whether what of a condition is neither above nor below 0 is 0 in both runs.
 bool LaneSet::has_exact_zeros(const WatchedCondition& condition, std::size_t l) const {
-  const auto is_exact = [&](const Watched& one) {
-    return lanes_[l]->sides[one.watch] != 0 || is_exact_zero(one.watch, l);
+  const auto is_exact = [&](const Watched& watched) {
+    return lanes_[l]->sides[watched.watch] != 0 || is_exact_zero(watched.watch, l);
   };
   return std::all_of(condition.elements.begin(), condition.elements.end(), is_exact) &&
          std::all_of(condition.parts.begin(), condition.parts.end(),

@@ -228,7 +228,7 @@ bool LaneSet::find_root(std::size_t l, int& target, double& share) {
 /// than kHardly times the horizon have no certain order.
 bool LaneSet::choose_root(PackLane& lane, int& target, double& share) {
   std::sort(roots_.begin(), roots_.end(),
-            [](const Root& one, const Root& other) { return one.share < other.share; });
+            [](const Root& root, const Root& other) { return root.share < other.share; });
   for (const Root& root : roots_) lane.sides[root.watch] = root.from;
   sides_ = lane.sides;
   for (std::size_t k = 0; k < roots_.size(); ++k) {
@@ -259,8 +259,9 @@ bool LaneSet::decides(std::size_t w, const PackLane& lane) {
     return after == Truth::unknown || after != before;
   };
   return std::any_of(pack_.flow_sets.begin(), pack_.flow_sets.end(), changes) ||
-         std::any_of(pack_.events.begin(), pack_.events.end(),
-                     [&](const PackEvent& one) { return one.when && changes(*one.when); });
+         std::any_of(pack_.events.begin(), pack_.events.end(), [&](const PackEvent& pack_event) {
+           return pack_event.when && changes(*pack_event.when);
+         });
 }
 
 std::int8_t LaneSet::left_side(std::size_t w, std::size_t l, std::span<const double> b,

@@ -10,11 +10,12 @@ std::vector<std::size_t> set_by_jumps(const hybrid::System& system) {
   std::set<std::size_t> elements;
   for (const Dynamics::Reaction& reaction : system.dynamics.reactions)
     for (const Dynamics::Pass& pass : reaction.passes)
-      for (const Dynamics::Assignment& one : pass.map) {
-        const Dynamics::Variable& variable = system.dynamics.variables[one.variable];
-        const bool flows = system.moves[one.variable] != hybrid::Moves::rests;
+      for (const Dynamics::Assignment& assignment : pass.map) {
+        const Dynamics::Variable& variable = system.dynamics.variables[assignment.variable];
+        const bool flows = system.moves[assignment.variable] != hybrid::Moves::rests;
         if (variable.kind != Dynamics::VariableKind::state || flows) continue;
-        const auto first = static_cast<std::size_t>(system.layout.slots[one.variable].offset);
+        const auto first =
+            static_cast<std::size_t>(system.layout.slots[assignment.variable].offset);
         for (int k = 0; k < variable.shape.size(); ++k)
           elements.insert(first + static_cast<std::size_t>(k));
       }

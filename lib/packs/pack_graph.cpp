@@ -32,7 +32,8 @@ PackGraph::PackGraph(const hybrid::System& system, const std::vector<RunningCost
       for (int row = 0; row < column; ++row)
         kept_[index(first + column * n + row)] = first + row * n + column;
   }
-  for (const Dynamics::Assignment& one : system.dynamics.flow) moves[one.variable] = true;
+  for (const Dynamics::Assignment& assignment : system.dynamics.flow)
+    moves[assignment.variable] = true;
   for (std::size_t i = 0; i < variables.size(); ++i) {
     if (!moves[i]) continue;
     const Slot& slot = system.layout.slots[i];
@@ -138,12 +139,13 @@ Nodes PackGraph::rates(const Nodes& x) {
     if (kind == VariableKind::time || kind == VariableKind::since) rates[at] = graph_.constant(1);
     if (kind == VariableKind::left) rates[at] = graph_.constant(-1);
   }
-  for (const Dynamics::Assignment& one : system_->dynamics.flow) {
-    const Slot& slot = system_->layout.slots[one.variable];
+  for (const Dynamics::Assignment& assignment : system_->dynamics.flow) {
+    const Slot& slot = system_->layout.slots[assignment.variable];
     const auto first = static_cast<std::size_t>(slot.offset);
-    Nodes value = this->value(one.value.program, x).value;
-    const auto& frozen = system_->dynamics.components[variables[one.variable].component].frozen;
-    if (frozen && variables[one.variable].kind == VariableKind::state) {
+    Nodes value = this->value(assignment.value.program, x).value;
+    const auto& frozen =
+        system_->dynamics.components[variables[assignment.variable].component].frozen;
+    if (frozen && variables[assignment.variable].kind == VariableKind::state) {
       const int is_frozen = truth(*frozen, x);
       for (int& node : value) node = graph_.where(true, is_frozen, zero, node);
     }
@@ -151,7 +153,7 @@ Nodes PackGraph::rates(const Nodes& x) {
     for (std::size_t k = 0; k < value.size(); ++k) {
       const auto element = static_cast<int>(first + k);
       if (kept(element) == element &&
-          variables[one.variable].structure == model::Structure::symmetric) {
+          variables[assignment.variable].structure == model::Structure::symmetric) {
         const int mirror = value[(k % rows) * rows + k / rows];
         rates[first + k] = graph_.multiply(graph_.constant(0.5), graph_.add(value[k], mirror));
         if (mirror == value[k]) rates[first + k] = value[k];

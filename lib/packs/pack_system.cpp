@@ -34,8 +34,8 @@ bool runs_jumps(const Dynamics& dynamics) {
 
 /// False where the value of a stated claim is no number.
 bool runs_claims(const std::vector<claims::Claim>& claims) {
-  return std::none_of(claims.begin(), claims.end(), [](const claims::Claim& one) {
-    return one.stated() && one.value.shape().size() != 1;
+  return std::none_of(claims.begin(), claims.end(), [](const claims::Claim& claim) {
+    return claim.stated() && claim.value.shape().size() != 1;
   });
 }
 
@@ -97,8 +97,9 @@ class StepCode {
  private:
   /// Whether a value has an error of integration: states that flow, and costs.
   bool is_integrated(int row) const {
-    if (std::any_of(pack_.costs.begin(), pack_.costs.end(),
-                    [row](const RunningCost& one) { return index(row) == one.element; }))
+    if (std::any_of(pack_.costs.begin(), pack_.costs.end(), [row](const RunningCost& running_cost) {
+          return index(row) == running_cost.element;
+        }))
       return true;
     const auto& variables = pack_.system->dynamics.variables;
     for (std::size_t i = 0; i < variables.size(); ++i) {
@@ -211,7 +212,7 @@ class PointCode {
     made.elements = watch(condition.difference);
     return condition.kind != expr::Condition::Kind::zero ||
            std::none_of(made.elements.begin(), made.elements.end(),
-                        [&](const Watched& one) { return pack_.watches[one.watch].moves; });
+                        [&](const Watched& watched) { return pack_.watches[watched.watch].moves; });
   }
 
   /// Watches all elements; what is watched already, or its opposite, is not watched again.
@@ -220,7 +221,7 @@ class PointCode {
     const Nodes terms = texts_.value(hybrid::terms_of_sign(difference), x_).value;
     const bool moves =
         std::any_of(difference.inputs.begin(), difference.inputs.end(),
-                    [&](const expr::Input& one) { return pack_.system->is_moving(one.name); });
+                    [&](const expr::Input& input) { return pack_.system->is_moving(input.name); });
     std::vector<Watched> made;
     for (std::size_t e = 0; e < value.value.size(); ++e) {
       const int node = value.value[e];
@@ -288,7 +289,7 @@ class PointCode {
   /// The same code without some results, and without what these alone need.
   LaneCode without(std::initializer_list<PackSystem::PointResult> left_out) {
     auto results = results_;
-    for (const PackSystem::PointResult one : left_out) results[one].clear();
+    for (const PackSystem::PointResult point_result : left_out) results[point_result].clear();
     return {texts_.graph(), results, pack_.whole, {}, numbers::Computed::needed};
   }
 

@@ -11,9 +11,9 @@ using Is = expr::Condition::Kind;
 Truth of_comparison(const WatchedCondition& condition, const std::vector<Watch>& watches,
                     const Sides& sides, Zeros zeros) {
   Truth result = Truth::yes;
-  for (const Watched& one : condition.elements) {
-    const bool moves = watches[one.watch].moves;
-    const int side = moves && zeros == Zeros::still ? 0 : one.factor * sides[one.watch];
+  for (const Watched& watched : condition.elements) {
+    const bool moves = watches[watched.watch].moves;
+    const int side = moves && zeros == Zeros::still ? 0 : watched.factor * sides[watched.watch];
     if (moves && side == 0 && zeros != Zeros::exact) {
       result = Truth::unknown;
       continue;
@@ -38,7 +38,7 @@ Truth truth(const WatchedCondition& condition, const std::vector<Watch>& watches
 }
 
 void mark(const WatchedCondition& condition, std::vector<char>& marked) {
-  for (const Watched& one : condition.elements) marked[one.watch] = 1;
+  for (const Watched& watched : condition.elements) marked[watched.watch] = 1;
   for (const WatchedCondition& part : condition.parts) mark(part, marked);
 }
 

@@ -271,9 +271,9 @@ class Printer {
   /// The functions that have a notation of their own.
   std::optional<Piece> built_in(const Node& node) const {
     if (expr::find_function(node.text) == nullptr) return std::nullopt;
-    for (const Fences& one : kFences)
-      if (one.name == node.text && node.children.size() == 1)
-        return Piece{fenced(part(node, 0, Level::condition), one.open, one.close)};
+    for (const Fences& fences : kFences)
+      if (fences.name == node.text && node.children.size() == 1)
+        return Piece{fenced(part(node, 0, Level::condition), fences.open, fences.close)};
     for (const Raised& one : kRaised)
       if (one.name == node.text) return raised(node, one.above());
     for (const auto& [known, print] : kSpecial)

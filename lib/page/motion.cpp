@@ -4,12 +4,12 @@
 
 #include <filesystem>
 
+#include "drawing/text.h"
 #include "page/element.h"
 #include "page/lines.h"
 #include "page/mathml.h"
 #include "page/rows.h"
 #include "page/symbol.h"
-#include "drawing/text.h"
 
 namespace gainsmith::page {
 
@@ -38,30 +38,30 @@ class Motion {
 
   /// A plant or an observer: outputs, definitions, rates, jumps, where it flows and rests, its
   /// events.
-  std::string component(const model::Component& one, const std::string& title) const {
+  std::string component(const model::Component& component, const std::string& title) const {
     std::string rows;
-    for (const model::Output& output : one.outputs)
+    for (const model::Output& output : component.outputs)
       rows += formula_row("", defined(output.name, output.value),
                           output.at.empty() ? "" : "at " + quoted(output.at));
-    for (const model::Let& let : one.let) rows += definition(let, "");
-    for (const model::Named& rate : one.flow)
+    for (const model::Let& let : component.let) rows += definition(let, "");
+    for (const model::Named& rate : component.flow)
       rows +=
           formula_row("", equation(element("mover", name(rate.name) + mo("˙")), of(rate.value)));
-    for (const model::Named& next : one.jump) rows += jump(next, "timer");
-    for (const model::ReactionText& reaction : one.at)
+    for (const model::Named& next : component.jump) rows += jump(next, "timer");
+    for (const model::ReactionText& reaction : component.at)
       for (const model::PassText& pass : reaction.passes) rows += pass_rows(pass, reaction.event);
-    for (const model::FlowSetText& set : one.flow_sets)
+    for (const model::FlowSetText& set : component.flow_sets)
       rows += formula_row("", of(set.condition), "while it flows");
-    if (one.frozen) rows += formula_row("", of(*one.frozen), "where it rests");
-    for (const model::EventText& own : one.events) rows += event(own);
+    if (component.frozen) rows += formula_row("", of(*component.frozen), "where it rests");
+    for (const model::EventText& own : component.events) rows += event(own);
     return group(title, rows);
   }
 
   /// What an event is due by, and besides its first time, its condition and its losses.
-  std::string event(const model::EventText& one) const {
+  std::string event(const model::EventText& event_text) const {
     std::string math;
     std::string how;
-    switch (one.kind) {
+    switch (event_text.kind) {
       case EventKind::when:
         how = "while this is true";
         break;
@@ -75,41 +75,43 @@ class Motion {
         how = "when this crosses 0";
         break;
       case EventKind::every:
-        how = one.numbers.size() == 1 ? "the time between two"
-                                      : "the time between two, from this range";
+        how = event_text.numbers.size() == 1 ? "the time between two"
+                                             : "the time between two, from this range";
         break;
       case EventKind::at:
-        how = one.rows.empty() ? "its times"
-                               : "at " + count_of(one.rows.size(), "time") + " of a file";
+        how = event_text.rows.empty()
+                  ? "its times"
+                  : "at " + count_of(event_text.rows.size(), "time") + " of a file";
         break;
     }
-    if (one.what) math = of(*one.what);
-    if (!one.numbers.empty()) math = range_mathml(one.numbers, notation_);
-    if (!one.first.empty())
-      how += ", the first after " + formula(range_mathml(one.first, notation_));
-    if (one.only_if) how += ", only if " + formula(of(*one.only_if));
-    if (one.lost > 0) how += ", lost with probability " + formula(value(one.lost));
-    return formula_row(one.name, math, how);
+    if (event_text.what) math = of(*event_text.what);
+    if (!event_text.numbers.empty()) math = range_mathml(event_text.numbers, notation_);
+    if (!event_text.first.empty())
+      how += ", the first after " + formula(range_mathml(event_text.first, notation_));
+    if (event_text.only_if) how += ", only if " + formula(of(*event_text.only_if));
+    if (event_text.lost > 0) how += ", lost with probability " + formula(value(event_text.lost));
+    return formula_row(event_text.name, math, how);
   }
 
   /// "w ~ (0, 0.03)" with its law and when it is drawn anew.
-  std::string noise(const model::NoiseText& one) const {
-    std::string how = drawn_text(one.kind, one.covariance);
-    if (!one.event.empty()) how += ", new at " + quoted(one.event);
-    if (one.every) how += ", new every " + formula(of(*one.every));
+  std::string noise(const model::NoiseText& noise_text) const {
+    std::string how = drawn_text(noise_text.kind, noise_text.covariance);
+    if (!noise_text.event.empty()) how += ", new at " + quoted(noise_text.event);
+    if (noise_text.every) how += ", new every " + formula(of(*noise_text.every));
     // A range has brackets, the parameters of a law parentheses.
-    const bool plain = one.kind == NoiseKind::uniform;
-    std::string math = one.values.empty() ? ""
-                                          : range_mathml(one.values, notation_, plain ? "[" : "(",
-                                                         plain ? "]" : ")");
-    if (!one.sinusoid.empty()) {
+    const bool plain = noise_text.kind == NoiseKind::uniform;
+    std::string math =
+        noise_text.values.empty()
+            ? ""
+            : range_mathml(noise_text.values, notation_, plain ? "[" : "(", plain ? "]" : ")");
+    if (!noise_text.sinusoid.empty()) {
       how = "a sinusoid";
       std::vector<std::string> parts;
-      for (const auto& [part, ends] : one.sinusoid)
+      for (const auto& [part, ends] : noise_text.sinusoid)
         parts.push_back(equation(text_element("mi", part), range_mathml(ends, notation_), ":"));
       math = row(listed(parts));
     }
-    return formula_row("", equation(name(one.name), math, math.empty() ? "" : "∼"), how);
+    return formula_row("", equation(name(noise_text.name), math, math.empty() ? "" : "∼"), how);
   }
 
   std::string defined(const std::string& left, const expr::Expression& right) const {
@@ -117,49 +119,50 @@ class Motion {
   }
 
   /// The inequality of a claim; `shrinks` is V at the end <= factor V at the start.
-  std::string claim(const model::Claim& one) const {
+  std::string claim(const model::Claim& claim) const {
     using model::ClaimKind;
-    std::string math = of(one.value);
+    std::string math = of(claim.value);
     std::string remark;
-    switch (one.kind) {
+    switch (claim.kind) {
       case ClaimKind::nonincreasing:
         remark = "never increases";
         break;
       case ClaimKind::cost:
-        math = cost(one);
+        math = cost(claim);
         break;
       case ClaimKind::shrinks: {
         const auto at = [&](const std::string& when) {
-          return row(factor(one.value) + element("msub", mo("|") + when));
+          return row(factor(claim.value) + element("msub", mo("|") + when));
         };
-        math = row(at("<mtext>end</mtext>") + mo("≤") + (one.factor ? factor(*one.factor) : "") +
-                   at("<mn>0</mn>"));
+        math = row(at("<mtext>end</mtext>") + mo("≤") +
+                   (claim.factor ? factor(*claim.factor) : "") + at("<mn>0</mn>"));
         break;
       }
       case ClaimKind::below:
       case ClaimKind::above:
-        math = row(math + mo(one.kind == ClaimKind::below ? "≤" : "≥") +
-                   (one.bound ? of(*one.bound) : ""));
+        math = row(math + mo(claim.kind == ClaimKind::below ? "≤" : "≥") +
+                   (claim.bound ? of(*claim.bound) : ""));
         break;
     }
     const auto add = [&](const std::string& part) {
       remark += (remark.empty() ? "" : ", ") + part;
     };
-    if (one.after) add("from " + formula(equation("<mi>t</mi>", of(*one.after))) + " on");
-    if (!one.over.empty()) add("just after " + quoted(one.over));
-    if (one.tolerance > 0) add("within " + formula(value(one.tolerance)) + " of the bound");
-    const std::string members = for_all_text(one.indices, notation_);
+    if (claim.after) add("from " + formula(equation("<mi>t</mi>", of(*claim.after))) + " on");
+    if (!claim.over.empty()) add("just after " + quoted(claim.over));
+    if (claim.tolerance > 0) add("within " + formula(value(claim.tolerance)) + " of the bound");
+    const std::string members = for_all_text(claim.indices, notation_);
     if (!members.empty()) add(members);
-    return formula_row(one.name, math, remark);
+    return formula_row(claim.name, math, remark);
   }
 
   /// z(0) = a value, or what it is drawn from.
-  std::string start(const model::InitialValue& one) const {
+  std::string start(const model::InitialValue& initial_value) const {
     using model::StartKind;
     std::vector<std::string> values;
-    for (const model::Value& part : one.values) values.push_back(value_mathml(part, notation_));
-    const std::string left = name(one.state) + fenced("<mn>0</mn>");
-    switch (one.kind) {
+    for (const model::Value& part : initial_value.values)
+      values.push_back(value_mathml(part, notation_));
+    const std::string left = name(initial_value.state) + fenced("<mn>0</mn>");
+    switch (initial_value.kind) {
       case StartKind::expression:
         return formula_row("", equation(row(left), row(listed(values))));
       case StartKind::box:
@@ -172,8 +175,9 @@ class Motion {
       case StartKind::lognormal:
         return formula_row(
             "", equation(row(left), fenced(listed(values)), "∼"),
-            drawn_text(one.kind == StartKind::normal ? NoiseKind::normal : NoiseKind::lognormal,
-                       one.covariance));
+            drawn_text(
+                initial_value.kind == StartKind::normal ? NoiseKind::normal : NoiseKind::lognormal,
+                initial_value.covariance));
       case StartKind::ellipsoid:
         return formula_row(
             "", equation(row(left), row("<mi>ellipsoid</mi>" + fenced(listed(values))), "∈"),
@@ -217,13 +221,13 @@ class Motion {
   }
 
   /// integral of the flow cost dt + sum over jumps of the jump cost <= V at the start.
-  std::string cost(const model::Claim& one) const {
+  std::string cost(const model::Claim& claim) const {
     std::string sum;
-    if (one.flow_cost) sum = mo("∫") + row(factor(*one.flow_cost) + "<mi>d</mi><mi>t</mi>");
-    if (one.jump_cost)
+    if (claim.flow_cost) sum = mo("∫") + row(factor(*claim.flow_cost) + "<mi>d</mi><mi>t</mi>");
+    if (claim.jump_cost)
       sum += (sum.empty() ? "" : mo("+")) + element("munder", mo("∑") + "<mtext>jumps</mtext>") +
-             factor(*one.jump_cost);
-    return row(sum + mo("≤") + factor(one.value) + element("msub", mo("|") + "<mn>0</mn>"));
+             factor(*claim.jump_cost);
+    return row(sum + mo("≤") + factor(claim.value) + element("msub", mo("|") + "<mn>0</mn>"));
   }
 
   const Notation& notation_;
@@ -266,13 +270,15 @@ std::string dynamics(const model::Problem& problem, const Notation& notation) {
                           escaped(std::filesystem::path(measured.series->file).filename().string())
                     : ""));
   std::string noise;
-  for (const model::NoiseText& one : method.noise) noise += motion.noise(one);
-  for (const model::UncertainText& one : problem.uncertain) {
+  for (const model::NoiseText& noise_text : method.noise) noise += motion.noise(noise_text);
+  for (const model::UncertainText& uncertain_text : problem.uncertain) {
     std::vector<std::string> values;
-    for (const model::Value& end : one.values) values.push_back(value_mathml(end, notation));
+    for (const model::Value& end : uncertain_text.values)
+      values.push_back(value_mathml(end, notation));
     noise += formula_row(
-        "", equation(name_mathml(one.name, notation), fenced(listed(values), "{", "}"), "∈"),
-        "uncertain: " + drawn_text(one.kind, one.covariance));
+        "",
+        equation(name_mathml(uncertain_text.name, notation), fenced(listed(values), "{", "}"), "∈"),
+        "uncertain: " + drawn_text(uncertain_text.kind, uncertain_text.covariance));
   }
   std::string signals;
   for (const model::Named& signal : method.signals)
@@ -287,7 +293,8 @@ std::string claimed(const model::Problem& problem, const Notation& notation) {
   std::string claims;
   for (const model::Claim& claim : problem.method->claims) claims += motion.claim(claim);
   std::string starts;
-  for (const model::InitialValue& one : problem.campaign.initial) starts += motion.start(one);
+  for (const model::InitialValue& initial_value : problem.campaign.initial)
+    starts += motion.start(initial_value);
   return group("Claims", claims) + group("Where runs start", starts) +
          group("Times between events", laws(problem.campaign, notation));
 }

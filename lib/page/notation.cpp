@@ -85,11 +85,11 @@ class Reader {
     }
   }
 
-  void component(const model::Component& one) {
-    for (const auto& state : one.states) declare(state, false);
-    for (const auto& mode : one.modes) found.scalars.insert(mode.name);
-    lets(one.let);
-    for (const auto& reaction : one.at)
+  void component(const model::Component& component) {
+    for (const auto& state : component.states) declare(state, false);
+    for (const auto& mode : component.modes) found.scalars.insert(mode.name);
+    lets(component.let);
+    for (const auto& reaction : component.at)
       for (const auto& pass : reaction.passes) lets(pass.let);
   }
 

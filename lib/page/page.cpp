@@ -41,8 +41,8 @@ std::string line_of(const Results& results, std::size_t k, bool marks) {
 
 /// The table of all problems, with a column of marks where one has a mark.
 std::string table_of(const std::vector<Results>& all) {
-  const bool marks =
-      std::any_of(all.begin(), all.end(), [](const Results& one) { return !one.mark.empty(); });
+  const bool marks = std::any_of(all.begin(), all.end(),
+                                 [](const Results& results) { return !results.mark.empty(); });
   std::vector<std::string_view> heads = {"problem", "method",   "verdict",
                                          "optimum", "campaign", "time"};
   if (marks) heads.insert(heads.begin(), "");
@@ -60,9 +60,10 @@ std::string counts_of(const std::vector<Results>& all) {
     if (count > 0) parts += (parts.empty() ? "" : ", ") + std::to_string(count) + " " + what;
   };
   for (const auto verdict : {model::Verdict::yes, model::Verdict::no, model::Verdict::undecided})
-    add(to_string(verdict),
-        [&](const Results& one) { return one.error.empty() && one.gains.verdict == verdict; });
-  add("without results", [](const Results& one) { return !one.error.empty(); });
+    add(to_string(verdict), [&](const Results& results) {
+      return results.error.empty() && results.gains.verdict == verdict;
+    });
+  add("without results", [](const Results& results) { return !results.error.empty(); });
   return text + parts;
 }
 
@@ -106,15 +107,16 @@ std::string whole(const std::vector<Results>& all, const std::string& title,
 /// The largest pictures go until the page is smaller by `excess` bytes.
 void leave_out_pictures(std::vector<Results>& all, std::size_t excess) {
   std::vector<Results*> order;
-  for (Results& one : all) order.push_back(&one);
+  for (Results& results : all) order.push_back(&results);
   std::stable_sort(order.begin(), order.end(), [](const Results* a, const Results* b) {
     return a->picture.size() > b->picture.size();
   });
-  for (Results* one : order) {
-    if (excess == 0 || one->picture.empty()) return;
+  for (Results* results : order) {
+    if (excess == 0 || results->picture.empty()) return;
     constexpr std::size_t kSentence = 300;  // that says so
-    excess -= std::min(excess, one->picture.size() - std::min(one->picture.size(), kSentence));
-    one->picture.clear();
+    excess -=
+        std::min(excess, results->picture.size() - std::min(results->picture.size(), kSentence));
+    results->picture.clear();
   }
 }
 

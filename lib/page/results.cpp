@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/number.h"
+#include "drawing/text.h"
 #include "model/stated_file.h"
 #include "page/element.h"
 #include "page/mathml.h"
@@ -13,7 +14,6 @@
 #include "page/squares.h"
 #include "page/statement.h"
 #include "page/symbol.h"
-#include "drawing/text.h"
 
 namespace gainsmith::page {
 
@@ -121,8 +121,8 @@ std::string verdict_section(const Results& results) {
 bool is_eigenvalues(const Results& results, const std::string& name) {
   if (!results.problem) return results.gains.eigenvalues.contains(name);
   for (const auto* list : {&results.problem->method->report, &results.problem->report})
-    for (const model::Named& one : *list)
-      if (one.name == name && one.value.root) return one.value.root->text == "eig";
+    for (const model::Named& named : *list)
+      if (named.name == name && named.value.root) return named.value.root->text == "eig";
   return false;
 }
 
@@ -162,7 +162,8 @@ std::string matrices(const Results& results, const model::NamedMatrices& named) 
 std::string gains_section(const Results& results, const Notation& notation) {
   const model::Gains& gains = results.gains;
   std::string functions;
-  for (const model::GainFunction& one : gains.gain_functions) functions += function_row(one);
+  for (const model::GainFunction& gain_function : gains.gain_functions)
+    functions += function_row(gain_function);
   std::string searched;
   for (const auto& [name, found] : gains.searched)
     searched += formula_row("", equation(symbol(name), value(found)));
@@ -218,8 +219,8 @@ std::string margins_section(const Results& results, const Notation& notation) {
 const model::Requirement* requirement_of(const model::Problem& problem, const std::string& name) {
   // Of "flow at tau = 0.7" the part before " at ".
   const std::string base = name.substr(0, name.find(" at "));
-  for (const model::Requirement& one : problem.method->require)
-    if (one.name == base || base.starts_with(one.name + ".")) return &one;
+  for (const model::Requirement& requirement : problem.method->require)
+    if (requirement.name == base || base.starts_with(requirement.name + ".")) return &requirement;
   return nullptr;
 }
 
@@ -229,14 +230,14 @@ std::string conflict_rows(const Results& results, const Notation& notation,
   std::string rows;
   std::vector<const model::Requirement*> shown;
   for (const auto& [name, matrix] : multipliers) {
-    const model::Requirement* one =
+    const model::Requirement* requirement =
         results.problem ? requirement_of(*results.problem, name) : nullptr;
-    if (one == nullptr) {
+    if (requirement == nullptr) {
       rows += formula_row(name, "");
-    } else if (std::find(shown.begin(), shown.end(), one) == shown.end()) {
-      shown.push_back(one);
-      rows +=
-          formula_row(one->name, inequality_mathml(one->that, notation), holds_for(*one, notation));
+    } else if (std::find(shown.begin(), shown.end(), requirement) == shown.end()) {
+      shown.push_back(requirement);
+      rows += formula_row(requirement->name, inequality_mathml(requirement->that, notation),
+                          holds_for(*requirement, notation));
     }
   }
   return rows;

@@ -1,12 +1,12 @@
 #include "page/statement.h"
 
 #include "base/named.h"
+#include "drawing/text.h"
 #include "page/element.h"
 #include "page/lines.h"
 #include "page/mathml.h"
 #include "page/rows.h"
 #include "page/symbol.h"
-#include "drawing/text.h"
 
 namespace gainsmith::page {
 
@@ -45,8 +45,8 @@ class Given {
     std::string parameters;
     for (const auto& parameter : problem_.method->parameters) parameters += row_of(parameter);
     std::string assumed;
-    for (const model::Named& one : problem_.method->assume)
-      assumed += formula_row(one.name, mathml(one.value, notation_));
+    for (const model::Named& named : problem_.method->assume)
+      assumed += formula_row(named.name, mathml(named.value, notation_));
     std::string definitions;
     for (const auto* list : {&problem_.method->let, &problem_.let})
       for (const model::Let& let : *list) definitions += definition(let);
@@ -180,9 +180,9 @@ std::string wanted(const model::Problem& problem, const Notation& notation) {
   for (const auto& unknown : method.unknowns) unknowns += unknown_row(unknown, notation);
   const auto rows_of = [&](const std::vector<model::Requirement>& list) {
     std::string rows;
-    for (const model::Requirement& one : list)
-      rows +=
-          formula_row(one.name, inequality_mathml(one.that, notation), holds_for(one, notation));
+    for (const model::Requirement& requirement : list)
+      rows += formula_row(requirement.name, inequality_mathml(requirement.that, notation),
+                          holds_for(requirement, notation));
     return rows;
   };
   std::string objective;

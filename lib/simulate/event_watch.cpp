@@ -75,8 +75,8 @@ EventWatch::EventWatch(const hybrid::System& system) : system_(&system) {
   }
   rounding_.assign(crossing.size(), 0);
   time_rounding_.assign(crossing.size(), 0);
-  for (const model::Dynamics::Component& one : system.dynamics.components)
-    for (const auto& flow_set : one.flow_sets)
+  for (const model::Dynamics::Component& component : system.dynamics.components)
+    for (const auto& flow_set : component.flow_sets)
       flow_sets.push_back(
           {hybrid::EventCondition(flow_set.where, system), flow_set.say, flow_set.place});
   for (const hybrid::Switch& one : system.switches) switches.emplace_back(one.difference, system);
@@ -87,9 +87,10 @@ void EventWatch::comparisons_of(const Role& role, const VectorXd& values, const 
   if (condition.at_rest(values) != Truth::unknown) return;
   using Kind = expr::Condition::Kind;
   for (std::size_t k = 0; k < condition.comparisons().size(); ++k) {
-    hybrid::EventCondition::Comparison& one = condition.comparisons()[k];
-    if (one.function.rests()) continue;
-    visit(one.function, {one.kind != Kind::nonnegative, one.kind != Kind::positive},
+    hybrid::EventCondition::Comparison& comparison = condition.comparisons()[k];
+    if (comparison.function.rests()) continue;
+    visit(comparison.function,
+          {comparison.kind != Kind::nonnegative, comparison.kind != Kind::positive},
           {role.of, role.index, &condition, k});
   }
 }
@@ -171,14 +172,14 @@ std::vector<double> EventWatch::crossings(
           if (leaves) left = std::max(left, *leaves);
           result.push_back(leaves.value_or(root.right));
         }
-        for (const ode::TurningPoint& one : found.turning_points) {
-          if (!decides(role, inside.at(one.t))) continue;
+        for (const ode::TurningPoint& turning_point : found.turning_points) {
+          if (!decides(role, inside.at(turning_point.t))) continue;
           const std::string text = role.condition == nullptr
                                        ? system_->dynamics.events[role.index].name
                                        : role.condition->comparisons()[role.comparison].text;
-          turn({role.of, role.index, role.comparison, element, time_of(one, found.roots), one.value,
-                text},
-               one.reached);
+          turn({role.of, role.index, role.comparison, element, time_of(turning_point, found.roots),
+                turning_point.value, text},
+               turning_point.reached);
         }
       }
     }

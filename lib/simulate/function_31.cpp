@@ -24,7 +24,8 @@ Function31::Function31(const expr::Program& program, const hybrid::System& syste
 }
 
 const Matrix31& Function31::operator()(const Values31& values) {
-  for (Input& one : inputs_) one.value.reshaped() = values.segment(one.offset, one.value.size());
+  for (Input& input : inputs_)
+    input.value.reshaped() = values.segment(input.offset, input.value.size());
   return evaluator_.run();
 }
 

@@ -25,9 +25,9 @@ std::vector<double> constants_of(const expr::Program& program, const hybrid::Sys
   for (const expr::Input& input : program.inputs)
     if (const auto known = system.constants.find(input.name); known != system.constants.end())
       all.insert(all.end(), known->second.reshaped().begin(), known->second.reshaped().end());
-  for (const expr::Instruction& one : program.code)
-    if (one.op == expr::Op::constant)
-      if (const auto value = parse_decimal(one.text)) all.push_back(*value);
+  for (const expr::Instruction& instruction : program.code)
+    if (instruction.op == expr::Op::constant)
+      if (const auto value = parse_decimal(instruction.text)) all.push_back(*value);
   for (std::size_t k = all.size(); k-- > 0;) all.push_back(-all[k]);
   std::ranges::sort(all);
   return all;
@@ -44,18 +44,18 @@ JumpMaps::JumpMaps(const hybrid::System& system) : system_(&system) {
     Maps& maps = maps_.emplace_back();
     for (const model::Dynamics::Pass& pass : reaction.passes) {
       Map& map = maps.emplace_back();
-      for (const model::Dynamics::Assignment& one : pass.map) {
-        map.entries.push_back({one.variable,
-                               &one.value.program,
-                               hybrid::SystemFunction(one.value.program, system),
+      for (const model::Dynamics::Assignment& assignment : pass.map) {
+        map.entries.push_back({assignment.variable,
+                               &assignment.value.program,
+                               hybrid::SystemFunction(assignment.value.program, system),
                                {},
-                               one.place,
+                               assignment.place,
                                nullptr,
                                {},
-                               constants_of(one.value.program, system)});
+                               constants_of(assignment.value.program, system)});
         MapEntry& entry = map.entries.back();
-        auto terms = hybrid::rounding_terms(one.value.program);
-        if (!terms || is_mode(system, one.variable)) continue;
+        auto terms = hybrid::rounding_terms(assignment.value.program);
+        if (!terms || is_mode(system, assignment.variable)) continue;
         entry.terms_program = std::make_unique<const expr::Program>(std::move(*terms));
         entry.terms.emplace(*entry.terms_program, system);
       }
@@ -129,7 +129,8 @@ void JumpMaps::apply(Map& map, VectorXd& own) {
     if (state_ != nullptr) {
       if (!entry.value_31) entry.value_31.emplace(*entry.program, *system_, state_->constants());
       results_31_[i] = (*entry.value_31)(own_31_);
-      results_[i] = results_31_[i].unaryExpr([](const DoubleDouble& one) { return one.hi(); });
+      results_[i] = results_31_[i].unaryExpr(
+          [](const DoubleDouble& double_double) { return double_double.hi(); });
     } else {
       results_[i] = entry.value(own);
     }

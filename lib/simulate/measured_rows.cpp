@@ -29,54 +29,55 @@ MeasuredRows::MeasuredRows(const hybrid::System& system) {
 }
 
 void MeasuredRows::begin(Eigen::VectorXd& values) {
-  for (Quantity& one : quantities_) {
-    const model::Series& series = *one.measured->series;
-    one.row = series.not_before(0);
-    const model::Course course = course_at(series, one.measured->between, 0);
-    if (one.rate) values.segment(*one.rate, series.values.cols()) = course.rate;
-    if (!is_due(one, 0)) values.segment(one.value, series.values.cols()) = course.value;
+  for (Quantity& quantity : quantities_) {
+    const model::Series& series = *quantity.measured->series;
+    quantity.row = series.not_before(0);
+    const model::Course course = course_at(series, quantity.measured->between, 0);
+    if (quantity.rate) values.segment(*quantity.rate, series.values.cols()) = course.rate;
+    if (!is_due(quantity, 0)) values.segment(quantity.value, series.values.cols()) = course.value;
   }
   arrive(0, values);
 }
 
 double MeasuredRows::next() const {
   double earliest = std::numeric_limits<double>::infinity();
-  for (const Quantity& one : quantities_)
-    if (one.row < one.measured->series->times.size())
-      earliest = std::min(earliest, one.measured->series->times[one.row]);
+  for (const Quantity& quantity : quantities_)
+    if (quantity.row < quantity.measured->series->times.size())
+      earliest = std::min(earliest, quantity.measured->series->times[quantity.row]);
   return earliest;
 }
 
-bool MeasuredRows::is_due(const Quantity& one, double t) {
-  const std::vector<double>& times = one.measured->series->times;
-  return one.row < times.size() && times[one.row] <= t + hybrid::kOneInstant * std::abs(t);
+bool MeasuredRows::is_due(const Quantity& quantity, double t) {
+  const std::vector<double>& times = quantity.measured->series->times;
+  return quantity.row < times.size() &&
+         times[quantity.row] <= t + hybrid::kOneInstant * std::abs(t);
 }
 
 bool MeasuredRows::arrive(double t, Eigen::VectorXd& values) const {
   bool any = false;
-  for (const Quantity& one : quantities_) {
-    if (!is_due(one, t)) continue;
+  for (const Quantity& quantity : quantities_) {
+    if (!is_due(quantity, t)) continue;
     any = true;
-    const model::Series& series = *one.measured->series;
-    values.segment(one.value, series.values.cols()) = row_of(series, one.row);
+    const model::Series& series = *quantity.measured->series;
+    values.segment(quantity.value, series.values.cols()) = row_of(series, quantity.row);
   }
   return any;
 }
 
 bool MeasuredRows::leave(double t, Eigen::VectorXd& values) {
   bool any = false;
-  for (Quantity& one : quantities_) {
-    if (!is_due(one, t)) continue;
+  for (Quantity& quantity : quantities_) {
+    if (!is_due(quantity, t)) continue;
     any = true;
-    while (is_due(one, t)) ++one.row;
-    const model::Series& series = *one.measured->series;
-    values.segment(one.value, series.values.cols()) = row_of(series, one.row - 1);
-    if (!one.rate) continue;
-    auto rate = values.segment(*one.rate, series.values.cols());
+    while (is_due(quantity, t)) ++quantity.row;
+    const model::Series& series = *quantity.measured->series;
+    values.segment(quantity.value, series.values.cols()) = row_of(series, quantity.row - 1);
+    if (!quantity.rate) continue;
+    auto rate = values.segment(*quantity.rate, series.values.cols());
     rate.setZero();
-    if (one.row < series.times.size())
-      rate = (row_of(series, one.row) - row_of(series, one.row - 1)) /
-             (series.times[one.row] - series.times[one.row - 1]);
+    if (quantity.row < series.times.size())
+      rate = (row_of(series, quantity.row) - row_of(series, quantity.row - 1)) /
+             (series.times[quantity.row] - series.times[quantity.row - 1]);
   }
   return any;
 }

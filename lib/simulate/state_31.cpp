@@ -55,9 +55,10 @@ State31::State31(const hybrid::System& system, const hybrid::Scenario& scenario)
     const hybrid::Slot& slot = system.layout.slots[variable];
     for (Index k = 0; k < slot.shape.size(); ++k) moving_.push_back(slot.offset + k);
   };
-  for (const model::Dynamics::Assignment& one : dynamics.flow) {
-    rates_.push_back({one.variable, Function31(one.value.program, system, constants_)});
-    add_moving(one.variable);
+  for (const model::Dynamics::Assignment& assignment : dynamics.flow) {
+    rates_.push_back(
+        {assignment.variable, Function31(assignment.value.program, system, constants_)});
+    add_moving(assignment.variable);
   }
   for (Index k = system.size; k < system.whole; ++k) adopted_.push_back(k);
   for (std::size_t i = 0; i < dynamics.variables.size(); ++i) {
@@ -122,7 +123,8 @@ Values31 State31::start_of(std::uint64_t run, const VectorXd& values) {
     if (rule.kind == model::StartKind::expression)
       state = Function31(rule.program, *system_, constants_)(x).reshaped();
     if (rule.kind == model::StartKind::list)
-      state = state.unaryExpr([](const DoubleDouble& one) { return *written(one.hi()); });
+      state = state.unaryExpr(
+          [](const DoubleDouble& double_double) { return *written(double_double.hi()); });
   }
   for (const auto& [b, a] : scenario_->differences) {
     const hybrid::Slot& slot = system_->layout.slots[b];
@@ -180,13 +182,13 @@ DoubleDouble State31::due(std::size_t event, double rounded) const {
 }
 
 void State31::fill_clocks(const hybrid::EventClocks& clocks) {
-  for (const Clock& one : clocks_) {
-    DoubleDouble& value = x_(one.element);
-    if (one.kind == VariableKind::time) value = t_;
-    if (one.kind == VariableKind::since) value = t_ - since_[one.event];
-    if (one.kind != VariableKind::left) continue;
-    const double rounded = clocks.due(one.event);
-    value = std::isfinite(rounded) ? due(one.event, rounded) - t_ : DoubleDouble(rounded);
+  for (const Clock& clock : clocks_) {
+    DoubleDouble& value = x_(clock.element);
+    if (clock.kind == VariableKind::time) value = t_;
+    if (clock.kind == VariableKind::since) value = t_ - since_[clock.event];
+    if (clock.kind != VariableKind::left) continue;
+    const double rounded = clocks.due(clock.event);
+    value = std::isfinite(rounded) ? due(clock.event, rounded) - t_ : DoubleDouble(rounded);
   }
 }
 

@@ -36,7 +36,7 @@ void State31::begin_flow(VectorField& field, const VectorXd& values) {
   field.spread(VectorXd::Ones(field.size()), integrated);
   is_integrated_.clear();
   for (const Index element : moving_) is_integrated_.push_back(integrated(element) == 1);
-  for (Rate& one : rates_) one.rests = field.is_frozen(one.variable);
+  for (Rate& rate : rates_) rate.rests = field.is_frozen(rate.variable);
 }
 
 void State31::rates(const Values31& x, Values31& rate) {
@@ -46,7 +46,8 @@ void State31::rates(const Values31& x, Values31& rate) {
     const hybrid::Slot& slot = system_->layout.slots[one.variable];
     rate.segment(slot.offset, slot.shape.size()) = one.value(x).reshaped();
   }
-  for (const Clock& one : clocks_) rate(one.element) = one.kind == VariableKind::left ? -1 : 1;
+  for (const Clock& clock : clocks_)
+    rate(clock.element) = clock.kind == VariableKind::left ? -1 : 1;
 }
 
 /// The stages in double, by iteration, and the derivatives of the rates at them; false: it does not
@@ -212,8 +213,8 @@ void State31::arrive(double to) {
 
 void State31::move(double part) {
   if (moved_ == nullptr) return;
-  for (const Rate& one : rates_) {
-    const hybrid::Slot& slot = system_->layout.slots[one.variable];
+  for (const Rate& rate : rates_) {
+    const hybrid::Slot& slot = system_->layout.slots[rate.variable];
     for (DoubleDouble& value : x_.segment(slot.offset, slot.shape.size()))
       value += part * moved_->of(value.hi(), std::abs(value.hi()));
   }

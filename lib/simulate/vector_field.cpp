@@ -17,8 +17,9 @@ namespace {
 /// The programs of what flows and is not steady.
 std::vector<const expr::Program*> flowing(const hybrid::System& system) {
   std::vector<const expr::Program*> programs;
-  for (const model::Dynamics::Assignment& one : system.dynamics.flow)
-    if (system.moves[one.variable] != hybrid::Moves::steady) programs.push_back(&one.value.program);
+  for (const model::Dynamics::Assignment& assignment : system.dynamics.flow)
+    if (system.moves[assignment.variable] != hybrid::Moves::steady)
+      programs.push_back(&assignment.value.program);
   return programs;
 }
 
@@ -43,24 +44,25 @@ VectorField::VectorField(const hybrid::System& system)
   }
   for (std::size_t k = 0; k < system.dynamics.flow.size(); ++k) add_flow(k);
   note_inputs(flowing(system));
-  for (const model::Dynamics::Component& one : system.dynamics.components)
-    frozen_.push_back(
-        one.frozen ? std::optional<hybrid::EventCondition>(std::in_place, *one.frozen, system)
-                   : std::nullopt);
+  for (const model::Dynamics::Component& component : system.dynamics.components)
+    frozen_.push_back(component.frozen ? std::optional<hybrid::EventCondition>(
+                                             std::in_place, *component.frozen, system)
+                                       : std::nullopt);
   is_frozen_.assign(frozen_.size(), false);
 }
 
 void VectorField::add_flow(std::size_t flow) {
-  const model::Dynamics::Assignment& one = system_->dynamics.flow[flow];
-  const hybrid::Slot& slot = system_->layout.slots[one.variable];
-  const bool symmetric = is_symmetric(system_->dynamics.variables[one.variable]);
-  hybrid::SystemFunction value(one.value.program, *system_);
-  if (system_->moves[one.variable] == hybrid::Moves::steady) {
-    steady_.push_back({one.variable, std::move(value), static_cast<Index>(lines_.size()), {}});
+  const model::Dynamics::Assignment& assignment = system_->dynamics.flow[flow];
+  const hybrid::Slot& slot = system_->layout.slots[assignment.variable];
+  const bool symmetric = is_symmetric(system_->dynamics.variables[assignment.variable]);
+  hybrid::SystemFunction value(assignment.value.program, *system_);
+  if (system_->moves[assignment.variable] == hybrid::Moves::steady) {
+    steady_.push_back(
+        {assignment.variable, std::move(value), static_cast<Index>(lines_.size()), {}});
     for (Index k = 0; k < slot.shape.size(); ++k) lines_.push_back({slot.offset + k});
     return;
   }
-  flows_.push_back({one.variable, std::move(value), size(), {}});
+  flows_.push_back({assignment.variable, std::move(value), size(), {}});
   if (const auto& free = system_->free_flow[flow]) flows_.back().free.emplace(*free, *system_);
   const Index rows = slot.shape.rows;
   for (Index column = 0; column < slot.shape.cols; ++column)

@@ -69,8 +69,8 @@ class Units {
 std::vector<Units> units_of(const std::vector<Statement>& statements) {
   constexpr double kOfVariables = 1e-2, kOfSizes = 1e-6;  // for what no coefficient says
   std::vector<Eigen::Index> first = {1};                  // of each inequality; w is at 0
-  for (const Statement& one : statements)
-    first.push_back(first.back() + 1 + static_cast<Eigen::Index>(variables_of(one)));
+  for (const Statement& statement : statements)
+    first.push_back(first.back() + 1 + static_cast<Eigen::Index>(variables_of(statement)));
   numbers::Matrix normal = kOfVariables * numbers::Matrix::Identity(first.back(), first.back());
   numbers::Vector right = numbers::Vector::Zero(first.back());
   normal(0, 0) = kOfSizes;

@@ -63,8 +63,10 @@ class Surveyor {
     for (const std::unique_ptr<BoundFigure>& figure : figures_)
       estimates.push_back(figure->of(made));
     ++survey_.runs;
-    if (const hybrid::Trajectory& one = made.run; !is_complete(one.ending))
-      count({1, run, to_string(one.ending) + (one.message.empty() ? "" : ": " + one.message)},
+    if (const hybrid::Trajectory& trajectory = made.run; !is_complete(trajectory.ending))
+      count({1, run,
+             to_string(trajectory.ending) +
+                 (trajectory.message.empty() ? "" : ": " + trajectory.message)},
             survey_.early);
     for (std::size_t k = 0; k < estimates.size(); ++k) add(k, run, estimates[k]);
   }
@@ -150,13 +152,13 @@ void grow(const claims::RunSetup& setup, const std::vector<model::Figure>& figur
   std::uint64_t size = std::uint64_t{64} * thread_count(threads);
   const std::vector<RunRange> missing = sum.runs.missing_in(range);
   std::uint64_t count = 0;
-  for (const RunRange& one : missing) count += one.count();
+  for (const RunRange& run_range : missing) count += run_range.count();
   const std::uint64_t all = range.count();
   const Doing doing("figures", all, all - count);
-  for (const RunRange& one : missing)
-    for (std::uint64_t first = one.first; first < one.last;) {
+  for (const RunRange& run_range : missing)
+    for (std::uint64_t first = run_range.first; first < run_range.last;) {
       const auto begin = Clock::now();
-      const std::uint64_t asked = std::min(size, one.last - first);
+      const std::uint64_t asked = std::min(size, run_range.last - first);
       SurveyOfRuns more;
       more.survey = survey_figures(setup, figures, seed, {asked, {}, first}, threads);
       more.runs.add({first, first + more.survey.runs});

@@ -181,10 +181,11 @@ bool is_exact(const std::vector<Weighed<S>>& blocks, const Sums<S>& sums, Eigen:
       1e-13;  // of the largest pivot: what is rounding of multipliers in double
   bool constant = false;
   std::vector<FactoredBlock<S>> factored;
-  for (const Weighed<S>& one : blocks) {
-    for (const auto& term : one.block->terms) constant |= term.first == 0;
+  for (const Weighed<S>& weighed : blocks) {
+    for (const auto& term : weighed.block->terms) constant |= term.first == 0;
     factored.push_back(
-        {one.block, factor_of(one.Y->unaryExpr([](const S& y) { return as<double>(y); }), kSmall)});
+        {weighed.block,
+         factor_of(weighed.Y->unaryExpr([](const S& y) { return as<double>(y); }), kSmall)});
   }
   const double v = as<double>(S(-sums.r[0]));
   if (sums.whole == 0 || (constant && !(v > sums.error[0])) ||

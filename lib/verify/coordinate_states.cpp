@@ -56,12 +56,12 @@ model::RunTexts with_coordinates(model::RunTexts texts, const linear::Coordinate
   dynamics.flow.clear();
   std::map<std::size_t, Dynamics::Pass> passes;  // by component
   for (std::size_t i = 0; i < coordinates.list.size(); ++i) {
-    const linear::Coordinate& one = coordinates.list[i];
-    if (one.flow && !rests(coordinates, i))
-      dynamics.flow.push_back({held[i], {*one.flow, place, {}}, place});
-    if (one.jump)
+    const linear::Coordinate& coordinate = coordinates.list[i];
+    if (coordinate.flow && !rests(coordinates, i))
+      dynamics.flow.push_back({held[i], {*coordinate.flow, place, {}}, place});
+    if (coordinate.jump)
       passes[dynamics.variables[held[i]].component].map.push_back(
-          {held[i], {*one.jump, place, {}}, place});
+          {held[i], {*coordinate.jump, place, {}}, place});
   }
   dynamics.reactions.clear();
   for (auto& [component, pass] : passes) {

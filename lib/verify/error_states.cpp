@@ -24,8 +24,8 @@ bool uses(const Program& program, const std::string& name) {
 /// What a reaction assigns to a variable; nullptr: nothing.
 Dynamics::Assignment* assignment_of(Dynamics::Reaction& reaction, std::size_t variable) {
   for (Dynamics::Pass& pass : reaction.passes)
-    for (Dynamics::Assignment& one : pass.map)
-      if (one.variable == variable) return &one;
+    for (Dynamics::Assignment& assignment : pass.map)
+      if (assignment.variable == variable) return &assignment;
   return nullptr;
 }
 
@@ -61,8 +61,9 @@ class ErrorStates {
               const Differences& differences)
       : differences_(differences), rewriting_(differences, layout), dynamics_(dynamics) {
     dynamics_.signals.clear();
-    for (const linear::StateDifference& one : differences_)
-      places_.push_back({*layout.slot(one.plus), *layout.slot(one.minus)});
+    for (const linear::StateDifference& state_difference : differences_)
+      places_.push_back(
+          {*layout.slot(state_difference.plus), *layout.slot(state_difference.minus)});
     find_flows();
     find_jumps();
     model::for_each_run_program(
@@ -107,8 +108,8 @@ void ErrorStates::find_flows() {
   const std::vector<Dynamics::Assignment> written = dynamics_.flow;
   for (std::size_t k = 0; k < places_.size(); ++k) {
     const auto rate = [&](std::size_t variable) {
-      for (const Dynamics::Assignment& one : written)
-        if (one.variable == variable) return one.value.program;
+      for (const Dynamics::Assignment& assignment : written)
+        if (assignment.variable == variable) return assignment.value.program;
       return zeros(differences_[k].shape);
     };
     const auto a = flow_of(places_[k].plus);
@@ -165,8 +166,9 @@ Dynamics::Assignment& ErrorStates::map_of(std::size_t event, std::size_t variabl
 /// A difference whose d' or d+ reads a.
 std::optional<std::size_t> ErrorStates::first_bound() const {
   for (std::size_t k = 0; k < places_.size(); ++k) {
-    const auto is_bound = [&](const Dynamics::Assignment& one) {
-      return one.variable == places_[k].minus && uses(one.value.program, differences_[k].plus);
+    const auto is_bound = [&](const Dynamics::Assignment& assignment) {
+      return assignment.variable == places_[k].minus &&
+             uses(assignment.value.program, differences_[k].plus);
     };
     if (std::any_of(dynamics_.flow.begin(), dynamics_.flow.end(), is_bound)) return k;
     for (const Dynamics::Reaction& reaction : dynamics_.reactions)
@@ -179,8 +181,9 @@ std::optional<std::size_t> ErrorStates::first_bound() const {
 /// b = a - d in claims; where runs start the place of d still holds b.
 model::RunTexts ErrorStates::rewritten(model::RunTexts texts) {
   std::map<std::string, Program> names;
-  for (const linear::StateDifference& one : differences_)
-    names[one.minus] = expr::input_program(one.name, one.shape);
+  for (const linear::StateDifference& state_difference : differences_)
+    names[state_difference.minus] =
+        expr::input_program(state_difference.name, state_difference.shape);
   const auto rename = [&](Program& start) { start = linear::replace_inputs(start, names); };
   texts.dynamics = std::move(dynamics_);
   for (Dynamics::Variable& variable : texts.dynamics.variables)
@@ -192,7 +195,7 @@ model::RunTexts ErrorStates::rewritten(model::RunTexts texts) {
     for (auto* part : {&claim.flow_cost, &claim.jump_cost, &claim.factor, &claim.bound})
       if (*part) rewrite((*part)->program);
   }
-  for (const Place& one : places_) texts.differences.emplace_back(one.minus, one.plus);
+  for (const Place& place : places_) texts.differences.emplace_back(place.minus, place.plus);
   return texts;
 }
 
@@ -202,9 +205,9 @@ std::optional<model::RunTexts> with_error_states(const model::RunTexts& texts,
                                                  const std::vector<Program>& functions) {
   const hybrid::StateLayout layout = hybrid::layout_of(texts.dynamics);
   Differences differences = linear::find_differences(functions, layout);
-  std::erase_if(differences, [&](const linear::StateDifference& one) {
-    return !is_plain(texts.dynamics, *layout.slot(one.plus), false) ||
-           !is_plain(texts.dynamics, *layout.slot(one.minus), true);
+  std::erase_if(differences, [&](const linear::StateDifference& state_difference) {
+    return !is_plain(texts.dynamics, *layout.slot(state_difference.plus), false) ||
+           !is_plain(texts.dynamics, *layout.slot(state_difference.minus), true);
   });
   while (!differences.empty()) {
     ErrorStates states(texts.dynamics, layout, differences);

@@ -112,7 +112,9 @@ void Judge::take_held(const std::vector<bool>& holds, RunVerdict& verdict) const
 }
 
 void Judge::decide(std::uint64_t seed, std::uint64_t run, bool in_31_digits, RunVerdict& verdict) {
-  const auto is_open_one = [&](const claims::Finding& one) { return is_open(verdict, one); };
+  const auto is_open_one = [&](const claims::Finding& finding) {
+    return is_open(verdict, finding);
+  };
   if (std::ranges::none_of(verdict.findings, is_open_one)) return;
   std::optional<RunVerdict> again;
   const auto take = [&](const Track& track) {

@@ -33,13 +33,13 @@ std::string element(const std::string& name, expr::Shape shape, int at) {
 }
 
 /// t and j have columns of their own, what a log says is an output; costs belong to claims.
-bool is_shown_otherwise(const model::RunTexts& texts, const model::Dynamics::Variable& one) {
+bool is_shown_otherwise(const model::RunTexts& texts, const model::Dynamics::Variable& variable) {
   const model::Dynamics& dynamics = texts.dynamics;
   for (const model::Design::Claim& claim : texts.claims)
-    if (one.name == model::cost_name(claim.name)) return true;
-  return one.kind == VariableKind::time || one.kind == VariableKind::jumps ||
-         one.kind == VariableKind::measured_rate ||
-         (one.kind == VariableKind::measured && dynamics.measured[one.of].output);
+    if (variable.name == model::cost_name(claim.name)) return true;
+  return variable.kind == VariableKind::time || variable.kind == VariableKind::jumps ||
+         variable.kind == VariableKind::measured_rate ||
+         (variable.kind == VariableKind::measured && dynamics.measured[variable.of].output);
 }
 
 /// What makes the columns of one name.
@@ -57,8 +57,8 @@ class EventTable {
  public:
   explicit EventTable(const claims::RunSetup& setup) : setup_(setup) {
     const model::Dynamics& dynamics = setup.texts.dynamics;
-    for (const model::Dynamics::Component& one : dynamics.components)
-      if (one.observer) observers_.push_back(one.name);
+    for (const model::Dynamics::Component& component : dynamics.components)
+      if (component.observer) observers_.push_back(component.name);
     for (std::size_t k = 0; k < dynamics.variables.size(); ++k) {
       const model::Dynamics::Variable& variable = dynamics.variables[k];
       if (is_shown_otherwise(setup.texts, variable)) continue;

@@ -29,8 +29,8 @@ std::unique_ptr<const LinearSetup> make_linear_setup(const model::Instance& inst
                                                      const std::vector<expr::Program>& functions) {
   auto setup = std::make_unique<LinearSetup>();
   setup->system = linear::make_sampled_system(dynamics);
-  if (!setup->system || !std::ranges::all_of(functions, [&](const expr::Program& one) {
-        return linear::has_wide_value(one, setup->system->layout);
+  if (!setup->system || !std::ranges::all_of(functions, [&](const expr::Program& program) {
+        return linear::has_wide_value(program, setup->system->layout);
       }))
     return nullptr;
   setup->coordinates = linear::make_coordinates(

@@ -60,11 +60,11 @@ class Runs {
     double margin = 0;
     for (std::size_t c = 0; c < worst_.size(); ++c) {
       const claims::Finding& finding = findings[c];
-      Worst one{margin_of(finding, setup_->events->judged[c].kind), finding.violated(), finding,
-                cube_number, u};
-      if (lost) one.margin = kLargestMargin;
-      if (c == claim) margin = one.margin;
-      if (is_worse(one, worst_[c])) worst_[c] = std::move(one);
+      Worst worst{margin_of(finding, setup_->events->judged[c].kind), finding.violated(), finding,
+                  cube_number, u};
+      if (lost) worst.margin = kLargestMargin;
+      if (c == claim) margin = worst.margin;
+      if (is_worse(worst, worst_[c])) worst_[c] = std::move(worst);
     }
     return margin;
   }

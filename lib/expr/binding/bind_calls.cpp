@@ -88,19 +88,19 @@ NodePtr in_call(const Node& tree, const Node& call, const std::vector<std::strin
   return copy;
 }
 
-const Definition& definition_of(const Written& written) {
+const Definition& definition_of(const Written& wanted) {
   static const std::map<std::string_view, Definition> all = [] {
     std::map<std::string_view, Definition> made;
     for (const Function& function : functions())
-      if (const Written* one = std::get_if<Written>(&function.what)) {
-        Definition& to = made[one->text];
-        for (const auto part : std::views::split(one->parameters, std::string_view(", ")))
+      if (const Written* written = std::get_if<Written>(&function.what)) {
+        Definition& to = made[written->text];
+        for (const auto part : std::views::split(written->parameters, std::string_view(", ")))
           to.parameters.emplace_back(part.begin(), part.end());
-        to.body = parse(Text(std::string(one->text), std::string(function.name)));
+        to.body = parse(Text(std::string(written->text), std::string(function.name)));
       }
     return made;
   }();
-  return all.at(written.text);
+  return all.at(wanted.text);
 }
 
 }  // namespace

@@ -84,12 +84,12 @@ Bound Binder::in_near_units(const Expression& expression, const Node& node, cons
 
 /// Whether two systems have one transfer function, at real points beside the size of A.
 bool Binder::is_same_function(const Expression& expression, const Node& node, const Emitter& make,
-                              const Bound& one, const Bound& other) {
+                              const Bound& bound, const Bound& other) {
   const auto norm = [&](int at) {
     return scope_.known->number(
         known_program(expression, node, make(Op::norm, {at}), "the system of minreal"));
   };
-  int size = largest_gain(make, parts_of(make, one).a);
+  int size = largest_gain(make, parts_of(make, bound).a);
   if (norm(size) == 0) size = make.number("1");
   bool seen = false;
   for (const char* share : {"2.7e-12", "1.9e-9", "3.1e-6", "2.3e-3", "0.71"}) {
@@ -100,11 +100,11 @@ bool Binder::is_same_function(const Expression& expression, const Node& node, co
       const int inverse = make(Op::inverse, {make.subtract(shift, of.a)});
       return std::pair(inverse, make.add(of.d, make.multiply(of.c, make.multiply(inverse, of.b))));
     };
-    const auto [inverse, wanted] = value(one);
+    const auto [inverse, wanted] = value(bound);
     const int difference = make.subtract(wanted, value(other).second);
     constexpr double kRounding = 1e-13;  // of A, and of the sums of the value
     try {
-      const SystemParts of = parts_of(make, one);
+      const SystemParts of = parts_of(make, bound);
       const double states = norm(make.multiply(inverse, of.b));
       const double outputs = norm(make.multiply(of.c, inverse));
       const double rounding = outputs * states * norm(of.a) + norm(of.c) * states;

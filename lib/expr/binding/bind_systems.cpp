@@ -190,7 +190,7 @@ Bound Binder::pair_of_systems(const Expression& expression, const Node& node, Co
   }
   first = as_system(expression, node, first);
   second = as_system(expression, node, second);
-  const SystemParts one = parts_of(make, first), other = parts_of(make, second);
+  const SystemParts system_parts = parts_of(make, first), other = parts_of(make, second);
   int step = std::max(first.step, second.step);
   if (first.states > 0 && second.states > 0 && first.step != second.step)
     fail(expression, node,
@@ -203,28 +203,30 @@ Bound Binder::pair_of_systems(const Expression& expression, const Node& node, Co
            std::string("the systems do not fit: ") + std::to_string(outputs) + what +
                std::to_string(inputs));
   };
-  const int a = make.block_diagonal(one.a, other.a);
+  const int a = make.block_diagonal(system_parts.a, other.a);
   if (how == Composed::append)
     return system_of(make,
-                     {a, make.block_diagonal(one.b, other.b), make.block_diagonal(one.c, other.c),
-                      make.block_diagonal(one.d, other.d)},
+                     {a, make.block_diagonal(system_parts.b, other.b),
+                      make.block_diagonal(system_parts.c, other.c),
+                      make.block_diagonal(system_parts.d, other.d)},
                      step);
   if (how == Composed::parallel) {
     meet(inputs_of(make, first), inputs_of(make, second), " inputs beside ");
     meet(outputs_of(make, first), outputs_of(make, second), " outputs beside ");
     return system_of(make,
-                     {a, make.blocks({one.b, other.b}, 1), make.blocks({one.c, other.c}, 2),
-                      make.add(one.d, other.d)},
+                     {a, make.blocks({system_parts.b, other.b}, 1),
+                      make.blocks({system_parts.c, other.c}, 2), make.add(system_parts.d, other.d)},
                      step);
   }
   meet(outputs_of(make, first), inputs_of(make, second), " outputs meet inputs: ");
-  const int coupled = make.blocks(
-      {one.a, make.zeros({first.states, second.states}), make.multiply(other.b, one.c), other.a},
-      2);
+  const int coupled = make.blocks({system_parts.a, make.zeros({first.states, second.states}),
+                                   make.multiply(other.b, system_parts.c), other.a},
+                                  2);
   return system_of(
       make,
-      {coupled, make.blocks({one.b, make.multiply(other.b, one.d)}, 1),
-       make.blocks({make.multiply(other.d, one.c), other.c}, 2), make.multiply(other.d, one.d)},
+      {coupled, make.blocks({system_parts.b, make.multiply(other.b, system_parts.d)}, 1),
+       make.blocks({make.multiply(other.d, system_parts.c), other.c}, 2),
+       make.multiply(other.d, system_parts.d)},
       step);
 }
 
@@ -250,9 +252,9 @@ Bound Binder::divided_system(const Expression& expression, const Node& node, Bou
   if (by.is_system())
     fail(expression, node,
          "systems are not divided: a closed loop is feedback(G, K), 1/(1 + L) is feedback(1, L)");
-  const Bound one{number(expression, node, "1"), false, -1, -1};
+  const Bound bound{number(expression, node, "1"), false, -1, -1};
   return pair_of_systems(expression, node, Composed::series, system,
-                         divide(expression, node, one, by));
+                         divide(expression, node, bound, by));
 }
 
 namespace {

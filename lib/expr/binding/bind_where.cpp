@@ -80,10 +80,10 @@ std::optional<double> Binder::written_number(int at) const {
   if (!shape(at).is_scalar() || !scope_.known) return std::nullopt;
   const Program program = assembly_.extract(at);
   if (!program.inputs.empty() || !program.functions.empty()) return std::nullopt;
-  const bool is_whole = std::ranges::all_of(program.code, [](const Instruction& one) {
-    return one.op == Op::constant
-               ? one.text.find_first_not_of("0123456789") == std::string::npos
-               : is_one_of(one.op, {Op::add, Op::subtract, Op::negate, Op::multiply});
+  const bool is_whole = std::ranges::all_of(program.code, [](const Instruction& instruction) {
+    return instruction.op == Op::constant
+               ? instruction.text.find_first_not_of("0123456789") == std::string::npos
+               : is_one_of(instruction.op, {Op::add, Op::subtract, Op::negate, Op::multiply});
   });
   const double value = scope_.known->number(program);
   return is_whole || std::abs(value) >= kClear ? std::optional(value) : std::nullopt;

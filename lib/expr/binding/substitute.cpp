@@ -47,9 +47,10 @@ class Algebra {
   }
 
   /// Adds an instruction whose operands are here.
-  int add(const Instruction& one) {
-    return one.op == Op::multiply ? times(one.operands[0], one.operands[1], one)
-                                  : assembly.add(one);
+  int add(const Instruction& instruction) {
+    return instruction.op == Op::multiply
+               ? times(instruction.operands[0], instruction.operands[1], instruction)
+               : assembly.add(instruction);
   }
 
  private:
@@ -72,8 +73,8 @@ class Algebra {
   }
 
   int identity(int size, const Instruction& like) {
-    Instruction one{Op::constant, {}, {}, {}, "1", like.origin, like.offset};
-    return apply(Op::identity, {assembly.add(std::move(one))}, {size, size}, like);
+    Instruction instruction{Op::constant, {}, {}, {}, "1", like.origin, like.offset};
+    return apply(Op::identity, {assembly.add(std::move(instruction))}, {size, size}, like);
   }
 };
 
@@ -83,11 +84,13 @@ using Special =
 
 /// Adds a program; what each of its instructions became.
 std::vector<int> add_all(Algebra& algebra, const Program& program, const Special& special = {}) {
-  const auto replace = [&](const Instruction& one, const Instruction& copy) -> std::optional<int> {
-    if (one.op != Op::input && one.op != Op::call) return algebra.add(copy);
+  const auto replace = [&](const Instruction& instruction,
+                           const Instruction& copy) -> std::optional<int> {
+    if (instruction.op != Op::input && instruction.op != Op::call) return algebra.add(copy);
     if (!special) return std::nullopt;
-    if (one.op == Op::input) return special(program.input_of(one).name, std::nullopt);
-    return special(called_by(program, one), copy.operands.front());
+    if (instruction.op == Op::input)
+      return special(program.input_of(instruction).name, std::nullopt);
+    return special(called_by(program, instruction), copy.operands.front());
   };
   return algebra.assembly.add_all(program, replace);
 }
@@ -109,33 +112,35 @@ std::vector<int> occurrences(const Program& program, int of) {
 
 /// Undoes the instruction `one` around its operand k: what that operand is when the result is
 /// `value`. None: it cannot be undone.
-std::optional<int> undone(Algebra& algebra, const Instruction& one, std::size_t k, int value,
-                          const std::vector<int>& moved) {
+std::optional<int> undone(Algebra& algebra, const Instruction& instruction, std::size_t k,
+                          int value, const std::vector<int>& moved) {
   const Assembly& assembly = algebra.assembly;
-  const auto other = [&] { return moved[index(one.operands[1 - k])]; };
-  const Shape shape = assembly.shape(moved[index(one.operands[k])]);
-  switch (one.op) {
+  const auto other = [&] { return moved[index(instruction.operands[1 - k])]; };
+  const Shape shape = assembly.shape(moved[index(instruction.operands[k])]);
+  switch (instruction.op) {
     case Op::negate:
     case Op::transpose:
-      return algebra.apply(one.op, {value}, shape, one);
+      return algebra.apply(instruction.op, {value}, shape, instruction);
     case Op::inverse:
-      return algebra.inverse(value, one);
+      return algebra.inverse(value, instruction);
     case Op::add:
-      return algebra.apply(Op::subtract, {value, other()}, shape, one);
+      return algebra.apply(Op::subtract, {value, other()}, shape, instruction);
     case Op::subtract:
-      return k == 0 ? algebra.apply(Op::add, {value, other()}, shape, one)
-                    : algebra.apply(Op::subtract, {other(), value}, shape, one);
+      return k == 0 ? algebra.apply(Op::add, {value, other()}, shape, instruction)
+                    : algebra.apply(Op::subtract, {other(), value}, shape, instruction);
     case Op::scale:
       if (k == 0) return std::nullopt;
-      return algebra.apply(Op::scale, {algebra.inverse(other(), one), value}, shape, one);
+      return algebra.apply(Op::scale, {algebra.inverse(other(), instruction), value}, shape,
+                           instruction);
     case Op::divide:
       if (k == 1) return std::nullopt;
-      if (shape.is_scalar()) return algebra.times(other(), value, one);
-      return algebra.apply(Op::scale, {other(), value}, shape, one);
+      if (shape.is_scalar()) return algebra.times(other(), value, instruction);
+      return algebra.apply(Op::scale, {other(), value}, shape, instruction);
     case Op::multiply: {
       if (!assembly.shape(other()).is_square()) return std::nullopt;
-      const int back = algebra.inverse(other(), one);
-      return k == 0 ? algebra.times(value, back, one) : algebra.times(back, value, one);
+      const int back = algebra.inverse(other(), instruction);
+      return k == 0 ? algebra.times(value, back, instruction)
+                    : algebra.times(back, value, instruction);
     }
     default:
       return std::nullopt;
@@ -185,13 +190,14 @@ Program with_inputs(const Program& program,
   std::vector<int> moved(index(all.size()), -1);
   for (int at = 0; at < all.size(); ++at) {
     if (!needed[index(at)]) continue;
-    const Instruction& one = all[at];
+    const Instruction& instruction = all[at];
     if (const auto part = known.find(at); part != known.end()) {
-      moved[index(at)] = made.add_input(part->second, one.shape, one);
-    } else if (one.op == Op::input) {
-      moved[index(at)] = made.add_input(all.input_name(one), one.shape, one);
+      moved[index(at)] = made.add_input(part->second, instruction.shape, instruction);
+    } else if (instruction.op == Op::input) {
+      moved[index(at)] =
+          made.add_input(all.input_name(instruction), instruction.shape, instruction);
     } else {
-      moved[index(at)] = made.add(expr::moved(one, moved));
+      moved[index(at)] = made.add(expr::moved(instruction, moved));
     }
   }
   return made.extract(moved[index(result)]);
@@ -203,9 +209,10 @@ std::optional<Program> isolated(const Program& program, const std::string& part,
                                 const std::string& variable, const std::string& value) {
   int target = -1;
   for (std::size_t at = 0; at < program.code.size(); ++at) {
-    const Instruction& one = program.code[at];
-    const bool is_part = (one.op == Op::input && program.input_of(one).name == part) ||
-                         (one.op == Op::call && called_by(program, one) == part);
+    const Instruction& instruction = program.code[at];
+    const bool is_part =
+        (instruction.op == Op::input && program.input_of(instruction).name == part) ||
+        (instruction.op == Op::call && called_by(program, instruction) == part);
     if (!is_part) continue;
     if (target >= 0) return std::nullopt;
     target = static_cast<int>(at);
@@ -224,13 +231,13 @@ std::optional<Program> isolated(const Program& program, const std::string& part,
   const Instruction& top = program.code[index(program.result)];
   int known = algebra.assembly.add_input(value, top.shape, top);
   for (int at = program.result; at != target;) {
-    const Instruction& one = program.code[index(at)];
+    const Instruction& instruction = program.code[index(at)];
     std::size_t k = 0;
-    while (count[index(one.operands[k])] == 0) ++k;
-    const auto before = undone(algebra, one, k, known, moved);
+    while (count[index(instruction.operands[k])] == 0) ++k;
+    const auto before = undone(algebra, instruction, k, known, moved);
     if (!before) return std::nullopt;
     known = *before;
-    at = one.operands[k];
+    at = instruction.operands[k];
   }
   return algebra.assembly.extract(known);
 }

@@ -76,11 +76,11 @@ class BranchCollector {
 
   /// Whether the text of a value says so: asin, acos and atan are made of such angles.
   bool is_not_negative(int at) const {
-    const Instruction& one = assembly_[at];
+    const Instruction& instruction = assembly_[at];
     // A constant of the language has no sign.
-    if (one.op == Op::constant) return !one.text.starts_with('-');
-    if (one.op == Op::fill) return is_not_negative(one.operands[0]);
-    return is_one_of(one.op, {Op::sqrt, Op::abs, Op::exp, Op::norm});
+    if (instruction.op == Op::constant) return !instruction.text.starts_with('-');
+    if (instruction.op == Op::fill) return is_not_negative(instruction.operands[0]);
+    return is_one_of(instruction.op, {Op::sqrt, Op::abs, Op::exp, Op::norm});
   }
 
   int made(Op op, std::vector<int> operands, const Instruction& like) {
@@ -97,17 +97,17 @@ class BranchCollector {
   /// The derivative of what has a kink jumps.
   void keep(int difference, bool jumps, bool waves = false) {
     jumps = jumps || derivatives_ > 0;
-    Branch one{assembly_.extract(difference), jumps, waves};
-    const auto& inputs = one.difference.inputs;
+    Branch branch{assembly_.extract(difference), jumps, waves};
+    const auto& inputs = branch.difference.inputs;
     if (std::none_of(inputs.begin(), inputs.end(),
                      [&](const Input& input) { return moves_(input.name); }))
       return;
     for (Branch& known : found_)
-      if (is_same(known.difference, one.difference)) {
+      if (is_same(known.difference, branch.difference)) {
         known.jumps = known.jumps || jumps;
         return;
       }
-    found_.push_back(std::move(one));
+    found_.push_back(std::move(branch));
   }
 
   const std::function<bool(const std::string&)>& moves_;

@@ -39,17 +39,17 @@ class Direction {
   /// rule.
   std::optional<int> column(int unit) {
     for (std::size_t at = 0; at < body_.code.size(); ++at) {
-      const Instruction& one = body_.code[at];
-      like_ = &one;
-      if (one.op == Op::input) {
-        if (one.attributes[0] == 0) slopes_[at] = unit_slope(one.shape, unit);
+      const Instruction& instruction = body_.code[at];
+      like_ = &instruction;
+      if (instruction.op == Op::input) {
+        if (instruction.attributes[0] == 0) slopes_[at] = unit_slope(instruction.shape, unit);
         continue;
       }
       bool moves = false;
-      for (const int operand : one.operands)
+      for (const int operand : instruction.operands)
         moves = moves || !slopes_[static_cast<std::size_t>(operand)].is_zero();
       if (!moves) continue;
-      const auto found = slope(one, moved_[at]);
+      const auto found = slope(instruction, moved_[at]);
       if (!found) return std::nullopt;
       slopes_[at] = *found;
     }
@@ -65,15 +65,17 @@ class Direction {
  private:
   /// The derivative of one instruction by the rules above; none where there is no rule. `value`:
   /// the instruction itself in the program that is made.
-  std::optional<Slope> slope(const Instruction& one, int value) {
-    const auto x = [&](std::size_t k) { return moved_[static_cast<std::size_t>(one.operands[k])]; };
-    const auto d = [&](std::size_t k) {
-      return slopes_[static_cast<std::size_t>(one.operands[k])];
+  std::optional<Slope> slope(const Instruction& instruction, int value) {
+    const auto x = [&](std::size_t k) {
+      return moved_[static_cast<std::size_t>(instruction.operands[k])];
     };
-    const Shape shape = one.shape;
-    switch (one.op) {
+    const auto d = [&](std::size_t k) {
+      return slopes_[static_cast<std::size_t>(instruction.operands[k])];
+    };
+    const Shape shape = instruction.shape;
+    switch (instruction.op) {
       case Op::index:
-        if (d(0).unit >= 0) return part_of_unit(one, d(0).unit, assembly_.shape(x(0)).rows);
+        if (d(0).unit >= 0) return part_of_unit(instruction, d(0).unit, assembly_.shape(x(0)).rows);
         [[fallthrough]];
       case Op::fill:
       case Op::identity:
@@ -82,12 +84,12 @@ class Direction {
       case Op::trace:
       case Op::diagonal_matrix:
       case Op::diagonal_of:
-        return Slope{apply(one.op, {d(0).at}, shape, one.attributes)};
+        return Slope{apply(instruction.op, {d(0).at}, shape, instruction.attributes)};
       case Op::blocks: {
         std::vector<int> parts;
-        for (std::size_t k = 0; k < one.operands.size(); ++k)
+        for (std::size_t k = 0; k < instruction.operands.size(); ++k)
           parts.push_back(filled(d(k), assembly_.shape(x(k))));
-        return Slope{apply(Op::blocks, std::move(parts), shape, one.attributes)};
+        return Slope{apply(Op::blocks, std::move(parts), shape, instruction.attributes)};
       }
       case Op::add:
         return sum(d(0), d(1), shape);
@@ -96,21 +98,21 @@ class Direction {
       case Op::multiply:
       case Op::scale:
       case Op::elementwise_product: {
-        const Slope first = d(0).is_zero() ? d(0) : times(one.op, d(0), {x(1)}, shape);
-        const Slope second = d(1).is_zero() ? d(1) : times(one.op, {x(0)}, d(1), shape);
+        const Slope first = d(0).is_zero() ? d(0) : times(instruction.op, d(0), {x(1)}, shape);
+        const Slope second = d(1).is_zero() ? d(1) : times(instruction.op, {x(0)}, d(1), shape);
         return sum(first, second, shape);
       }
       case Op::divide:
       case Op::elementwise_quotient: {
-        const Op by = one.op == Op::divide ? Op::scale : Op::elementwise_product;
+        const Op by = instruction.op == Op::divide ? Op::scale : Op::elementwise_product;
         const Slope less = d(1).is_zero() ? d(1) : times(by, d(1), {value}, shape);
-        return Slope{apply(one.op, {difference(d(0), less, shape).at, x(1)}, shape)};
+        return Slope{apply(instruction.op, {difference(d(0), less, shape).at, x(1)}, shape)};
       }
       case Op::power:
         if (!shape.is_scalar()) return std::nullopt;
-        return power(one, x(0), d(0));
+        return power(instruction, x(0), d(0));
       case Op::elementwise_power:
-        return power(one, x(0), d(0));
+        return power(instruction, x(0), d(0));
       case Op::real_power: {
         if (!d(1).is_zero()) return std::nullopt;
         const int lower =
@@ -145,8 +147,8 @@ class Direction {
         return along(slope_of_modulus(x(0)), d(0), shape);
       case Op::minimum:
       case Op::maximum: {
-        const int first = one.op == Op::maximum ? x(0) : x(1);
-        const int second = one.op == Op::maximum ? x(1) : x(0);
+        const int first = instruction.op == Op::maximum ? x(0) : x(1);
+        const int second = instruction.op == Op::maximum ? x(1) : x(0);
         const int by = apply(Op::subtract, {second, first}, shape);
         return Slope{apply(Op::where, {by, filled(d(1), shape), filled(d(0), shape)}, shape, {1})};
       }
@@ -242,18 +244,19 @@ class Direction {
   /// A product with one of its factors replaced; -1: it is none of them.
   int replaced(int product, int factor, int by) {
     if (product == factor) return by;
-    const Instruction one = assembly_[product];
-    const bool multiplies =
-        one.op == Op::negate || one.op == Op::elementwise_product ||
-        (one.shape.is_scalar() && (one.op == Op::multiply || one.op == Op::scale));
+    const Instruction instruction = assembly_[product];
+    const bool multiplies = instruction.op == Op::negate ||
+                            instruction.op == Op::elementwise_product ||
+                            (instruction.shape.is_scalar() &&
+                             (instruction.op == Op::multiply || instruction.op == Op::scale));
     if (!multiplies) return -1;
-    for (std::size_t k = 0; k < one.operands.size(); ++k) {
-      if (assembly_.shape(one.operands[k]) != one.shape) continue;
-      const int part = replaced(one.operands[k], factor, by);
+    for (std::size_t k = 0; k < instruction.operands.size(); ++k) {
+      if (assembly_.shape(instruction.operands[k]) != instruction.shape) continue;
+      const int part = replaced(instruction.operands[k], factor, by);
       if (part < 0) continue;
-      std::vector<int> operands = one.operands;
+      std::vector<int> operands = instruction.operands;
       operands[k] = part;
-      return apply(one.op, std::move(operands), one.shape);
+      return apply(instruction.op, std::move(operands), instruction.shape);
     }
     return -1;
   }
@@ -262,13 +265,15 @@ class Direction {
     return times(Op::elementwise_product, {factor}, slope, shape);
   }
   /// k x^(k - 1) x', element by element.
-  Slope power(const Instruction& one, int x, const Slope& slope) {
-    const int exponent = one.attributes[0];
+  Slope power(const Instruction& instruction, int x, const Slope& slope) {
+    const int exponent = instruction.attributes[0];
     if (exponent == 0) return {};
     if (exponent == 1) return slope;
-    const int lower = exponent == 2 ? x : apply(one.op, {x}, one.shape, {exponent - 1});
-    const int factor = apply(Op::scale, {number(std::to_string(exponent)), lower}, one.shape);
-    return along(factor, slope, one.shape);
+    const int lower =
+        exponent == 2 ? x : apply(instruction.op, {x}, instruction.shape, {exponent - 1});
+    const int factor =
+        apply(Op::scale, {number(std::to_string(exponent)), lower}, instruction.shape);
+    return along(factor, slope, instruction.shape);
   }
 
   Assembly& assembly_;
@@ -303,11 +308,12 @@ std::optional<int> add_columns(Assembly& assembly, const Instruction& jacobian,
 /// they stay inputs.
 std::vector<int> add_instructions(Assembly& assembly, const Program& program,
                                   const std::vector<int>& inputs) {
-  const auto replace = [&](const Instruction& one, const Instruction& copy) -> std::optional<int> {
-    if (one.op == Op::input && !inputs.empty())
-      return inputs[static_cast<std::size_t>(one.attributes[0])];
-    if (one.op != Op::jacobian || one.shape.size() == 0) return std::nullopt;
-    return add_columns(assembly, one, copy.operands);
+  const auto replace = [&](const Instruction& instruction,
+                           const Instruction& copy) -> std::optional<int> {
+    if (instruction.op == Op::input && !inputs.empty())
+      return inputs[static_cast<std::size_t>(instruction.attributes[0])];
+    if (instruction.op != Op::jacobian || instruction.shape.size() == 0) return std::nullopt;
+    return add_columns(assembly, instruction, copy.operands);
   };
   return assembly.add_all(program, replace);
 }
@@ -316,7 +322,7 @@ std::vector<int> add_instructions(Assembly& assembly, const Program& program,
 
 Program with_derivatives(const Program& program) {
   bool any = false;
-  for (const Instruction& one : program.code) any = any || one.op == Op::jacobian;
+  for (const Instruction& instruction : program.code) any = any || instruction.op == Op::jacobian;
   if (!any) return program;
   Assembly assembly;
   const auto moved = add_instructions(assembly, program, {});

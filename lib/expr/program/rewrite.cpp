@@ -15,11 +15,13 @@ namespace {
 /// which is the instruction `argument`. The index of its result.
 int add_linked(Assembly& assembly, const Program& program, const BodyOf& body,
                const std::string& variable = "", int argument = -1) {
-  const auto replace = [&](const Instruction& one, const Instruction& copy) -> std::optional<int> {
-    if (one.op == Op::input && argument >= 0 && program.input_of(one).name == variable)
+  const auto replace = [&](const Instruction& instruction,
+                           const Instruction& copy) -> std::optional<int> {
+    if (instruction.op == Op::input && argument >= 0 &&
+        program.input_of(instruction).name == variable)
       return argument;
-    if (one.op != Op::call) return std::nullopt;
-    const Body& found = body(called_by(program, one), one);
+    if (instruction.op != Op::call) return std::nullopt;
+    const Body& found = body(called_by(program, instruction), instruction);
     return add_linked(assembly, found.program, body, found.variable, copy.operands[0]);
   };
   return assembly.add_program(program, replace);

@@ -68,7 +68,7 @@ void CsvTable::read(FirstLine first) {
       names_.push_back(std::to_string(names_.size() + 1));
     if (cells.size() == names_.size() && lines_.empty() && first == FirstLine::names &&
         std::exchange(may_be_units, false) && are_units(cells)) {
-      for (const Cell& one : cells) units_.push_back(text(one));
+      for (const Cell& cell : cells) units_.push_back(text(cell));
       continue;
     }
     if (cells.size() != names_.size())
@@ -126,9 +126,9 @@ CsvTable::Cell CsvTable::cell(std::size_t& at, int& number, std::size_t& line_be
 }
 
 void CsvTable::read_header(const std::vector<Cell>& cells, const Line& line) {
-  for (const Cell& one : cells) {
-    const std::string name = text(one);
-    const Place place = this->place(line, one);
+  for (const Cell& cell : cells) {
+    const std::string name = text(cell);
+    const Place place = this->place(line, cell);
     if (parse_decimal(name))
       throw InputError(place, "expected a line of column names, found the number " + name +
                                   (has_comments_ ? "; lines that begin with # are comments" : ""));
@@ -143,17 +143,17 @@ void CsvTable::read_header(const std::vector<Cell>& cells, const Line& line) {
 
 /// No cell is quoted or begins as a number, behind signs and a point.
 bool CsvTable::are_units(const std::vector<Cell>& cells) const {
-  return std::all_of(cells.begin(), cells.end(), [&](const Cell& one) {
-    const std::string word = text(one);
+  return std::all_of(cells.begin(), cells.end(), [&](const Cell& cell) {
+    const std::string word = text(cell);
     const std::size_t at = word.find_first_not_of("+-.");
-    return !one.quoted && (at == std::string::npos || word.find_first_of("0123456789") != at);
+    return !cell.quoted && (at == std::string::npos || word.find_first_of("0123456789") != at);
   });
 }
 
 bool CsvTable::is_heading(const std::vector<Cell>& cells) const {
-  return std::all_of(cells.begin(), cells.end(), [&](const Cell& one) {
+  return std::all_of(cells.begin(), cells.end(), [&](const Cell& cell) {
     constexpr std::array kValues = {"na", "nan", "n/a", "null", "none", "inf", "true", "false"};
-    std::string word = text(one);
+    std::string word = text(cell);
     std::transform(word.begin(), word.end(), word.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     const bool named =

@@ -27,11 +27,11 @@ std::vector<YamlItem> items_without(const YamlFile& file, const std::optional<Ya
                                     const std::string& what, bool like, Removed& removed) {
   // A YAML::Node that is assigned to changes what it referred to: items are copied, never moved.
   std::vector<YamlItem> items;
-  for (const YamlItem& one : items_of(file, item, what))
-    if (like && is_none(one.value))
-      removed.insert(one.key);
+  for (const YamlItem& yaml_item : items_of(file, item, what))
+    if (like && is_none(yaml_item.value))
+      removed.insert(yaml_item.key);
     else
-      items.push_back(one);
+      items.push_back(yaml_item);
   return items;
 }
 
@@ -196,13 +196,13 @@ Component logged(const YamlFile& file, const YamlItem& item, YamlMap& map,
 void require_replacing(const YamlFile& file, const YamlItem& item, const YamlItem& like,
                        const std::vector<model::Let>& known, const std::vector<model::Let>& own) {
   std::vector<std::string> names;
-  for (const model::Let& one : known) names.push_back(one.signature.name);
-  for (const model::Let& one : own) {
-    const std::string& name = one.signature.name;
+  for (const model::Let& let : known) names.push_back(let.signature.name);
+  for (const model::Let& let : own) {
+    const std::string& name = let.signature.name;
     if (std::find(names.begin(), names.end(), name) != names.end()) continue;
     if (is_read(item.value, name)) continue;
     if (const auto near = nearest(name, names))
-      throw InputError(one.place, "'" + name + "' is no definition of " +
+      throw InputError(let.place, "'" + name + "' is no definition of " +
                                       file.string(like.value, "like") +
                                       ", and nothing reads it; did you mean '" + *near + "'?");
   }
@@ -275,8 +275,9 @@ std::optional<Spread> spread(const YamlFile& file, YamlMap& map, const std::stri
   if (!normal && !lognormal) return std::nullopt;
   const YamlItem& item = normal ? *normal : *lognormal;
   if (normal && lognormal) throw InputError(item.place, "either normal or lognormal, not both");
-  const auto value = [&](const YamlItem& one) {
-    return model::Value{one.key, matrix_of(file, one), false, file.place(one.value)};
+  const auto value = [&](const YamlItem& yaml_item) {
+    return model::Value{yaml_item.key, matrix_of(file, yaml_item), false,
+                        file.place(yaml_item.value)};
   };
   const expr::Text otherwise = expr::Text::generated(normal ? mean : median, item.place);
   Spread said{normal.has_value(), {{item.key, expr::parse(otherwise), false, item.place}}};

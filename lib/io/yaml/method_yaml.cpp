@@ -307,10 +307,11 @@ model::Method method_from(const YamlFile& file, const YAML::Node& node, const st
     method.require.push_back(requirement(file, item));
   for (const YamlItem& item : items_of(file, map.find("necessary"), "necessary"))
     method.necessary.push_back(requirement(file, item));
-  for (const model::Requirement& one : method.necessary)
+  for (const model::Requirement& requirement : method.necessary)
     for (const model::Requirement& other : method.require)
-      if (one.name == other.name)
-        throw InputError(one.place, "'" + one.name + "' is under 'require' already");
+      if (requirement.name == other.name)
+        throw InputError(requirement.place,
+                         "'" + requirement.name + "' is under 'require' already");
   method.minimize = optional_expression(file, map.find("minimize"));
   for (const YamlItem& item : items_of(file, map.find("gains"), "gains"))
     method.gains.push_back(gain(file, item));

@@ -65,17 +65,18 @@ class Exponential {
   /// Instructions of the inputs of the rate, in their order, with `state` for the state.
   std::vector<int> inputs_of_rate(int state) {
     std::vector<int> inputs;
-    for (const expr::Input& one : rate_.inputs) {
-      const std::string operand = one.name.substr(one.name.find_last_of(' ') + 1);
-      inputs.push_back(one.name == kState ? state : assembly_.add_input(operand, one.shape, of_));
+    for (const expr::Input& input : rate_.inputs) {
+      const std::string operand = input.name.substr(input.name.find_last_of(' ') + 1);
+      inputs.push_back(input.name == kState ? state
+                                            : assembly_.add_input(operand, input.shape, of_));
     }
     return inputs;
   }
   /// The rate with these instructions for its inputs.
   int rate_at(const std::vector<int>& inputs) {
-    return assembly_.add_program(rate_, [&](const Instruction& one, const Instruction&) {
-      return one.op == Op::input
-                 ? std::optional(inputs[static_cast<std::size_t>(one.attributes[0])])
+    return assembly_.add_program(rate_, [&](const Instruction& instruction, const Instruction&) {
+      return instruction.op == Op::input
+                 ? std::optional(inputs[static_cast<std::size_t>(instruction.attributes[0])])
                  : std::nullopt;
     });
   }

@@ -19,7 +19,7 @@ namespace {
 /// The programs whose signs decide on branches.
 std::vector<const expr::Program*> differences_of(const std::vector<expr::Branch>& branches) {
   std::vector<const expr::Program*> programs;
-  for (const expr::Branch& one : branches) programs.push_back(&one.difference);
+  for (const expr::Branch& branch : branches) programs.push_back(&branch.difference);
   return programs;
 }
 
@@ -74,9 +74,9 @@ struct FlowMapEvaluator::Kept {
         if (places.emplace(input.name, used).second) used += input.shape.size();
     };
     add(*instruction.body);
-    for (const expr::Branch& one : branches) {
-      add(one.difference);
-      elements += one.difference.shape().size();
+    for (const expr::Branch& branch : branches) {
+      add(branch.difference);
+      elements += branch.difference.shape().size();
     }
     return used;
   }

@@ -17,10 +17,10 @@ expr::Program derivative(const expr::Program& of, std::size_t by) {
   auto body = std::make_shared<expr::Program>(of);
   const auto at = body->inputs.begin() + static_cast<std::ptrdiff_t>(by);
   std::rotate(body->inputs.begin(), at, at + 1);  // a jacobian is by the first input
-  for (expr::Instruction& one : body->code) {
-    int& input = one.attributes[0];
+  for (expr::Instruction& instruction : body->code) {
+    int& input = instruction.attributes[0];
     const int last = static_cast<int>(by);
-    if (one.op == expr::Op::input && input <= last) input = input == last ? 0 : input + 1;
+    if (instruction.op == expr::Op::input && input <= last) input = input == last ? 0 : input + 1;
   }
   expr::Assembly assembly;
   std::vector<int> operands;

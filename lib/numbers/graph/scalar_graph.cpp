@@ -139,10 +139,10 @@ int ScalarGraph::where(bool strict, int difference, int b, int c) {
 int ScalarGraph::apply(ScalarOp op, int a, int b) { return folded({op, a, b, -1}); }
 
 bool ScalarGraph::is_partial(int at) const {
-  const Node& one = nodes_[index(at)];
-  switch (one.op) {
+  const Node& node = nodes_[index(at)];
+  switch (node.op) {
     case ScalarOp::divide:
-      return !is_constant(one.b) || value(one.b) == 0;
+      return !is_constant(node.b) || value(node.b) == 0;
     case ScalarOp::power:
     case ScalarOp::mod:
     case ScalarOp::exp:

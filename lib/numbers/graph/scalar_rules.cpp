@@ -18,15 +18,15 @@ constexpr int kMostTerms = 4096;
 
 }  // namespace
 
-bool NodeRules::linear(const Instruction& one, const TracedOperands& in,
+bool NodeRules::linear(const Instruction& instruction, const TracedOperands& in,
                        const std::vector<const Nodes*>& nodes, Nodes& out) {
-  const Shape shape = one.shape;
+  const Shape shape = instruction.shape;
   const auto place = [&](const auto& made) {
     for (int column = 0; column < shape.cols; ++column)
       for (int row = 0; row < shape.rows; ++row) out.push_back(made(row, column));
     return true;
   };
-  switch (one.op) {
+  switch (instruction.op) {
     case Op::zeros:
       out = zeros(shape);
       return true;
@@ -44,10 +44,11 @@ bool NodeRules::linear(const Instruction& one, const TracedOperands& in,
       return place([&](int row, int column) { return (*nodes[0])[at(in[0]->shape, column, row)]; });
     case Op::index:
       return place([&](int row, int column) {
-        return (*nodes[0])[at(in[0]->shape, one.attributes[0] + row, one.attributes[2] + column)];
+        return (*nodes[0])[at(in[0]->shape, instruction.attributes[0] + row,
+                              instruction.attributes[2] + column)];
       });
     case Op::blocks:
-      blocks(one, in, nodes, out);
+      blocks(instruction, in, nodes, out);
       return true;
     case Op::trace: {
       int sum = zero();
@@ -68,10 +69,10 @@ bool NodeRules::linear(const Instruction& one, const TracedOperands& in,
 }
 
 /// [A, B; C, D], row of blocks by row of blocks, with attributes[0] operands in each.
-void NodeRules::blocks(const Instruction& one, const TracedOperands& in,
+void NodeRules::blocks(const Instruction& instruction, const TracedOperands& in,
                        const std::vector<const Nodes*>& nodes, Nodes& out) {
-  out = zeros(one.shape);
-  const auto columns = static_cast<std::size_t>(one.attributes[0]);
+  out = zeros(instruction.shape);
+  const auto columns = static_cast<std::size_t>(instruction.attributes[0]);
   int row = 0;
   for (std::size_t first = 0; first < in.size(); first += columns) {
     int column = 0;
@@ -79,7 +80,7 @@ void NodeRules::blocks(const Instruction& one, const TracedOperands& in,
       const Shape part = in[j]->shape;
       for (int c = 0; c < part.cols; ++c)
         for (int r = 0; r < part.rows; ++r)
-          out[at(one.shape, row + r, column + c)] = (*nodes[j])[at(part, r, c)];
+          out[at(instruction.shape, row + r, column + c)] = (*nodes[j])[at(part, r, c)];
       column += part.cols;
     }
     row += in[first]->shape.rows;

@@ -15,7 +15,7 @@ class Slopes : public NodeRules {
  public:
   Slopes(ScalarGraph& graph, Derivative kind) : NodeRules(graph), kind_(kind) {}
 
-  Nodes operator()(const Instruction& one, const TracedOperands& in, std::size_t d,
+  Nodes operator()(const Instruction& instruction, const TracedOperands& in, std::size_t d,
                    const TracedMatrix& out) {
     std::vector<Nodes> still(in.size());  // of what does not move
     std::vector<const Nodes*> slopes;
@@ -25,7 +25,7 @@ class Slopes : public NodeRules {
     }
     Nodes result;
     const auto each = [&](const auto& made) {
-      for (std::size_t k = 0; k < static_cast<std::size_t>(one.shape.size()); ++k)
+      for (std::size_t k = 0; k < static_cast<std::size_t>(instruction.shape.size()); ++k)
         result.push_back(made(k));
       return result;
     };
@@ -37,7 +37,7 @@ class Slopes : public NodeRules {
         return graph_.is_zero(moved(0, k)) ? zero() : graph_.multiply(factor(k), moved(0, k));
       });
     };
-    switch (one.op) {
+    switch (instruction.op) {
       case Op::add:
         return each([&](std::size_t k) { return graph_.add(moved(0, k), moved(1, k)); });
       case Op::subtract:
@@ -54,7 +54,7 @@ class Slopes : public NodeRules {
         });
       case Op::divide:
       case Op::elementwise_quotient: {
-        const bool by_number = one.op == Op::divide;
+        const bool by_number = instruction.op == Op::divide;
         return each([&](std::size_t k) {
           const std::size_t by = by_number ? 0 : k;
           const int top = graph_.subtract(moved(0, k), graph_.multiply(out.value[k], moved(1, by)));
@@ -64,10 +64,10 @@ class Slopes : public NodeRules {
       case Op::multiply:
         return product_slope(*in[0], *slopes[0], *in[1], *slopes[1]);
       case Op::power:
-        return power_slope(*in[0], *slopes[0], one.attributes[0]);
+        return power_slope(*in[0], *slopes[0], instruction.attributes[0]);
       case Op::elementwise_power: {
-        const int exponent = one.attributes[0];
-        if (exponent == 0) return zeros(one.shape);
+        const int exponent = instruction.attributes[0];
+        if (exponent == 0) return zeros(instruction.shape);
         return along([&](std::size_t k) {
           return graph_.multiply(number(exponent), power(value(0, k), exponent - 1));
         });
@@ -97,7 +97,7 @@ class Slopes : public NodeRules {
         });
       case Op::sign:
       case Op::floor:
-        return zeros(one.shape);
+        return zeros(instruction.shape);
       case Op::mod:
         return each([&](std::size_t k) {
           const int turns = graph_.apply(
@@ -125,20 +125,20 @@ class Slopes : public NodeRules {
                               moved(0, k));
         });
       case Op::where: {
-        const bool strict = one.attributes[0] != 0;
+        const bool strict = instruction.attributes[0] != 0;
         return each([&](std::size_t k) {
           return graph_.where(strict, value(0, k), moved(1, k), moved(2, k));
         });
       }
       case Op::inverse: {  // -R A' R
-        const auto left = product(one.shape, out.value, one.shape, *slopes[0]);
-        const auto all =
-            left ? product(one.shape, *left, one.shape, out.value) : std::optional<Nodes>();
+        const auto left = product(instruction.shape, out.value, instruction.shape, *slopes[0]);
+        const auto all = left ? product(instruction.shape, *left, instruction.shape, out.value)
+                              : std::optional<Nodes>();
         if (!all) throw NoFormula();
         return each([&](std::size_t k) { return graph_.negate((*all)[k]); });
       }
       case Op::matrix_exponential:
-        return exponential_slope(one, *in[0], *slopes[0], out);
+        return exponential_slope(instruction, *in[0], *slopes[0], out);
       case Op::norm: {
         int sum = zero();
         for (std::size_t k = 0; k < in[0]->value.size(); ++k)
@@ -148,7 +148,7 @@ class Slopes : public NodeRules {
       default:
         break;
     }
-    if (!linear(one, in, slopes, result)) throw NoFormula();
+    if (!linear(instruction, in, slopes, result)) throw NoFormula();
     return result;
   }
 
@@ -185,9 +185,9 @@ class Slopes : public NodeRules {
   }
 
   /// The upper right of exp([X, dX; 0, X]).
-  Nodes exponential_slope(const Instruction& one, const TracedMatrix& in, const Nodes& moved,
-                          const TracedMatrix& out) {
-    const int n = one.shape.rows;
+  Nodes exponential_slope(const Instruction& instruction, const TracedMatrix& in,
+                          const Nodes& moved, const TracedMatrix& out) {
+    const int n = instruction.shape.rows;
     if (n == 1) return {graph_.multiply(out.value[0], moved[0])};
     const auto argument = as_multiple(in.value, n, graph_);
     const auto rate = as_multiple(moved, n, graph_);
@@ -205,7 +205,7 @@ class Slopes : public NodeRules {
         operand[at(both, i, j)] = operand[at(both, n + i, n + j)] = in.value[from];
         operand[at(both, i, n + j)] = moved[from];
       }
-    Instruction larger = one;
+    Instruction larger = instruction;
     larger.shape = both;
     const Nodes whole = block_of({larger, {operand}, {both}});
     Nodes result;
@@ -234,9 +234,9 @@ class Slopes : public NodeRules {
 
 }  // namespace
 
-Nodes slope(ScalarGraph& graph, const Instruction& one, const TracedOperands& in, std::size_t d,
-            const TracedMatrix& out, Derivative kind) {
-  return Slopes(graph, kind)(one, in, d, out);
+Nodes slope(ScalarGraph& graph, const Instruction& instruction, const TracedOperands& in,
+            std::size_t d, const TracedMatrix& out, Derivative kind) {
+  return Slopes(graph, kind)(instruction, in, d, out);
 }
 
 }  // namespace gainsmith::numbers

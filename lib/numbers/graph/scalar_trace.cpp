@@ -42,14 +42,15 @@ class Tracer : public NodeRules {
   }
 
  private:
-  TracedMatrix instruction(const Instruction& one, const TracedOperands& operands) {
-    if (one.op == Op::norm && !is_line(operands[0]->shape)) return largest(one, operands);
-    if (one.op == Op::flow_map)
-      if (auto exact = exact_flow(one, operands)) return std::move(*exact);
-    TracedMatrix out{one.shape, {}};
-    if (!value(one, operands, out)) return block(one, operands);
+  TracedMatrix instruction(const Instruction& instruction, const TracedOperands& operands) {
+    if (instruction.op == Op::norm && !is_line(operands[0]->shape))
+      return largest(instruction, operands);
+    if (instruction.op == Op::flow_map)
+      if (auto exact = exact_flow(instruction, operands)) return std::move(*exact);
+    TracedMatrix out{instruction.shape, {}};
+    if (!value(instruction, operands, out)) return block(instruction, operands);
     for (std::size_t d = 0; d < directions_of(operands); ++d)
-      out.slopes.push_back(slope(graph_, one, operands, d, out, kind_));
+      out.slopes.push_back(slope(graph_, instruction, operands, d, out, kind_));
     return out;
   }
 
@@ -64,18 +65,18 @@ class Tracer : public NodeRules {
     return directions;
   }
 
-  TracedMatrix block(const Instruction& one, const TracedOperands& operands) {
+  TracedMatrix block(const Instruction& instruction, const TracedOperands& operands) {
     const std::size_t directions = directions_of(operands);
-    if (directions > 0 && kind_ == Derivative::jacobian && one.op == Op::flow_map)
-      return moving_flow(one, operands, directions);
-    if (directions > 0 && (kind_ == Derivative::jacobian || !has_block_slope(one.op)))
+    if (directions > 0 && kind_ == Derivative::jacobian && instruction.op == Op::flow_map)
+      return moving_flow(instruction, operands, directions);
+    if (directions > 0 && (kind_ == Derivative::jacobian || !has_block_slope(instruction.op)))
       throw NoFormula();
-    ScalarGraph::Block made{one, {}, {}};
+    ScalarGraph::Block made{instruction, {}, {}};
     for (const TracedMatrix* operand : operands) {
       made.operands.push_back(operand->value);
       made.shapes.push_back(operand->shape);
     }
-    TracedMatrix out{one.shape, block_of(made)};
+    TracedMatrix out{instruction.shape, block_of(made)};
     for (std::size_t d = 0; d < directions; ++d) {
       ScalarGraph::Block moved = made;
       moved.is_slope = true;
@@ -115,8 +116,9 @@ class Tracer : public NodeRules {
   }
 
   /// Of a flow map along an affine rate.
-  std::optional<TracedMatrix> exact_flow(const Instruction& one, const TracedOperands& operands) {
-    const auto exact = affine_flow_map(one);
+  std::optional<TracedMatrix> exact_flow(const Instruction& instruction,
+                                         const TracedOperands& operands) {
+    const auto exact = affine_flow_map(instruction);
     if (!exact) return std::nullopt;
     const ScalarGraph::Mark before = graph_.mark();
     try {
@@ -143,19 +145,19 @@ class Tracer : public NodeRules {
   }
 
   /// False: there is no formula.
-  bool value(const Instruction& one, const TracedOperands& in, TracedMatrix& out) {
+  bool value(const Instruction& instruction, const TracedOperands& in, TracedMatrix& out) {
     const auto of = [&](std::size_t operand, std::size_t element) {
       return in[operand]->value[element];
     };
     const auto each = [&](const auto& made) {
-      for (std::size_t k = 0; k < static_cast<std::size_t>(one.shape.size()); ++k)
+      for (std::size_t k = 0; k < static_cast<std::size_t>(instruction.shape.size()); ++k)
         out.value.push_back(made(k));
       return true;
     };
-    switch (one.op) {
+    switch (instruction.op) {
       case Op::constant: {
-        const auto parsed =
-            one.text == "pi" ? std::optional(std::numbers::pi) : parse_decimal(one.text);
+        const auto parsed = instruction.text == "pi" ? std::optional(std::numbers::pi)
+                                                     : parse_decimal(instruction.text);
         if (!parsed) return false;
         out.value = {number(*parsed)};
         return true;
@@ -171,9 +173,9 @@ class Tracer : public NodeRules {
       case Op::elementwise_quotient:
         return each([&](std::size_t k) { return graph_.divide(of(0, k), of(1, k)); });
       case Op::elementwise_power:
-        return each([&](std::size_t k) { return power(of(0, k), one.attributes[0]); });
+        return each([&](std::size_t k) { return power(of(0, k), instruction.attributes[0]); });
       case Op::where: {
-        const bool strict = one.attributes[0] != 0;
+        const bool strict = instruction.attributes[0] != 0;
         return each(
             [&](std::size_t k) { return graph_.where(strict, of(0, k), of(1, k), of(2, k)); });
       }
@@ -184,7 +186,7 @@ class Tracer : public NodeRules {
         return true;
       }
       case Op::power: {
-        auto result = matrix_power(in[0]->shape, in[0]->value, one.attributes[0]);
+        auto result = matrix_power(in[0]->shape, in[0]->value, instruction.attributes[0]);
         if (!result) return false;
         out.value = std::move(*result);
         return true;
@@ -193,27 +195,27 @@ class Tracer : public NodeRules {
         norm(*in[0], out);
         return true;
       case Op::inverse:
-        if (one.shape.size() == 1)
+        if (instruction.shape.size() == 1)
           return each([&](std::size_t k) { return graph_.divide(number(1), of(0, k)); });
-        out.value = block_of({one, {in[0]->value}, {in[0]->shape}});
+        out.value = block_of({instruction, {in[0]->value}, {in[0]->shape}});
         return true;
       case Op::matrix_exponential:
-        if (one.shape.size() == 1)
+        if (instruction.shape.size() == 1)
           return each([&](std::size_t k) { return graph_.apply(ScalarOp::exp, of(0, k)); });
-        out.value = exponential(one, *in[0]);
+        out.value = exponential(instruction, *in[0]);
         return true;
       case Op::jacobian:
-        return jacobian(one, in, out);
+        return jacobian(instruction, in, out);
       default:
         break;
     }
-    if (const auto op = elementwise(one.op)) {
-      const bool two = one.operands.size() == 2;
+    if (const auto op = elementwise(instruction.op)) {
+      const bool two = instruction.operands.size() == 2;
       return each([&](std::size_t k) { return graph_.apply(*op, of(0, k), two ? of(1, k) : -1); });
     }
     std::vector<const Nodes*> nodes;
     for (const TracedMatrix* operand : in) nodes.push_back(&operand->value);
-    return linear(one, in, nodes, out.value);
+    return linear(instruction, in, nodes, out.value);
   }
 
   static std::optional<ScalarOp> elementwise(Op op) {
@@ -241,20 +243,20 @@ class Tracer : public NodeRules {
     out.value = {graph_.apply(ScalarOp::sqrt, sum)};
   }
 
-  Nodes exponential(const Instruction& one, const TracedMatrix& in) {
+  Nodes exponential(const Instruction& instruction, const TracedMatrix& in) {
     std::optional<Nodes> nodes;
-    if (const auto argument = as_multiple(in.value, one.shape.rows, graph_))
+    if (const auto argument = as_multiple(in.value, instruction.shape.rows, graph_))
       nodes = exponential_nodes(*argument, graph_);
-    return nodes ? std::move(*nodes) : block_of({one, {in.value}, {in.shape}});
+    return nodes ? std::move(*nodes) : block_of({instruction, {in.value}, {in.shape}});
   }
 
   /// Rows are the elements of the body's value, columns those of the first operand.
-  bool jacobian(const Instruction& one, const TracedOperands& in, TracedMatrix& out) {
+  bool jacobian(const Instruction& instruction, const TracedOperands& in, TracedMatrix& out) {
     if (std::any_of(in.begin(), in.end(), [](const auto* operand) { return operand->moves(); }))
       throw NoFormula();
-    const auto& inputs = one.body->inputs;
+    const auto& inputs = instruction.body->inputs;
     const auto input = [&](const expr::Input& named) {
-      const auto k = static_cast<std::size_t>(one.body->input(named.name));
+      const auto k = static_cast<std::size_t>(instruction.body->input(named.name));
       TracedMatrix given = *in[k];
       if (k > 0) return given;
       const std::size_t size = given.value.size();
@@ -269,7 +271,7 @@ class Tracer : public NodeRules {
     const Derivative kind = std::exchange(kind_, Derivative::jacobian);
     bool has_formula = true;
     try {
-      const TracedMatrix result = program(*one.body, input);
+      const TracedMatrix result = program(*instruction.body, input);
       for (std::size_t d = 0; d < in[0]->value.size(); ++d) {
         const Nodes column = result.moves() ? result.slopes[d] : zeros(result.shape);
         out.value.insert(out.value.end(), column.begin(), column.end());

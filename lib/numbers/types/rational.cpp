@@ -124,8 +124,8 @@ void RationalNumbers::apply(const expr::Instruction& instruction, expr::Operands
 
 /// By the operations alone, whatever their operands.
 void require_fractions(const expr::Program& program) {
-  for (const expr::Instruction& one : program.code)
-    if (is_irrational(one.op)) not_rational(one.op);
+  for (const expr::Instruction& instruction : program.code)
+    if (is_irrational(instruction.op)) not_rational(instruction.op);
 }
 
 RationalMatrix rational_value(const expr::Program& program, const RationalValues& values) {
