@@ -71,10 +71,10 @@ std::vector<std::vector<ClaimOfRuns>> grouped(std::vector<ClaimOfRuns> claims, b
   while (!claims.empty()) {
     std::vector<ClaimOfRuns> group = {claims.front()};
     claims.erase(claims.begin());
-    const auto fits = [&](const ClaimOfRuns& claim_of_runs) {
+    const auto fits = [&](const ClaimOfRuns& claim) {
       return !alone && std::any_of(group.begin(), group.end(), [&](const ClaimOfRuns& member) {
-        const auto [least, greatest] = std::minmax(claim_of_runs.most, member.most);
-        return claim_of_runs.unit == member.unit && claim_of_runs.negative == member.negative &&
+        const auto [least, greatest] = std::minmax(claim.most, member.most);
+        return claim.unit == member.unit && claim.negative == member.negative &&
                (greatest <= kFar * least || greatest == 0);
       });
     };

@@ -92,10 +92,10 @@ void add_numbers(const std::vector<SystemNumber>& all, std::size_t designs, Tabl
     if (!done.insert(first.what).second) continue;
     std::vector<numbers::Matrix> values(designs);
     std::vector<const numbers::Matrix*> known(designs, nullptr);
-    for (const SystemNumber& system_number : all)
-      if (system_number.what == first.what) {
-        values[system_number.design] = numbers::Matrix::Constant(1, 1, system_number.value);
-        known[system_number.design] = &values[system_number.design];
+    for (const SystemNumber& number : all)
+      if (number.what == first.what) {
+        values[number.design] = numbers::Matrix::Constant(1, 1, number.value);
+        known[number.design] = &values[number.design];
       }
     table.add(first.what, known);
   }
@@ -203,12 +203,11 @@ page::Comparison compared(const std::vector<std::string>& paths,
   add_campaigns(results, table);
   const std::vector<SystemResult> figures = system_results(designs);
   std::vector<SystemNumber> numbers;
-  for (const SystemResult& system_result : figures) {
-    numbers.insert(numbers.end(), system_result.numbers.begin(), system_result.numbers.end());
-    comparison.figures.push_back(
-        {system_result.figure.title,
-         system_result.missing.empty() ? drawing::svg(system_result.figure) : "",
-         system_result.facts});
+  for (const SystemResult& result : figures) {
+    numbers.insert(numbers.end(), result.numbers.begin(), result.numbers.end());
+    comparison.figures.push_back({result.figure.title,
+                                  result.missing.empty() ? drawing::svg(result.figure) : "",
+                                  result.facts});
   }
   add_numbers(numbers, designs.size(), table);
   try {

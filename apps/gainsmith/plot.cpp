@@ -46,8 +46,8 @@ std::string file_of(const std::string& output, const std::string& name, bool sin
 std::vector<std::string> files_of(const std::string& output,
                                   const std::vector<SystemResult>& results) {
   std::vector<std::string> files;
-  for (const SystemResult& system_result : results) {
-    files.push_back(output.empty() ? "" : file_of(output, system_result.name, results.size() == 1));
+  for (const SystemResult& result : results) {
+    files.push_back(output.empty() ? "" : file_of(output, result.name, results.size() == 1));
     if (!output.empty() && std::count(files.begin(), files.end(), files.back()) > 1)
       throw InputError({"--output"}, "two pictures would be " + files.back() +
                                          ": give the figures other names, or one with --figure");
@@ -77,7 +77,7 @@ ExitCode plot(const PlotOptions& options) {
                      "\"tf(1, [1, 2, 1])\"}}");
   std::vector<SystemResult> results = system_results(designs, options.figures);
   std::vector<drawing::Figure*> figures;
-  for (SystemResult& system_result : results) figures.push_back(&system_result.figure);
+  for (SystemResult& result : results) figures.push_back(&result.figure);
   if (!options.presentation.title.empty() && results.size() > 1 && options.figures.size() != 1)
     throw InputError({"--title"}, "of several pictures each has its own: choose one with --figure");
   present(options.presentation, figures);
@@ -87,16 +87,16 @@ ExitCode plot(const PlotOptions& options) {
   std::string text;
   io::Json document = io::Json::array();
   for (std::size_t k = 0; k < results.size(); ++k) {
-    const SystemResult& system_result = results[k];
-    io::Json entry = system_result.data;
-    entry["facts"] = system_result.facts;
-    text += system_result.name + "\n";
-    for (const std::string& fact : system_result.facts) text += "  " + fact + "\n";
-    if (!system_result.missing.empty()) {
-      text += "  no picture: " + system_result.missing + "\n";
+    const SystemResult& result = results[k];
+    io::Json entry = result.data;
+    entry["facts"] = result.facts;
+    text += result.name + "\n";
+    for (const std::string& fact : result.facts) text += "  " + fact + "\n";
+    if (!result.missing.empty()) {
+      text += "  no picture: " + result.missing + "\n";
       exit = ExitCode::undecided;
     } else if (!options.output.empty()) {
-      write_picture(files[k], drawing::svg(system_result.figure));
+      write_picture(files[k], drawing::svg(result.figure));
       entry["file"] = files[k];
       text += "  wrote " + files[k] + "\n";
     }

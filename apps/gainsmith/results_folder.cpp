@@ -63,13 +63,11 @@ void add_problem(const fs::path& gains, const fs::path& problem_file, page::Resu
 void add_figures(const fs::path& path, page::Results& results) {
   if (!results.problem || results.problem->figures.empty()) return;
   try {
-    for (const SystemResult& system_result : system_results({{"", load_gains(path)}})) {
+    for (const SystemResult& result : system_results({{"", load_gains(path)}})) {
       page::SystemFigure& figure = results.figures.emplace_back(
-          system_result.figure.title,
-          system_result.missing.empty() ? drawing::svg(system_result.figure) : "",
-          system_result.facts);
-      if (!system_result.missing.empty())
-        figure.facts.push_back("No picture: " + system_result.missing + ".");
+          result.figure.title, result.missing.empty() ? drawing::svg(result.figure) : "",
+          result.facts);
+      if (!result.missing.empty()) figure.facts.push_back("No picture: " + result.missing + ".");
     }
   } catch (const InputError& error) {
     results.figures.push_back({"Figures", "", {error.message()}});

@@ -51,17 +51,16 @@ void state_search(const model::Search& search, model::Problem& problem) {
     const bool is_plain = text.find_first_of(",[]{}#:'") == std::string::npos;
     return is_plain ? text : '"' + text + '"';
   };
-  const auto range = [&](const model::ScalarRange& scalar_range) {
-    return fmt::format("{}: [{}, {}]", scalar_range.name, end(scalar_range.low),
-                       end(scalar_range.high));
+  const auto range = [&](const model::ScalarRange& interval) {
+    return fmt::format("{}: [{}, {}]", interval.name, end(interval.low), end(interval.high));
   };
   std::string parts;
   if (search.extreme)
     parts =
         fmt::format("{}: {{{}}}", search.largest ? "largest" : "smallest", range(*search.extreme));
   std::string over;
-  for (const model::ScalarRange& scalar_range : search.over)
-    over += (over.empty() ? "" : ", ") + range(scalar_range);
+  for (const model::ScalarRange& interval : search.over)
+    over += (over.empty() ? "" : ", ") + range(interval);
   if (!over.empty()) parts += (parts.empty() ? "over: {" : ", over: {") + over + "}";
   std::erase_if(problem.settings, [](const auto& one) { return one.name == model::kSearch; });
   problem.settings.push_back({model::kSearch, "{" + parts + "}"});

@@ -159,10 +159,9 @@ void require_same_plant(const std::vector<LoadedGains>& designs,
 drawing::Figure figure_of_designs(const std::vector<DesignRun>& runs,
                                   const std::function<RunView(const model::Design&)>& view) {
   std::string title;
-  const auto figure_of = [&](const DesignRun& design_run) {
-    title += (title.empty() ? "" : ", ") + design_run.name;
-    return run_figure(design_run.design->name, *design_run.setup, {design_run.run},
-                      view(*design_run.design));
+  const auto figure_of = [&](const DesignRun& run) {
+    title += (title.empty() ? "" : ", ") + run.name;
+    return run_figure(run.design->name, *run.setup, {run.run}, view(*run.design));
   };
   Merging merging(figure_of(runs.front()), runs.front().name);
   for (std::size_t k = 1; k < runs.size(); ++k) merging.add(figure_of(runs[k]), runs[k].name);

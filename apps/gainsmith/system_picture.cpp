@@ -306,9 +306,9 @@ void add_poles(const std::vector<DrawnSystem>& systems, drawing::Figure& figure)
   drawing::Panel panel;
   panel.title = "imaginary part; lines of damping 0.1, 0.3, 0.5, 0.7, 0.9";
   panel.across = "real part";
-  const bool sampled =
-      std::any_of(systems.begin(), systems.end(),
-                  [](const DrawnSystem& drawn_system) { return drawn_system.system.is_sampled(); });
+  const bool sampled = std::any_of(systems.begin(), systems.end(), [](const DrawnSystem& system) {
+    return system.system.is_sampled();
+  });
   panel.equal = sampled;
   add_guides(systems, sampled, panel);
   const auto add_all = [&](bool crosses) {

@@ -179,9 +179,9 @@ void bind_starts(Binding& binding) {
     const auto names = binding.dynamics_names->states(initial.state);
     if (names.empty()) starts.push_back(start(binding, initial));
     for (const std::string& name : names) {
-      model::InitialValue initial_value = initial;
-      initial_value.state = name;
-      starts.push_back(start(binding, initial_value));
+      model::InitialValue begun = initial;
+      begun.state = name;
+      starts.push_back(start(binding, begun));
     }
   }
   if (!binding.design->dynamics) return;

@@ -425,14 +425,13 @@ void add_unknowns(Binding& binding) {
     }
     scope.families[unknown.name] = ranges(unknown.indices, scope);
     for (const Member& member : members(unknown.indices, {}, scope)) {
-      model::UnknownDeclaration unknown_declaration = unknown;
-      unknown_declaration.name = member.name_of(unknown.name);
-      if (unknown_declaration.degree)
-        unknown_declaration.degree = instantiate(*unknown_declaration.degree, member, scope);
-      if (unknown_declaration.in)
-        for (expr::Expression* end : {&unknown_declaration.in->low, &unknown_declaration.in->high})
+      model::UnknownDeclaration of_member = unknown;
+      of_member.name = member.name_of(unknown.name);
+      if (of_member.degree) of_member.degree = instantiate(*of_member.degree, member, scope);
+      if (of_member.in)
+        for (expr::Expression* end : {&of_member.in->low, &of_member.in->high})
           *end = instantiate(*end, member, scope);
-      add_unknown(binding, unknown_declaration);
+      add_unknown(binding, of_member);
     }
   }
 }

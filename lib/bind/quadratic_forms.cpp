@@ -58,8 +58,8 @@ std::optional<QuadraticForm> form_of(const std::vector<NodePtr>& factors, const 
 /// Factors are tried as written first, then with those in parentheses.
 std::optional<QuadraticForm> quadratic_form(const NodePtr& node) {
   const Trees trees(*node);
-  const auto turned = [&](const NodePtr& node_ptr) {
-    return trees.make(NodeKind::transpose, {node_ptr});
+  const auto turned = [&](const NodePtr& child) {
+    return trees.make(NodeKind::transpose, {child});
   };
   const bool of_elements = node->kind == NodeKind::call && node->text == "sum" &&
                            node->children.size() == 1 &&

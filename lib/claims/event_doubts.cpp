@@ -79,9 +79,8 @@ std::optional<std::string> EventDoubts::of_turn(const NearTurn& turn, const Twin
   VectorXd here;
   for (int k = 0; k < points; ++k) {
     const double t = last - (last - from) * k / 16;
-    const auto at = [&](const hybrid::FlowPiece& flow_piece) {
-      return whole(
-          state_at(flow_piece, std::min((t - flow_piece.from()) / length(flow_piece), 1.0)));
+    const auto at = [&](const hybrid::FlowPiece& piece) {
+      return whole(state_at(piece, std::min((t - piece.from()) / length(piece), 1.0)));
     };
     const VectorXd own = at(*flow.flow);
     if (k == 0) here = own;

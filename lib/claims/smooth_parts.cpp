@@ -193,8 +193,8 @@ std::vector<SmoothPart> smooth_parts(RunValue& value, const hybrid::DenseStep& s
   }
   if (part.from < part.to || parts.empty()) halving.halve(part, kMostEvaluations, parts);
   if (noise)
-    for (SmoothPart& smooth_part : parts)
-      if (!smooth_part.undefined) smooth_part.noise += halving.noise();
+    for (SmoothPart& piece : parts)
+      if (!piece.undefined) piece.noise += halving.noise();
   return parts;
 }
 

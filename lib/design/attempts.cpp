@@ -229,9 +229,9 @@ void Attempts::make(AttemptKind kind, const char* what, const Tries& tries) {
   seconds_ += std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-void Attempts::to_point() { attempts(false); }
+void Attempts::to_point() { make_due(false); }
 
-void Attempts::to_end() { attempts(true); }
+void Attempts::to_end() { make_due(true); }
 
 void Attempts::to_near_minimum(std::optional<Attempt> inside) {
   const Attempt* minimum = find(AttemptKind::minimum);
@@ -250,7 +250,7 @@ void Attempts::to_near_minimum(std::optional<Attempt> inside) {
   if (find(AttemptKind::blended) == nullptr) done_.erase(AttemptKind::blended);
 }
 
-void Attempts::attempts(bool to_end) {
+void Attempts::make_due(bool to_end) {
   for (const Row& row : kAttempts) {
     if (!to_end && (point() != nullptr || refutation() != nullptr)) return;
     if (out_of_allowance_) return;

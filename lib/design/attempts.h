@@ -96,7 +96,7 @@ class Attempts {
 
   /// Makes the attempts that are due, in their order; without `to_end` until a point or a
   /// refutation.
-  void attempts(bool to_end);
+  void make_due(bool to_end);
   /// One attempt, within the allowance.
   template <class Tries>
   void make(AttemptKind kind, const char* doing, const Tries& tries);

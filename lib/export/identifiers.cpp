@@ -14,9 +14,9 @@ constexpr std::string_view kCWords =
     "void volatile"
     " while asm class new delete this template private public protected operator true false bool "
     "catch throw"
-    " try namespace using virtual friend export typename and or not xor main errno NULL exp log "
-    "sqrt "
-    "sin cos tanh atan2 floor pow fabs expf logf sqrtf sinf cosf tanhf atan2f floorf powf fabsf ";
+    " try namespace using virtual friend export typename and or not xor main errno NULL "
+    "exp log sqrt sin cos tanh atan2 floor pow fabs "
+    "expf logf sqrtf sinf cosf tanhf atan2f floorf powf fabsf ";
 constexpr std::string_view kMatlabWords =
     " break case catch classdef continue else elseif end for function global if otherwise parfor "
     "persistent"

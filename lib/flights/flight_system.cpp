@@ -74,8 +74,8 @@ bool may_fly(const PackSystem& pack, const std::vector<claims::Claim>& claims) {
   const bool has_branches = std::any_of(pack.watches.begin(), pack.watches.end(),
                                         [](const Watch& watch) { return !watch.branches.empty(); });
   const bool is_plain =
-      std::all_of(pack.events.begin(), pack.events.end(), [](const PackEvent& pack_event) {
-        return (pack_event.when || pack_event.crossing) && !pack_event.only_if && !pack_event.lost;
+      std::all_of(pack.events.begin(), pack.events.end(), [](const PackEvent& event) {
+        return (event.when || event.crossing) && !event.only_if && !event.lost;
       });
   constexpr std::size_t most_events = 64;
   return is_plain && !pack.events.empty() && pack.events.size() <= most_events && !has_branches &&

@@ -167,8 +167,7 @@ void leave_out_of_search(const std::string& name, model::Problem& problem) {
   if (!problem.search) return;
   model::Search& search = *problem.search;
   if (search.extreme && search.extreme->name == name) search.extreme.reset();
-  std::erase_if(search.over,
-                [&](const model::ScalarRange& scalar_range) { return scalar_range.name == name; });
+  std::erase_if(search.over, [&](const model::ScalarRange& range) { return range.name == name; });
   if (!search.extreme && search.over.empty()) problem.search.reset();
 }
 

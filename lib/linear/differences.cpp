@@ -53,11 +53,10 @@ std::vector<StateDifference> find_differences(const std::vector<expr::Program>& 
 
 ErrorRewriting::ErrorRewriting(const std::vector<StateDifference>& differences,
                                const hybrid::StateLayout& layout) {
-  for (const StateDifference& state_difference : differences) {
-    by_[state_difference.minus] =
-        difference(expr::input_program(state_difference.plus, state_difference.shape),
-                   expr::input_program(state_difference.name, state_difference.shape));
-    names_.insert(state_difference.name);
+  for (const StateDifference& pair : differences) {
+    by_[pair.minus] = difference(expr::input_program(pair.plus, pair.shape),
+                                 expr::input_program(pair.name, pair.shape));
+    names_.insert(pair.name);
   }
   for (const hybrid::Slot& slot : layout.slots)
     if (!by_.contains(slot.name)) names_.insert(slot.name);

@@ -60,7 +60,7 @@ class Rules {
 
   /// By squaring, so that a large power of one function costs nothing; that of a sum is a sum of as
   /// many functions as its exponent says.
-  AffineForm power(const AffineForm& form, const numbers::Matrix& matrix, int exponent,
+  AffineForm power(const AffineForm& form, const numbers::Matrix& identity, int exponent,
                    expr::Op by) const {
     const auto times = [&](const AffineForm& a, const AffineForm& b) {
       AffineForm both = product(a, b, form.shape, by);
@@ -69,7 +69,7 @@ class Rules {
           "the power expands to more than " + std::to_string(kMostFunctions) +
           " functions of the 'forall' variables; use synthesis: {forall: exchange}");
     };
-    AffineForm result = constant_form(matrix);
+    AffineForm result = constant_form(identity);
     AffineForm square = form;
     for (int left = exponent; left > 0; left /= 2) {
       if (left % 2 == 1) result = times(result, square);
@@ -166,9 +166,8 @@ class Rules {
     throw expr::EvaluationError(
         "the " + to_string(op) +
         " of a function of a 'forall' variable: 'hull' takes sums and products of powers, "
-        "exp, sin and cos of affine functions and expm of multiples of one variable; use "
-        "synthesis: "
-        "{forall: exchange}");
+        "exp, sin and cos of affine functions and expm of multiples of one variable; "
+        "use synthesis: {forall: exchange}");
   }
 
  private:
@@ -282,8 +281,8 @@ struct AffineRules {
     out = rules.quotient(at[0], at[1], op);
   }
   void operator()(Is<Op::power>, const At& at, AffineForm& out) const {
-    const numbers::Matrix matrix = numbers::Matrix::Identity(at.shape().rows, at.shape().rows);
-    out = rules.power(at[0], matrix, at.attribute(0), Op::multiply);
+    const numbers::Matrix identity = numbers::Matrix::Identity(at.shape().rows, at.shape().rows);
+    out = rules.power(at[0], identity, at.attribute(0), Op::multiply);
   }
   void operator()(Is<Op::elementwise_power>, const At& at, AffineForm& out) const {
     const numbers::Matrix ones = numbers::Matrix::Ones(at.shape().rows, at.shape().cols);

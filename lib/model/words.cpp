@@ -31,13 +31,13 @@ std::string to_string(Structure structure) {
 
 std::optional<double> SynthesisOptions::share_of_bound(const std::string& gain) const {
   if (gain_bounds.empty()) return 1;
-  for (const BoundOfGain& bound_of_gain : gain_bounds)
-    if (bound_of_gain.gain == gain) return bound_of_gain.bound / gain_bound.value();
+  for (const BoundOfGain& limit : gain_bounds)
+    if (limit.gain == gain) return limit.bound / gain_bound.value();
   return std::nullopt;
 }
 
 void SynthesisOptions::set_gain_bound(double bound) {
-  for (BoundOfGain& bound_of_gain : gain_bounds) bound_of_gain.bound *= bound / gain_bound.value();
+  for (BoundOfGain& limit : gain_bounds) limit.bound *= bound / gain_bound.value();
   gain_bound = bound;
   gain_bound_stated = true;
 }

@@ -76,7 +76,7 @@ void LaneLengths::take_given() {
 /// A clock with one length is due at first + k low, without a sum that would collect rounding.
 void LaneLengths::advance() {
   if (!given_.empty()) {
-    for (hybrid::EventClocks& event_clocks : given_) event_clocks.advance(0, event_clocks.due(0));
+    for (hybrid::EventClocks& clocks : given_) clocks.advance(0, clocks.due(0));
     return take_given();
   }
   ++occurrences_;

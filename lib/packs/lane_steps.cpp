@@ -259,9 +259,8 @@ bool LaneSet::decides(std::size_t w, const PackLane& lane) {
     return after == Truth::unknown || after != before;
   };
   return std::any_of(pack_.flow_sets.begin(), pack_.flow_sets.end(), changes) ||
-         std::any_of(pack_.events.begin(), pack_.events.end(), [&](const PackEvent& pack_event) {
-           return pack_event.when && changes(*pack_event.when);
-         });
+         std::any_of(pack_.events.begin(), pack_.events.end(),
+                     [&](const PackEvent& event) { return event.when && changes(*event.when); });
 }
 
 std::int8_t LaneSet::left_side(std::size_t w, std::size_t l, std::span<const double> b,

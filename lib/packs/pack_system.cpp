@@ -97,9 +97,8 @@ class StepCode {
  private:
   /// Whether a value has an error of integration: states that flow, and costs.
   bool is_integrated(int row) const {
-    if (std::any_of(pack_.costs.begin(), pack_.costs.end(), [row](const RunningCost& running_cost) {
-          return index(row) == running_cost.element;
-        }))
+    if (std::any_of(pack_.costs.begin(), pack_.costs.end(),
+                    [row](const RunningCost& cost) { return index(row) == cost.element; }))
       return true;
     const auto& variables = pack_.system->dynamics.variables;
     for (std::size_t i = 0; i < variables.size(); ++i) {
@@ -289,7 +288,7 @@ class PointCode {
   /// The same code without some results, and without what these alone need.
   LaneCode without(std::initializer_list<PackSystem::PointResult> left_out) {
     auto results = results_;
-    for (const PackSystem::PointResult point_result : left_out) results[point_result].clear();
+    for (const PackSystem::PointResult kind : left_out) results[kind].clear();
     return {texts_.graph(), results, pack_.whole, {}, numbers::Computed::needed};
   }
 

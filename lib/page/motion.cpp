@@ -58,10 +58,10 @@ class Motion {
   }
 
   /// What an event is due by, and besides its first time, its condition and its losses.
-  std::string event(const model::EventText& event_text) const {
+  std::string event(const model::EventText& stated) const {
     std::string math;
     std::string how;
-    switch (event_text.kind) {
+    switch (stated.kind) {
       case EventKind::when:
         how = "while this is true";
         break;
@@ -75,43 +75,41 @@ class Motion {
         how = "when this crosses 0";
         break;
       case EventKind::every:
-        how = event_text.numbers.size() == 1 ? "the time between two"
-                                             : "the time between two, from this range";
+        how = stated.numbers.size() == 1 ? "the time between two"
+                                         : "the time between two, from this range";
         break;
       case EventKind::at:
-        how = event_text.rows.empty()
-                  ? "its times"
-                  : "at " + count_of(event_text.rows.size(), "time") + " of a file";
+        how = stated.rows.empty() ? "its times"
+                                  : "at " + count_of(stated.rows.size(), "time") + " of a file";
         break;
     }
-    if (event_text.what) math = of(*event_text.what);
-    if (!event_text.numbers.empty()) math = range_mathml(event_text.numbers, notation_);
-    if (!event_text.first.empty())
-      how += ", the first after " + formula(range_mathml(event_text.first, notation_));
-    if (event_text.only_if) how += ", only if " + formula(of(*event_text.only_if));
-    if (event_text.lost > 0) how += ", lost with probability " + formula(value(event_text.lost));
-    return formula_row(event_text.name, math, how);
+    if (stated.what) math = of(*stated.what);
+    if (!stated.numbers.empty()) math = range_mathml(stated.numbers, notation_);
+    if (!stated.first.empty())
+      how += ", the first after " + formula(range_mathml(stated.first, notation_));
+    if (stated.only_if) how += ", only if " + formula(of(*stated.only_if));
+    if (stated.lost > 0) how += ", lost with probability " + formula(value(stated.lost));
+    return formula_row(stated.name, math, how);
   }
 
   /// "w ~ (0, 0.03)" with its law and when it is drawn anew.
-  std::string noise(const model::NoiseText& noise_text) const {
-    std::string how = drawn_text(noise_text.kind, noise_text.covariance);
-    if (!noise_text.event.empty()) how += ", new at " + quoted(noise_text.event);
-    if (noise_text.every) how += ", new every " + formula(of(*noise_text.every));
+  std::string noise(const model::NoiseText& drawn) const {
+    std::string how = drawn_text(drawn.kind, drawn.covariance);
+    if (!drawn.event.empty()) how += ", new at " + quoted(drawn.event);
+    if (drawn.every) how += ", new every " + formula(of(*drawn.every));
     // A range has brackets, the parameters of a law parentheses.
-    const bool plain = noise_text.kind == NoiseKind::uniform;
-    std::string math =
-        noise_text.values.empty()
-            ? ""
-            : range_mathml(noise_text.values, notation_, plain ? "[" : "(", plain ? "]" : ")");
-    if (!noise_text.sinusoid.empty()) {
+    const bool plain = drawn.kind == NoiseKind::uniform;
+    std::string math = drawn.values.empty() ? ""
+                                            : range_mathml(drawn.values, notation_,
+                                                           plain ? "[" : "(", plain ? "]" : ")");
+    if (!drawn.sinusoid.empty()) {
       how = "a sinusoid";
       std::vector<std::string> parts;
-      for (const auto& [part, ends] : noise_text.sinusoid)
+      for (const auto& [part, ends] : drawn.sinusoid)
         parts.push_back(equation(text_element("mi", part), range_mathml(ends, notation_), ":"));
       math = row(listed(parts));
     }
-    return formula_row("", equation(name(noise_text.name), math, math.empty() ? "" : "∼"), how);
+    return formula_row("", equation(name(drawn.name), math, math.empty() ? "" : "∼"), how);
   }
 
   std::string defined(const std::string& left, const expr::Expression& right) const {
@@ -156,13 +154,12 @@ class Motion {
   }
 
   /// z(0) = a value, or what it is drawn from.
-  std::string start(const model::InitialValue& initial_value) const {
+  std::string start(const model::InitialValue& initial) const {
     using model::StartKind;
     std::vector<std::string> values;
-    for (const model::Value& part : initial_value.values)
-      values.push_back(value_mathml(part, notation_));
-    const std::string left = name(initial_value.state) + fenced("<mn>0</mn>");
-    switch (initial_value.kind) {
+    for (const model::Value& part : initial.values) values.push_back(value_mathml(part, notation_));
+    const std::string left = name(initial.state) + fenced("<mn>0</mn>");
+    switch (initial.kind) {
       case StartKind::expression:
         return formula_row("", equation(row(left), row(listed(values))));
       case StartKind::box:
@@ -175,9 +172,8 @@ class Motion {
       case StartKind::lognormal:
         return formula_row(
             "", equation(row(left), fenced(listed(values)), "∼"),
-            drawn_text(
-                initial_value.kind == StartKind::normal ? NoiseKind::normal : NoiseKind::lognormal,
-                initial_value.covariance));
+            drawn_text(initial.kind == StartKind::normal ? NoiseKind::normal : NoiseKind::lognormal,
+                       initial.covariance));
       case StartKind::ellipsoid:
         return formula_row(
             "", equation(row(left), row("<mi>ellipsoid</mi>" + fenced(listed(values))), "∈"),
@@ -270,15 +266,13 @@ std::string dynamics(const model::Problem& problem, const Notation& notation) {
                           escaped(std::filesystem::path(measured.series->file).filename().string())
                     : ""));
   std::string noise;
-  for (const model::NoiseText& noise_text : method.noise) noise += motion.noise(noise_text);
-  for (const model::UncertainText& uncertain_text : problem.uncertain) {
+  for (const model::NoiseText& drawn : method.noise) noise += motion.noise(drawn);
+  for (const model::UncertainText& datum : problem.uncertain) {
     std::vector<std::string> values;
-    for (const model::Value& end : uncertain_text.values)
-      values.push_back(value_mathml(end, notation));
+    for (const model::Value& end : datum.values) values.push_back(value_mathml(end, notation));
     noise += formula_row(
-        "",
-        equation(name_mathml(uncertain_text.name, notation), fenced(listed(values), "{", "}"), "∈"),
-        "uncertain: " + drawn_text(uncertain_text.kind, uncertain_text.covariance));
+        "", equation(name_mathml(datum.name, notation), fenced(listed(values), "{", "}"), "∈"),
+        "uncertain: " + drawn_text(datum.kind, datum.covariance));
   }
   std::string signals;
   for (const model::Named& signal : method.signals)
@@ -293,8 +287,8 @@ std::string claimed(const model::Problem& problem, const Notation& notation) {
   std::string claims;
   for (const model::Claim& claim : problem.method->claims) claims += motion.claim(claim);
   std::string starts;
-  for (const model::InitialValue& initial_value : problem.campaign.initial)
-    starts += motion.start(initial_value);
+  for (const model::InitialValue& initial : problem.campaign.initial)
+    starts += motion.start(initial);
   return group("Claims", claims) + group("Where runs start", starts) +
          group("Times between events", laws(problem.campaign, notation));
 }

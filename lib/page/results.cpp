@@ -162,8 +162,8 @@ std::string matrices(const Results& results, const model::NamedMatrices& named) 
 std::string gains_section(const Results& results, const Notation& notation) {
   const model::Gains& gains = results.gains;
   std::string functions;
-  for (const model::GainFunction& gain_function : gains.gain_functions)
-    functions += function_row(gain_function);
+  for (const model::GainFunction& function : gains.gain_functions)
+    functions += function_row(function);
   std::string searched;
   for (const auto& [name, found] : gains.searched)
     searched += formula_row("", equation(symbol(name), value(found)));

@@ -28,10 +28,10 @@ using Balls = Enclosed<double>;
 /// A is stable, so that -1 is no eigenvalue.
 StateSpace as_continuous(const StateSpace& system) {
   if (!system.is_sampled()) return system;
-  const Matrix matrix = Matrix::Identity(system.states(), system.states());
-  const Eigen::PartialPivLU<Matrix> lu(matrix + system.A);
+  const Matrix identity = Matrix::Identity(system.states(), system.states());
+  const Eigen::PartialPivLU<Matrix> lu(identity + system.A);
   const Matrix through = lu.inverse();
-  return {through * (system.A - matrix), std::sqrt(2.0) * through * system.B,
+  return {through * (system.A - identity), std::sqrt(2.0) * through * system.B,
           std::sqrt(2.0) * system.C * through, system.D - system.C * through * system.B, 0};
 }
 

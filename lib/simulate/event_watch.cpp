@@ -172,14 +172,14 @@ std::vector<double> EventWatch::crossings(
           if (leaves) left = std::max(left, *leaves);
           result.push_back(leaves.value_or(root.right));
         }
-        for (const ode::TurningPoint& turning_point : found.turning_points) {
-          if (!decides(role, inside.at(turning_point.t))) continue;
+        for (const ode::TurningPoint& turning : found.turning_points) {
+          if (!decides(role, inside.at(turning.t))) continue;
           const std::string text = role.condition == nullptr
                                        ? system_->dynamics.events[role.index].name
                                        : role.condition->comparisons()[role.comparison].text;
-          turn({role.of, role.index, role.comparison, element, time_of(turning_point, found.roots),
-                turning_point.value, text},
-               turning_point.reached);
+          turn({role.of, role.index, role.comparison, element, time_of(turning, found.roots),
+                turning.value, text},
+               turning.reached);
         }
       }
     }

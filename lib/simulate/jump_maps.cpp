@@ -129,8 +129,8 @@ void JumpMaps::apply(Map& map, VectorXd& own) {
     if (state_ != nullptr) {
       if (!entry.value_31) entry.value_31.emplace(*entry.program, *system_, state_->constants());
       results_31_[i] = (*entry.value_31)(own_31_);
-      results_[i] = results_31_[i].unaryExpr(
-          [](const DoubleDouble& double_double) { return double_double.hi(); });
+      results_[i] =
+          results_31_[i].unaryExpr([](const DoubleDouble& number) { return number.hi(); });
     } else {
       results_[i] = entry.value(own);
     }

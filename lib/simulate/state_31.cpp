@@ -123,8 +123,7 @@ Values31 State31::start_of(std::uint64_t run, const VectorXd& values) {
     if (rule.kind == model::StartKind::expression)
       state = Function31(rule.program, *system_, constants_)(x).reshaped();
     if (rule.kind == model::StartKind::list)
-      state = state.unaryExpr(
-          [](const DoubleDouble& double_double) { return *written(double_double.hi()); });
+      state = state.unaryExpr([](const DoubleDouble& number) { return *written(number.hi()); });
   }
   for (const auto& [b, a] : scenario_->differences) {
     const hybrid::Slot& slot = system_->layout.slots[b];

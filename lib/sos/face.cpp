@@ -68,9 +68,9 @@ std::vector<BasisPolynomial> combined(const std::vector<BasisPolynomial>& basis,
       if (W(a, k) != 0)
         for (const auto& [element, c] : basis[static_cast<std::size_t>(a)])
           sum[element] += c * W(a, k);
-    BasisPolynomial& basis_polynomial = result.emplace_back();
+    BasisPolynomial& polynomial = result.emplace_back();
     for (const auto& [element, c] : sum)
-      if (c != 0) basis_polynomial.emplace_back(element, c);
+      if (c != 0) polynomial.emplace_back(element, c);
   }
   return result;
 }

@@ -39,10 +39,10 @@ std::vector<RationalMatrix> matrices(const Program& program, const Eliminated& e
 /// Whether it is shown for all, of singular ones only up to kSmall rows.
 bool are_semidefinite(const std::vector<RationalMatrix>& X) {
   constexpr Eigen::Index kSmall = 30;
-  return std::ranges::all_of(X, [](const RationalMatrix& rational_matrix) {
+  return std::ranges::all_of(X, [](const RationalMatrix& matrix) {
     check_stop();
-    return is_shown_definite(rational_matrix) ||
-           (rational_matrix.rows() <= kSmall && numbers::is_rational_semidefinite(rational_matrix));
+    return is_shown_definite(matrix) ||
+           (matrix.rows() <= kSmall && numbers::is_rational_semidefinite(matrix));
   });
 }
 

@@ -152,13 +152,13 @@ void grow(const claims::RunSetup& setup, const std::vector<model::Figure>& figur
   std::uint64_t size = std::uint64_t{64} * thread_count(threads);
   const std::vector<RunRange> missing = sum.runs.missing_in(range);
   std::uint64_t count = 0;
-  for (const RunRange& run_range : missing) count += run_range.count();
+  for (const RunRange& stretch : missing) count += stretch.count();
   const std::uint64_t all = range.count();
   const Doing doing("figures", all, all - count);
-  for (const RunRange& run_range : missing)
-    for (std::uint64_t first = run_range.first; first < run_range.last;) {
+  for (const RunRange& stretch : missing)
+    for (std::uint64_t first = stretch.first; first < stretch.last;) {
       const auto begin = Clock::now();
-      const std::uint64_t asked = std::min(size, run_range.last - first);
+      const std::uint64_t asked = std::min(size, stretch.last - first);
       SurveyOfRuns more;
       more.survey = survey_figures(setup, figures, seed, {asked, {}, first}, threads);
       more.runs.add({first, first + more.survey.runs});

@@ -9,7 +9,7 @@ RunRange RunSet::add(RunRange range) {
   // The first range that ends at or behind the beginning of the new one.
   const auto begin = std::lower_bound(
       ranges_.begin(), ranges_.end(), range.first,
-      [](const RunRange& run_range, std::uint64_t first) { return run_range.last < first; });
+      [](const RunRange& stretch, std::uint64_t first) { return stretch.last < first; });
   auto end = begin;
   for (; end != ranges_.end() && end->first <= range.last; ++end) {
     const RunRange both{std::max(end->first, range.first), std::min(end->last, range.last)};

@@ -21,15 +21,15 @@ using numbers::Vector;
 /// sqrt(2) beside the diagonal. The error is in the norm of Frobenius:
 ///     sum over elements b of (gamma |b| + rad_b) |L_row| |L_column|,  gamma = (2 n + 12) u.
 template <class S>
-void add_images(const FactoredBlock<S>& factored_block, Index first, Images& images) {
-  const Matrix& L = factored_block.L;
+void add_images(const FactoredBlock<S>& block, Index first, Images& images) {
+  const Matrix& L = block.L;
   const Index n = L.rows(), rank = L.cols();
-  const Vector rows = factored_block.L.rowwise().norm() * (1 + 1e-12);
+  const Vector rows = block.L.rowwise().norm() * (1 + 1e-12);
   // |L'| |B| |L| is the sum of these terms at most, whatever the order of the sums.
   const double rounding = static_cast<double>(2 * n + 12) * kUnitRoundoff;
   const double root = std::sqrt(2.0);
   Matrix BL(n, rank);
-  for (const auto& [i, elements] : factored_block.block->terms) {
+  for (const auto& [i, elements] : block.block->terms) {
     spend(static_cast<double>(rank * (n * rank + 2 * static_cast<Index>(elements.size()))) *
           kDoubleWork);
     BL.setConstant(0);
@@ -54,13 +54,12 @@ void add_images(const FactoredBlock<S>& factored_block, Index first, Images& ima
 template <class S>
 Images images_of(const std::vector<FactoredBlock<S>>& blocks, Index unknowns) {
   Index size = 1;
-  for (const FactoredBlock<S>& factored_block : blocks)
-    size += factored_block.L.cols() * (factored_block.L.cols() + 1) / 2;
+  for (const FactoredBlock<S>& block : blocks) size += block.L.cols() * (block.L.cols() + 1) / 2;
   Images images{Matrix::Zero(size, unknowns), Vector::Zero(unknowns)};
   Index first = 0;
-  for (const FactoredBlock<S>& factored_block : blocks) {
-    add_images(factored_block, first, images);
-    first += factored_block.L.cols() * (factored_block.L.cols() + 1) / 2;
+  for (const FactoredBlock<S>& block : blocks) {
+    add_images(block, first, images);
+    first += block.L.cols() * (block.L.cols() + 1) / 2;
   }
   return images;
 }

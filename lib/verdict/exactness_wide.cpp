@@ -84,8 +84,7 @@ bool is_exact_in_wide(const std::vector<WeighedBlock<S>>& blocks, const VectorOf
   const auto unknowns = static_cast<double>(residuals.size());
   if (2 * unknowns * unknowns * unknowns * work_of<S>() > kMostWork) return false;
   Gram<S> gram(residuals.size());
-  for (const WeighedBlock<S>& weighed_block : blocks)
-    gram.add(*weighed_block.block, *weighed_block.Y);
+  for (const WeighedBlock<S>& block : blocks) gram.add(*block.block, *block.Y);
   std::vector<Eigen::Index> used;
   for (Eigen::Index i = constant ? 0 : 1; i < residuals.size(); ++i)
     if (gram.H(i, i) != S(0) || gram.error(i, i) > 0) used.push_back(i);

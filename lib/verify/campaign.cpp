@@ -193,9 +193,9 @@ void repeat_carefully(const Setup& setup, bool proved, CampaignPart& part) {
     if (!careful) {
       std::vector<bool> holds;
       holds.reserve(claims.size());
-      for (const ClaimTally& claim_tally : claims)
-        holds.push_back(proved && claim_tally.run == claim.run &&
-                        claim_tally.worst.judgement == claims::Judgement::held);
+      for (const ClaimTally& tally : claims)
+        holds.push_back(proved && tally.run == claim.run &&
+                        tally.worst.judgement == claims::Judgement::held);
       RunVerdict again = judge.careful(part.facts.seed, claim.run, holds);
       check_stop();  // perhaps amid the run
       careful = {std::move(again.findings), again.termination, std::move(again.message)};
@@ -278,7 +278,7 @@ void Campaign::make_runs(statistics::RunRange range, CampaignPart& part, const S
   const std::vector<statistics::RunRange> missing = part.runs.missing_in(range);
   if (missing.empty() || part.ended()) return;
   std::uint64_t count = 0;
-  for (const statistics::RunRange& run_range : missing) count += run_range.count();
+  for (const statistics::RunRange& stretch : missing) count += stretch.count();
   const Doing doing("runs", range.count(), range.count() - count);
   Collector collector(part, save, doing);
   try {
@@ -293,15 +293,15 @@ void Campaign::make_runs(statistics::RunRange range, CampaignPart& part, const S
     const auto work_between = [&] {
       if (between_ && part.tally.runs > 0) between_(part.tally.runs);
     };
-    for (const statistics::RunRange& run_range : missing) {
-      const statistics::RunRange early{
-          run_range.first, packs_ ? std::min(run_range.last, kFirstRuns) : run_range.first};
-      const statistics::RunRange late{std::max(run_range.first, packs_ ? kFirstRuns : 0),
-                                      run_range.last};
+    for (const statistics::RunRange& stretch : missing) {
+      const statistics::RunRange early{stretch.first,
+                                       packs_ ? std::min(stretch.last, kFirstRuns) : stretch.first};
+      const statistics::RunRange late{std::max(stretch.first, packs_ ? kFirstRuns : 0),
+                                      stretch.last};
       if (early.first < early.last)
         make_range(early, &packs_, &first, packs ? kFirstRuns : single, collector);
       work_between();
-      std::uint64_t at_once = grows ? kFirstRuns : run_range.count();
+      std::uint64_t at_once = grows ? kFirstRuns : stretch.count();
       for (statistics::RunRange next = late; next.first < late.last && !part.ended();
            at_once *= 2) {
         next.last = next.first + std::min(late.last - next.first, std::max(at_once, size));

@@ -61,9 +61,8 @@ class ErrorStates {
               const Differences& differences)
       : differences_(differences), rewriting_(differences, layout), dynamics_(dynamics) {
     dynamics_.signals.clear();
-    for (const linear::StateDifference& state_difference : differences_)
-      places_.push_back(
-          {*layout.slot(state_difference.plus), *layout.slot(state_difference.minus)});
+    for (const linear::StateDifference& difference : differences_)
+      places_.push_back({*layout.slot(difference.plus), *layout.slot(difference.minus)});
     find_flows();
     find_jumps();
     model::for_each_run_program(
@@ -181,9 +180,8 @@ std::optional<std::size_t> ErrorStates::first_bound() const {
 /// b = a - d in claims; where runs start the place of d still holds b.
 model::RunTexts ErrorStates::rewritten(model::RunTexts texts) {
   std::map<std::string, Program> names;
-  for (const linear::StateDifference& state_difference : differences_)
-    names[state_difference.minus] =
-        expr::input_program(state_difference.name, state_difference.shape);
+  for (const linear::StateDifference& difference : differences_)
+    names[difference.minus] = expr::input_program(difference.name, difference.shape);
   const auto rename = [&](Program& start) { start = linear::replace_inputs(start, names); };
   texts.dynamics = std::move(dynamics_);
   for (Dynamics::Variable& variable : texts.dynamics.variables)
@@ -205,9 +203,9 @@ std::optional<model::RunTexts> with_error_states(const model::RunTexts& texts,
                                                  const std::vector<Program>& functions) {
   const hybrid::StateLayout layout = hybrid::layout_of(texts.dynamics);
   Differences differences = linear::find_differences(functions, layout);
-  std::erase_if(differences, [&](const linear::StateDifference& state_difference) {
-    return !is_plain(texts.dynamics, *layout.slot(state_difference.plus), false) ||
-           !is_plain(texts.dynamics, *layout.slot(state_difference.minus), true);
+  std::erase_if(differences, [&](const linear::StateDifference& difference) {
+    return !is_plain(texts.dynamics, *layout.slot(difference.plus), false) ||
+           !is_plain(texts.dynamics, *layout.slot(difference.minus), true);
   });
   while (!differences.empty()) {
     ErrorStates states(texts.dynamics, layout, differences);

@@ -21,18 +21,18 @@ int rank_of(claims::Judgement judgement) {
 // any other. Of equals the earlier run is worse.
 
 bool is_worse(const WorstRun& a, const WorstRun& b) {
-  const auto key = [](const WorstRun& worst_run) {
-    return std::tuple(worst_run.judgement == claims::Judgement::violated,
-                      worst_run.termination != Termination::horizon, rank_of(worst_run.judgement),
-                      worst_run.score);
+  const auto key = [](const WorstRun& worst) {
+    return std::tuple(worst.judgement == claims::Judgement::violated,
+                      worst.termination != Termination::horizon, rank_of(worst.judgement),
+                      worst.score);
   };
   if (key(a) != key(b)) return key(a) > key(b);
   return a.run < b.run;
 }
 
 bool is_worse(const ClaimTally& a, const ClaimTally& b) {
-  const auto key = [](const ClaimTally& claim_tally) {
-    return std::tuple(rank_of(claim_tally.worst.judgement), claim_tally.worst.score);
+  const auto key = [](const ClaimTally& tally) {
+    return std::tuple(rank_of(tally.worst.judgement), tally.worst.score);
   };
   if (key(a) != key(b)) return key(a) > key(b);
   return a.run < b.run;

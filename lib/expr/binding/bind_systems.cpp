@@ -190,7 +190,7 @@ Bound Binder::pair_of_systems(const Expression& expression, const Node& node, Co
   }
   first = as_system(expression, node, first);
   second = as_system(expression, node, second);
-  const SystemParts system_parts = parts_of(make, first), other = parts_of(make, second);
+  const SystemParts p = parts_of(make, first), q = parts_of(make, second);
   int step = std::max(first.step, second.step);
   if (first.states > 0 && second.states > 0 && first.step != second.step)
     fail(expression, node,
@@ -203,31 +203,26 @@ Bound Binder::pair_of_systems(const Expression& expression, const Node& node, Co
            std::string("the systems do not fit: ") + std::to_string(outputs) + what +
                std::to_string(inputs));
   };
-  const int a = make.block_diagonal(system_parts.a, other.a);
+  const int a = make.block_diagonal(p.a, q.a);
   if (how == Composed::append)
     return system_of(make,
-                     {a, make.block_diagonal(system_parts.b, other.b),
-                      make.block_diagonal(system_parts.c, other.c),
-                      make.block_diagonal(system_parts.d, other.d)},
+                     {a, make.block_diagonal(p.b, q.b), make.block_diagonal(p.c, q.c),
+                      make.block_diagonal(p.d, q.d)},
                      step);
   if (how == Composed::parallel) {
     meet(inputs_of(make, first), inputs_of(make, second), " inputs beside ");
     meet(outputs_of(make, first), outputs_of(make, second), " outputs beside ");
-    return system_of(make,
-                     {a, make.blocks({system_parts.b, other.b}, 1),
-                      make.blocks({system_parts.c, other.c}, 2), make.add(system_parts.d, other.d)},
-                     step);
+    return system_of(
+        make, {a, make.blocks({p.b, q.b}, 1), make.blocks({p.c, q.c}, 2), make.add(p.d, q.d)},
+        step);
   }
   meet(outputs_of(make, first), inputs_of(make, second), " outputs meet inputs: ");
-  const int coupled = make.blocks({system_parts.a, make.zeros({first.states, second.states}),
-                                   make.multiply(other.b, system_parts.c), other.a},
-                                  2);
-  return system_of(
-      make,
-      {coupled, make.blocks({system_parts.b, make.multiply(other.b, system_parts.d)}, 1),
-       make.blocks({make.multiply(other.d, system_parts.c), other.c}, 2),
-       make.multiply(other.d, system_parts.d)},
-      step);
+  const int coupled = make.blocks(
+      {p.a, make.zeros({first.states, second.states}), make.multiply(q.b, p.c), q.a}, 2);
+  return system_of(make,
+                   {coupled, make.blocks({p.b, make.multiply(q.b, p.d)}, 1),
+                    make.blocks({make.multiply(q.d, p.c), q.c}, 2), make.multiply(q.d, p.d)},
+                   step);
 }
 
 Bound Binder::joined(const Expression& expression, const Node& node, Composed how) {

@@ -382,8 +382,8 @@ class Parser : TokenCursor {
         fail("expected ',' ';' or ']' in the block, found " + found() + missing());
     }
     if (!ragged) return table(begin, std::move(entries), columns);
-    if (std::ranges::any_of(
-            entries, [](const NodePtr& node_ptr) { return node_ptr->kind == NodeKind::mirror; }))
+    if (std::ranges::any_of(entries,
+                            [](const NodePtr& entry) { return entry->kind == NodeKind::mirror; }))
       fail("the rows of a block with '*' have the same number of entries");
     return table(begin, std::move(rows), 1);
   }

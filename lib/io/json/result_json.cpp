@@ -29,8 +29,8 @@ RunResult parse_result(const std::string& text, const std::string& file) {
     return result;
   }
   if (reader.has("no_campaign")) result.no_campaign = reader.at("no_campaign").text();
-  for (const JsonReader& json_reader : reader.at("differences").items())
-    result.differences.push_back(json_reader.text());
+  for (const JsonReader& difference : reader.at("differences").items())
+    result.differences.push_back(difference.text());
   if (result.gains_hash.empty()) reader.at("gains_sha256");  // which says that it is missing
   return result;
 }

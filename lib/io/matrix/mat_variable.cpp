@@ -83,10 +83,10 @@ std::size_t index_of(const std::vector<MatVariable>& found, const std::string& n
   if (name.empty() && found.size() == 1) return 0;
   std::vector<std::string> names;
   std::string known;
-  for (const MatVariable& mat_variable : found) {
-    if (!name.empty() && mat_variable.name == name) return names.size();
-    names.push_back(mat_variable.name);
-    known += (known.empty() ? "" : ", ") + mat_variable.name;
+  for (const MatVariable& array : found) {
+    if (!name.empty() && array.name == name) return names.size();
+    names.push_back(array.name);
+    known += (known.empty() ? "" : ", ") + array.name;
   }
   throw InputError(place, name.empty()
                               ? path + " has several variables; say which by 'name': " + known

@@ -27,11 +27,11 @@ std::vector<YamlItem> items_without(const YamlFile& file, const std::optional<Ya
                                     const std::string& what, bool like, Removed& removed) {
   // A YAML::Node that is assigned to changes what it referred to: items are copied, never moved.
   std::vector<YamlItem> items;
-  for (const YamlItem& yaml_item : items_of(file, item, what))
-    if (like && is_none(yaml_item.value))
-      removed.insert(yaml_item.key);
+  for (const YamlItem& entry : items_of(file, item, what))
+    if (like && is_none(entry.value))
+      removed.insert(entry.key);
     else
-      items.push_back(yaml_item);
+      items.push_back(entry);
   return items;
 }
 
@@ -275,9 +275,8 @@ std::optional<Spread> spread(const YamlFile& file, YamlMap& map, const std::stri
   if (!normal && !lognormal) return std::nullopt;
   const YamlItem& item = normal ? *normal : *lognormal;
   if (normal && lognormal) throw InputError(item.place, "either normal or lognormal, not both");
-  const auto value = [&](const YamlItem& yaml_item) {
-    return model::Value{yaml_item.key, matrix_of(file, yaml_item), false,
-                        file.place(yaml_item.value)};
+  const auto value = [&](const YamlItem& entry) {
+    return model::Value{entry.key, matrix_of(file, entry), false, file.place(entry.value)};
   };
   const expr::Text otherwise = expr::Text::generated(normal ? mean : median, item.place);
   Spread said{normal.has_value(), {{item.key, expr::parse(otherwise), false, item.place}}};

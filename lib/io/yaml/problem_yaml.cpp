@@ -205,10 +205,9 @@ model::RunAccuracy accuracy(const YamlFile& file, const YamlItem& item) {
     result.relative = tolerance(file, *relative, kLeastRelative, kMostRelative);
   if (const auto absolute = map.find("absolute")) {
     if (absolute->value.IsMap()) {
-      for (const YamlItem& yaml_item : items_of(file, absolute, "absolute"))
-        result.states.push_back({yaml_item.key,
-                                 tolerance(file, yaml_item, kLeastAbsolute, kMostAbsolute),
-                                 yaml_item.place});
+      for (const YamlItem& entry : items_of(file, absolute, "absolute"))
+        result.states.push_back(
+            {entry.key, tolerance(file, entry, kLeastAbsolute, kMostAbsolute), entry.place});
     } else {
       result.absolute = tolerance(file, *absolute, kLeastAbsolute, kMostAbsolute);
     }

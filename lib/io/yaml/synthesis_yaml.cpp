@@ -71,9 +71,9 @@ void set_gain_bound(const YamlFile& file, const YamlItem& item, model::Synthesis
   options.gain_bound_stated = true;
   options.gain_bound = std::nullopt;
   if (item.value.IsMap()) {
-    for (const YamlItem& yaml_item : items_of(file, item, "gain_bound")) {
+    for (const YamlItem& entry : items_of(file, item, "gain_bound")) {
       options.gain_bounds.push_back(
-          {yaml_item.key, file.positive(yaml_item.value, yaml_item.key), yaml_item.place});
+          {entry.key, file.positive(entry.value, entry.key), entry.place});
       options.gain_bound =
           std::max(options.gain_bound.value_or(0), options.gain_bounds.back().bound);
     }

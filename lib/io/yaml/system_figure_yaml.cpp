@@ -25,8 +25,8 @@ std::vector<model::SystemFigureText::System> systems(const YamlFile& file, const
     found.push_back({file.string(node, item.key), file.expression(node, item.key)});
   };
   if (item.value.IsMap()) {
-    for (const YamlItem& yaml_item : items_of(file, item, item.key))
-      found.push_back({yaml_item.key, file.expression(yaml_item.value, yaml_item.key)});
+    for (const YamlItem& entry : items_of(file, item, item.key))
+      found.push_back({entry.key, file.expression(entry.value, entry.key)});
   } else if (item.value.IsSequence()) {
     for (const YAML::Node& node : item.value) add(node);
   } else {
