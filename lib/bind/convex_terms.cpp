@@ -145,9 +145,8 @@ std::optional<KnownForm> form_at(const Binding& binding, const expr::Expression&
   }
   if (!shape(node).is_scalar()) return std::nullopt;
   const expr::Program program = expr::compile({text.text, form->column}, scope);
-  using enum expr::Op;
-  if (is_one_of(program.code.back().op, {sqrt, exp, log, sin, cos, tanh, abs, sign, floor}))
-    return std::nullopt;
+  const expr::Instruction& last = program.code.back();
+  if (expr::number_function(last.op) != nullptr && last.operands.size() == 1) return std::nullopt;
   const expr::Shape column = program.shape();
   known.elements = column.size();
   if (column.cols == 1) return known;

@@ -1,6 +1,9 @@
 #include "export/identifiers.h"
 
+#include <algorithm>
 #include <string_view>
+
+#include "expr/program/operations.h"
 
 namespace gainsmith::exports {
 
@@ -15,15 +18,13 @@ constexpr std::string_view kCWords =
     " while asm class new delete this template private public protected operator true false bool "
     "catch throw"
     " try namespace using virtual friend export typename and or not xor main errno NULL "
-    "exp log sqrt sin cos tanh atan2 floor pow fabs "
-    "expf logf sqrtf sinf cosf tanhf atan2f floorf powf fabsf ";
+    "pow fabs powf fabsf ";
 constexpr std::string_view kMatlabWords =
     " break case catch classdef continue else elseif end for function global if otherwise parfor "
     "persistent"
     " return spmd switch try while until do unwind_protect endfunction endif endfor endwhile pi "
     "eps Inf NaN"
-    " ans eye zeros ones expm inv reshape struct min max abs sign mod floor exp log sqrt sin cos "
-    "tanh atan2 power choose ";
+    " ans eye zeros ones expm inv reshape struct min max power choose ";
 constexpr std::string_view kPythonWords =
     " False None True and as assert async await break class continue def del elif else except "
     "finally for from"
@@ -43,6 +44,17 @@ std::string_view words_of(Language language) {
   return kPythonWords;
 }
 
+/// C and MATLAB have the functions of numbers under the names of the table, C those of floats with
+/// an f behind.
+bool is_function(Language language, std::string_view word) {
+  if (language == Language::python) return false;
+  return std::ranges::any_of(expr::kNumberFunctions, [&](const expr::NumberFunction& function) {
+    const std::string_view name = expr::operation(function.op).identifier;
+    return word == name ||
+           (language == Language::c && word.starts_with(name) && word.substr(name.size()) == "f");
+  });
+}
+
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -58,7 +70,7 @@ bool is_intermediate(std::string_view word) {
 
 bool is_reserved(Language language, const std::string& word) {
   return words_of(language).find(" " + word + " ") != std::string_view::npos ||
-         is_intermediate(word);
+         is_function(language, word) || is_intermediate(word);
 }
 
 std::string Identifiers::operator()(const std::string& name) {

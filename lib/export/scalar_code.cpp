@@ -198,7 +198,7 @@ class Writer {
         return choice(node, " > ");
       case ScalarOp::where_nonnegative:
         return choice(node, " >= ");
-      case ScalarOp::power:
+      case ScalarOp::real_power:
         return dialect_.language == Language::matlab ? call("power", node) : library("pow", node);
       case ScalarOp::mod:
         return dialect_.language == Language::python
@@ -206,7 +206,7 @@ class Writer {
                               within(terms_[at(node.b)], Term::atom),
                           Term::loose}
                    : own("mod", node);
-      case ScalarOp::angle:
+      case ScalarOp::atan2:
         return angle(node);
       case ScalarOp::abs:
         return dialect_.language == Language::c ? library("fabs", node) : call("abs", node);
@@ -215,16 +215,15 @@ class Writer {
       default:
         break;
     }
-    using enum ScalarOp;
-    for (const auto& [op, name] : {std::pair(floor, "floor"),
-                                   {exp, "exp"},
-                                   {log, "log"},
-                                   {sqrt, "sqrt"},
-                                   {sin, "sin"},
-                                   {cos, "cos"},
-                                   {tanh, "tanh"}})
-      if (op == node.op) return library(name, node);
-    throw std::logic_error("a node that is no operation");
+    // All languages have the others under the name of the table.
+    switch (node.op) {
+#define NUMBERS(op, ...) \
+  case ScalarOp::op:     \
+    return library(#op, node);
+#include "expr/operations.def"
+      default:
+        throw std::logic_error("a node that is no operation");
+    }
   }
 
   /// Zeros lose their signs, which do not count.

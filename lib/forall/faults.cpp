@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/stop.h"
-#include "expr/program/derivative.h"
+#include "expr/binding/derivative.h"
 #include "expr/program/evaluate.h"
 #include "expr/program/rewrite.h"
 #include "numbers/types/real.h"

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/number.h"
-#include "expr/program/derivative.h"
+#include "expr/binding/derivative.h"
 #include "forall/proof.h"
 #include "forall/proof_branches.h"
 #include "forall/proof_function.h"

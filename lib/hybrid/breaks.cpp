@@ -121,8 +121,8 @@ void merge(std::vector<ode::Break>& breaks, double from, double to) {
 bool may_wave(const Program& program) {
   using enum Op;
   return std::ranges::any_of(program.code, [](const Instruction& instruction) {
-    return is_one_of(instruction.op,
-                     {sin, cos, tanh, exp, matrix_exponential, mod, floor, atan2, flow_map});
+    return expr::behaves(instruction.op, expr::NumberFunction::waves) ||
+           is_one_of(instruction.op, {matrix_exponential, flow_map});
   });
 }
 

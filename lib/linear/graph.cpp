@@ -79,6 +79,12 @@ void keep_least(const Known& v, Nodes& claim, ErrorGraph& graph) {
   claim[1] = graph.minimum(claim[1], graph.add(v.value, v.error));
 }
 
+/// The largest v - error and v + error so far.
+void keep_largest(const Known& v, Nodes& claim, ErrorGraph& graph) {
+  claim[0] = graph.maximum(claim[0], graph.subtract(v.value, v.error));
+  claim[1] = graph.maximum(claim[1], graph.add(v.value, v.error));
+}
+
 /// A cost is a sum, with the sum of its errors.
 void add_cost(const Known& cost, Nodes& claim, ErrorGraph& graph) {
   claim[0] = graph.add(cost.value, claim[0]);
@@ -87,8 +93,8 @@ void add_cost(const Known& cost, Nodes& claim, ErrorGraph& graph) {
 
 /// A form of z with the error that the claim has in this block.
 Known form_in_block(const LengthTable& table, std::size_t& next, int sigma, const Nodes& z,
-                    const Nodes& claim, ErrorGraph& graph) {
-  return {graph.form_value(table, next, sigma, z), claim[kBlockError]};
+                    int error, ErrorGraph& graph) {
+  return {graph.form_value(table, next, sigma, z), error};
 }
 
 /// The claims over the first flow and the jump at its end, and their values just after its start.
@@ -98,6 +104,7 @@ Nodes start_claims(const LinearSystem& system, const LengthTable& table, std::si
   for (std::size_t c = 0; c < claims.size(); ++c) {
     const Known start = graph.form(table, next, sigma, xi);
     values.insert(values.end(), {start.value, start.error});
+    if (is_bounded(system.model.claims[c])) keep_largest(start, claims[c], graph);
     if (is_compared(system.model.claims[c]))
       keep_least(graph.form(table, next, sigma, xi), claims[c], graph);
     if (system.model.claims[c].kind == ClaimKind::cost)
@@ -112,10 +119,14 @@ void follow_claims(const LinearSystem& system, const LengthTable& table, std::si
   const std::size_t size = z.size() * (z.size() + 1) / 2;
   for (std::size_t c = 0; c < claims.size(); ++c) {
     if (is_compared(system.model.claims[c])) {
-      compare(form_in_block(table, next, sigma, z, claims[c], graph),
-              system.model.claims[c].tolerance, claims[c], graph);
+      const int error = claims[c][kBlockError];
+      compare(form_in_block(table, next, sigma, z, error, graph), system.model.claims[c].tolerance,
+              claims[c], graph);
       // It has fallen along the flow.
-      keep_least(form_in_block(table, next, sigma, z, claims[c], graph), claims[c], graph);
+      keep_least(form_in_block(table, next, sigma, z, error, graph), claims[c], graph);
+    } else if (is_bounded(system.model.claims[c])) {
+      keep_largest(form_in_block(table, next, sigma, z, claims[c][kPeakError], graph), claims[c],
+                   graph);
     } else {
       next += size;
     }
@@ -132,6 +143,8 @@ void bound_claims(const LinearSystem& system, const LengthTable& table, std::siz
     if (is_compared(system.model.claims[c])) {
       const int start = graph.form_error(table, next, z);
       claims[c][kBlockError] = graph.maximum(start, graph.form_error(table, next, z));
+    } else if (is_bounded(system.model.claims[c])) {
+      claims[c][kPeakError] = graph.form_error(table, next, z);
     } else {
       next += size;
     }
@@ -158,6 +171,7 @@ lanes::LaneCode first_code(const LinearSystem& system, const LengthTable& table)
         claim.count > kComparedNumbers    ? Nodes{most, most, least, least, zero, least}
         : claim.count == kComparedNumbers ? Nodes{most, most, least, least, zero}
         : claim.count == kCostNumbers     ? Nodes{zero, zero}
+        : claim.count == kPeakNumbers     ? Nodes{least, least, zero}
                                           : Nodes{});
   const Nodes values = start_claims(system, table, next, sigma, xi, carried.claims, graph);
   return graph.code({all_of(carried), values});
@@ -333,6 +347,8 @@ lanes::LaneCode last_code(const LinearSystem& system, const LinearTables& tables
     if (is_compared(system.model.claims[c]))
       compare(graph.form(tables.length, next_length, whole, z), system.model.claims[c].tolerance,
               carried.claims[c], graph);
+    if (is_bounded(system.model.claims[c]))
+      keep_largest(graph.form(tables.length, next_length, whole, z), carried.claims[c], graph);
   }
   Nodes values;
   std::size_t factor = 0;

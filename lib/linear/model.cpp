@@ -1,11 +1,13 @@
 #include "linear/model.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <string>
 #include <utility>
 
 #include "expr/program/square_of_norm.h"
+#include "linear/proof.h"
 #include "linear/quadratic_parts.h"
 #include "linear/tolerances.h"
 #include "linear/wide_function.h"
@@ -190,14 +192,34 @@ std::optional<Wide> cost_form(const Program& cost, const LinearModel& linear) {
   return Q;
 }
 
-/// The factor of `shrinks`, a constant > 0; false where it moves or is not positive.
-bool set_factor(const Program& factor, const LinearModel& linear, LinearClaim& made) {
+/// The factor of `shrinks` and the bound of `below`; none where it moves.
+std::optional<double> constant(const Program& program, const LinearModel& linear) {
   const StateLayout& layout = linear.coordinates->layout;
-  for (const expr::Input& input : factor.inputs)
-    if (layout.moves(input.name)) return false;
-  WideFunction value(factor, layout, linear.coordinates->constants);
-  made.factor = static_cast<double>(value(Wide::Zero(layout.size, 1))(0));
-  return made.factor > 0;
+  for (const expr::Input& input : program.inputs)
+    if (layout.moves(input.name)) return std::nullopt;
+  WideFunction value(program, layout, linear.coordinates->constants);
+  return static_cast<double>(value(Wide::Zero(layout.size, 1))(0));
+}
+
+/// The parts of a value, or of the square of a norm: norm(e) is the root of e'e, which is a form.
+bool add_squares(const Program& value, const LinearModel& linear, LinearClaim& made) {
+  if (add_parts(value, linear, made.value)) return true;
+  made.value.clear();
+  const auto square = expr::square_of_norm(value);
+  made.squared = square.has_value();
+  return square && add_parts(*square, linear, made.value);
+}
+
+/// What the value grows by at most along a flow; false where no bound is found.
+bool set_growth(const LinearModel& linear, LinearClaim& made) {
+  Wide Q = Wide::Zero(linear.A.rows(), linear.A.rows());
+  for (const LinearForm& form : made.value) {
+    if (form.factor) return false;
+    Q += form.Q;
+  }
+  const auto rate = growth_along_flows(Q, linear.A, linear.longest());
+  if (rate) made.growth = std::exp(*rate * linear.longest()) * kBoundSlack;
+  return rate.has_value();
 }
 
 /// `functions`: the first of those of the claim.
@@ -215,14 +237,14 @@ bool add_claim(const claims::Claim& claim, const Program* functions, LinearModel
       if (claim.flow_cost && !(made.flow_cost = cost_form(*functions++, linear))) return false;
       if (claim.jump_cost && !(made.jump_cost = cost_form(*functions++, linear))) return false;
       return add_parts(value, linear, made.value);
-    case ClaimKind::shrinks: {
-      if (!set_factor(*functions, linear, made)) return false;
-      if (add_parts(value, linear, made.value)) return true;
-      made.value.clear();
-      const auto square = expr::square_of_norm(value);
-      // norm(e) is the root of e'e, which is a form.
-      made.squared = square.has_value();
-      return square && add_parts(*square, linear, made.value);
+    case ClaimKind::shrinks:
+      made.factor = constant(*functions, linear).value_or(0);
+      return made.factor > 0 && add_squares(value, linear, made);
+    case ClaimKind::below: {
+      const auto bound = constant(*functions, linear);
+      made.bound = bound.value_or(0);
+      return bound && !claim.always && linear.jump_rows.size() <= kMostPeakRank &&
+             add_squares(value, linear, made) && set_growth(linear, made);
     }
     default:
       return false;

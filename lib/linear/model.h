@@ -13,7 +13,8 @@
 //                   there
 //                   either where it falls at all jumps
 //   cost            of forms that are nowhere negative: it is largest at the end
-//   shrinks         of a form, or of the root of one (norm(e)): squares are compared
+//   shrinks, below  of a form, or of the root of one (norm(e)): squares are compared. What a value
+//                   may grow by along a flow is bounded for all states (proof.h)
 #pragma once
 
 #include <memory>
@@ -47,6 +48,8 @@ struct LinearClaim {
   std::vector<LinearForm> value;
   std::optional<Wide> flow_cost, jump_cost;  ///< of `cost`
   double factor = 0;                         ///< of `shrinks`, > 0
+  double bound = 0;                          ///< of `below`
+  double growth = 1;                         ///< of `below`: a value grows by it at most in a flow
   double tolerance = 0;                      ///< of `nonincreasing`: a part of the least value
   bool falls = false;                        ///< of `nonincreasing`: shown for all runs (proof.h)
 };
@@ -55,6 +58,8 @@ struct LinearClaim {
 inline bool is_compared(const LinearClaim& claim) {
   return claim.kind == model::ClaimKind::nonincreasing && !claim.falls;
 }
+
+inline bool is_bounded(const LinearClaim& claim) { return claim.kind == model::ClaimKind::below; }
 
 /// n coordinates x with the constant, r numbers z with it; A n x n, B n x r, D r x n, S n x m.
 /// Pointers refer to what make_linear_model was given.

@@ -127,4 +127,25 @@ bool falls_at_jumps(const std::vector<FallingTerm>& terms, const Wide& J, const 
   return is_negative(at_jumps(terms, J, factors, at_0));
 }
 
+/// Powers of two, then halving the interval.
+std::optional<double> growth_along_flows(const Wide& Q, const Wide& A, double length) {
+  constexpr double kLeast = 0x1p-6, kMost = 32;  // of kappa length
+  constexpr int kHalvings = 5;
+  const Wide S = times<Decimal100>(A.transpose(), Q) + times<Decimal100>(Q, A);
+  const auto bounds = [&](double part) {
+    return is_semidefinite(Q * Decimal100(part / length) - S);
+  };
+  if (bounds(0)) return 0;
+  double low = 0, high = kLeast;
+  for (; !bounds(high); high *= 2) {
+    if (high >= kMost) return std::nullopt;
+    low = high;
+  }
+  for (int k = 0; k < kHalvings; ++k) {
+    const double middle = (low + high) / 2;
+    (bounds(middle) ? high : low) = middle;
+  }
+  return high / length;
+}
+
 }  // namespace gainsmith::linear

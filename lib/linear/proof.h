@@ -13,6 +13,7 @@
 // eight times at most.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "linear/flow.h"
@@ -32,5 +33,9 @@ bool falls_along_flows(const std::vector<FallingTerm>& terms, const Wide& A,
 /// `at_0`: the factors at tau = 0.
 bool falls_at_jumps(const std::vector<FallingTerm>& terms, const Wide& J, const WideTable& factors,
                     const std::vector<Decimal100>& at_0);
+
+/// kappa >= 0, near the least, with v' <= kappa v along x' = A x for v = x'Q x: then v(s) is at most
+/// e^(kappa s) v(0), or v(0) where that is negative. None up to kappa length = 32.
+std::optional<double> growth_along_flows(const Wide& Q, const Wide& A, double length);
 
 }  // namespace gainsmith::linear

@@ -102,13 +102,13 @@ class Functions {
     return values;
   }
 
-  /// Of each claim that is compared at jumps, F.
+  /// Of each claim that is compared at jumps, and of `below`, F.
   std::vector<Decimal100> of_length(const Wide& X, const Decimal100& s) {
     const std::vector<Decimal100> g = factors_(s);
     std::vector<Decimal100> values;
     std::size_t k = 0;
     for (const LinearClaim& claim : model_.claims) {
-      if (is_compared(claim)) append_form(moved(X, sum(claim, g, k)), values);
+      if (is_compared(claim) || is_bounded(claim)) append_form(moved(X, sum(claim, g, k)), values);
       k += claim.value.size();
     }
     return values;
@@ -227,6 +227,7 @@ std::unique_ptr<const LinearSystem> make_linear_system(LinearModel given) {
   for (const LinearClaim& claim : model.claims) {
     const std::size_t count = is_compared(claim) ? kComparedNumbers + (claim.tolerance > 0 ? 1 : 0)
                               : claim.kind == ClaimKind::cost ? kCostNumbers
+                              : is_bounded(claim)             ? kPeakNumbers
                                                               : 0;
     system->claims.push_back({system->carried, count});
     system->carried += count;

@@ -25,6 +25,8 @@
 //                   error        of v, in this block
 //                   whole rise   of a claim with a tolerance, which open and rise leave out
 //   cost            sum, error   with that of the whole block
+//   below           low, high    the largest v - error and v + error just after a jump or the start
+//                   error        of v, in this block
 #pragma once
 
 #include <memory>
@@ -36,10 +38,11 @@
 
 namespace gainsmith::linear {
 
-/// How many numbers a lane carries of a claim that is compared at jumps, and of a cost.
-constexpr std::size_t kComparedNumbers = 5, kCostNumbers = 2;
-/// Which of the former is the error in this block, and the one more of a claim with a tolerance.
-constexpr std::size_t kBlockError = 4, kWholeRise = 5;
+/// How many numbers a lane carries of a claim that is compared at jumps, of a cost, and of `below`.
+constexpr std::size_t kComparedNumbers = 5, kCostNumbers = 2, kPeakNumbers = 3;
+/// Which of the first is the error in this block, and the one more of a claim with a tolerance; which
+/// of the last is the error in this block.
+constexpr std::size_t kBlockError = 4, kWholeRise = 5, kPeakError = 2;
 
 /// Of the numbers that a lane carries.
 struct CarriedNumbers {

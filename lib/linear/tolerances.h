@@ -35,6 +35,8 @@ constexpr double kMostGrowth = 4;  ///< factor | errors of linear runs are bound
         ///< LinearPacks.FollowWhatFallsWhereFlowsMayGrow
 constexpr std::int64_t kMostFlowsOfBlock = 16;  ///< flows | and is no longer than so many |
         ///< Systems/LinearPacks.NoErrorIsBeyondItsBound
+constexpr std::size_t kMostPeakRank = 12;  ///< numbers behind a jump | with more of them and a claim
+        ///< `below` steps make 1,000 runs before the tables are ready | LinearPacks.RunWhatTheyCan
 // clang-format on
 
 }  // namespace gainsmith::linear

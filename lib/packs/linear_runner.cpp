@@ -307,12 +307,15 @@ class LinearLanes {
         return judge_rise(c, l, claim);
       case ClaimKind::cost:
         return judge_cost(c, l, claim);
+      case ClaimKind::below:
+        return judge_peak(c, l, claim);
       default:
         return judge_shrinking(c, l, claim);
     }
   }
   bool judge_rise(std::size_t c, std::size_t l, claims::Finding& claim) const;
   bool judge_cost(std::size_t c, std::size_t l, claims::Finding& claim) const;
+  bool judge_peak(std::size_t c, std::size_t l, claims::Finding& claim) const;
   bool judge_shrinking(std::size_t c, std::size_t l, claims::Finding& claim) const;
   PackVerdict verdict(std::size_t l) const;
 
@@ -369,6 +372,25 @@ bool LinearLanes::judge_cost(std::size_t c, std::size_t l, claims::Finding& clai
   return compare(cost, bound, claim) && (cost.error + bound.error) / scale <= kScore;
 }
 
+/// max v <= bound; of norms by squares. The largest value is between the largest at a start of a flow
+/// and `growth` times that, which is `rounding` of the finding.
+bool LinearLanes::judge_peak(std::size_t c, std::size_t l, claims::Finding& claim) const {
+  const linear::LinearClaim& stated = system_.model.claims[c];
+  const auto own = [&](double value) {
+    return stated.squared ? std::sqrt(std::max(value, 0.0)) : value;
+  };
+  const double unit = unit_of(l), high = unit * carried(c, 1, l);
+  const double least = own(unit * carried(c, 0, l));
+  const double most = own(std::max(high, stated.growth * high));
+  const Known peak{(least + most) / 2, (most - least) / 2};
+  const double scale = stated.bound == 0 ? 1 : std::abs(stated.bound);
+  claim.score = (peak.value - stated.bound) / scale;
+  claim.value = peak.value;
+  claim.bound = stated.bound;
+  claim.rounding = peak.error;
+  return compare(peak, {stated.bound, 0}, claim);
+}
+
 /// v(end) <= factor v(0); of norms by squares, with factor^2. The score is the ratio of both sides,
 /// in the unit of the claim, less 1.
 bool LinearLanes::judge_shrinking(std::size_t c, std::size_t l, claims::Finding& claim) const {
@@ -399,6 +421,7 @@ PackVerdict LinearLanes::verdict(std::size_t l) const {
   verdict.why = Why::range;
   if ((open_ >> l & 1U) != 0) return verdict;
   verdict.open = false;
+  verdict.proved = true;
   verdict.happened = {1};
   for (std::size_t c = 0; c < system_.claims.size(); ++c) {
     claims::Finding& claim = verdict.findings.emplace_back();

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "expr/program/derivative.h"
+#include "expr/binding/derivative.h"
 
 namespace gainsmith::packs {
 

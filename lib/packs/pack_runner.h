@@ -41,6 +41,7 @@ std::string to_string(Why why);
 struct PackVerdict {
   bool open = true;  ///< what follows says nothing but why
   Why why = Why::claim;
+  bool proved = false;  ///< by bounds of all errors, otherwise by estimates
   /// Of the claims that are stated: judgement, score, floor and whether it is sampled; of linear
   /// runs value, bound and rounding too.
   std::vector<claims::Finding> findings;

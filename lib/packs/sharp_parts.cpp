@@ -85,8 +85,8 @@ std::vector<int> SharpParts::flats(int node) {
   std::vector<std::pair<ScalarGraph::Node, int>> found;
   visit(node, [&](const ScalarGraph::Node& one, int at) {
     const bool bends = one.op == ScalarOp::exp || one.op == ScalarOp::tanh ||
-                       one.op == ScalarOp::log || one.op == ScalarOp::power ||
-                       one.op == ScalarOp::angle;
+                       one.op == ScalarOp::log || one.op == ScalarOp::real_power ||
+                       one.op == ScalarOp::atan2;
     const bool divides = one.op == ScalarOp::divide;
     if ((bends && depends_on_states(one.a)) || ((bends || divides) && depends_on_states(one.b)))
       found.emplace_back(one, at);
@@ -102,11 +102,11 @@ int SharpParts::flat_beside(const ScalarGraph::Node& one, int at) {
   switch (one.op) {
     case ScalarOp::divide:
       return square(one.b);
-    case ScalarOp::angle:
+    case ScalarOp::atan2:
       return graph_.add(square(one.a), square(one.b));
     case ScalarOp::log:
       return one.a;
-    case ScalarOp::power:
+    case ScalarOp::real_power:
       return depends_on_states(one.b) ? at : one.a;
     case ScalarOp::tanh:
       return graph_.apply(ScalarOp::exp, one.a);

@@ -47,11 +47,8 @@ bool is_number(const PolynomialMatrix& x) {
 
 /// Operations that a polynomial has no value of.
 constexpr bool leaves_polynomials(Op op) {
-  using enum Op;
-  return !is_one_of(op, {jacobian, real_power}) &&
-         (numbers::is_irrational(op) ||
-          is_one_of(op, {abs, minimum, maximum, where, sign, determinant, inverse, floor, mod, sin,
-                         tanh, exp, cos, matrix_exponential, constant}));
+  return op != Op::real_power &&
+         (expr::is_function(op) || expr::is_one_of(op, {Op::where, Op::constant}));
 }
 
 /// The operations of polynomials beside those of every ring.

@@ -325,7 +325,7 @@ void Campaign::repeat_worst(CampaignPart& part) const {
   }
   {
     const Concluding concluding(0.5);
-    if (packs_) repeat_carefully(*setup_, packs_.linear != nullptr, part);
+    if (packs_) repeat_carefully(*setup_, packs_.linear != nullptr && packs_.any == nullptr, part);
   }
   check_stop();
   confirm_violations(*setup_, part);

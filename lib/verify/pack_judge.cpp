@@ -1,7 +1,9 @@
 #include "verify/pack_judge.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -29,7 +31,10 @@ void require_agreement(std::uint64_t run, Judgement packs, Judgement careful) {
 Packs make_packs(const Setup& setup, std::uint64_t runs) {
   Packs made;
   made.linear = make_linear_packs(setup);
-  if (made.linear || runs < kFewestInPacks) return made;
+  // Peaks next to a bound are followed by steps.
+  const bool is_whole =
+      made.linear && std::ranges::none_of(made.linear->model.claims, linear::is_bounded);
+  if (is_whole || runs < kFewestInPacks) return made;
   const claims::RunSetup& events = setup.judged();
   const simulate::Accuracy accuracy = events.accuracy(claims::kAccuracyOfMany);
   const Eigen::VectorXd absolute =
@@ -38,13 +43,18 @@ Packs make_packs(const Setup& setup, std::uint64_t runs) {
           : Eigen::VectorXd(Eigen::VectorXd::Constant(events.system.size, accuracy.absolute));
   made.any = packs::make_pack_system(events.system, events.scenario, events.claims,
                                      accuracy.relative, absolute);
-  if (made.any) made.flights = flights::make_flights(*made.any, events.claims);
+  if (made.any && !made.linear) made.flights = flights::make_flights(*made.any, events.claims);
   return made;
 }
 
 PackJudge::PackJudge(const Setup& setup, const Packs* packs) : setup_(&setup) {
   if (packs == nullptr) return;
-  if (packs->linear) linear_.emplace(*packs->linear);
+  if (packs->linear) {
+    linear_.emplace(*packs->linear);
+    const auto& claims = packs->linear->model.claims;
+    for (std::size_t c = 0; c < claims.size(); ++c)
+      if (linear::is_bounded(claims[c])) bounded_.push_back(c);
+  }
   if (packs->any) packs_.emplace(*packs->any);
   if (packs->flights) flights_.emplace(*packs->any, *packs->flights);
 }
@@ -53,11 +63,29 @@ void PackJudge::begin(std::uint64_t seed, std::uint64_t first, std::uint64_t las
   seed_ = seed;
   first_ = first;
   verdicts_.clear();
-  if (linear_) verdicts_ = linear_->run(seed, first, last);
-  if (packs_ && !flights_) verdicts_ = packs_->run(seed, first, last);
-  if (!flights_) return;
-  verdicts_ = flights_->run(seed, first, last);
-  packs_->decide(seed, first, verdicts_);
+  if (linear_) {
+    verdicts_ = linear_->run(seed, first, last);
+    reopen_nearest();
+  } else if (flights_) {
+    verdicts_ = flights_->run(seed, first, last);
+  } else if (packs_) {
+    verdicts_.resize(static_cast<std::size_t>(last - first));
+  }
+  if (packs_) packs_->decide(seed, first, verdicts_);
+}
+
+/// Of peaks linear packs know bounds alone. So runs that may be the nearest to a bound of this range
+/// are left open.
+void PackJudge::reopen_nearest() {
+  for (const std::size_t c : bounded_) {
+    double largest = -std::numeric_limits<double>::infinity();
+    for (const packs::PackVerdict& verdict : verdicts_)
+      if (!verdict.open)
+        largest = std::max(largest, verdict.findings[c].value - verdict.findings[c].rounding);
+    for (packs::PackVerdict& verdict : verdicts_)
+      verdict.open =
+          verdict.open || verdict.findings[c].value + verdict.findings[c].rounding > largest;
+  }
 }
 
 void PackJudge::begin_as(const PackJudge& prepared) {
@@ -71,7 +99,7 @@ bool PackJudge::is_repeated(std::uint64_t run) const {
   // Of proved errors the square numbers alone.
   const std::uint64_t number = run / kSampled;
   const auto root = static_cast<std::uint64_t>(std::sqrt(static_cast<double>(number)));
-  return !linear_ || root * root == number;
+  return !verdicts_[static_cast<std::size_t>(run - first_)].proved || root * root == number;
 }
 
 std::uint64_t PackJudge::careful_count() const {
@@ -119,7 +147,8 @@ CampaignVerdictOnRun PackJudge::operator()(std::uint64_t run) {
   verdict.happened = pack.happened;
   verdict.findings = pack.findings;
   if (!is_repeated(run)) return {std::move(verdict), false, {}};
-  RunVerdict again = careful(seed_, run, linear_ ? held(verdict.findings) : std::vector<bool>());
+  RunVerdict again =
+      careful(seed_, run, pack.proved ? held(verdict.findings) : std::vector<bool>());
   for (std::size_t c = 0; c < again.findings.size(); ++c)
     require_agreement(run, verdict.findings[c].judgement, again.findings[c].judgement);
   return {std::move(again), true, {}};

@@ -61,10 +61,12 @@ class PackJudge {
  private:
   /// Whether the careful run repeats this one, whatever packs say.
   bool is_repeated(std::uint64_t run) const;
+  void reopen_nearest();
 
   const Setup* setup_;
   std::uint64_t seed_ = 0, first_ = 0;
   std::optional<packs::LinearRunner> linear_;
+  std::vector<std::size_t> bounded_;  ///< claims `below` of linear packs
   std::optional<packs::PackRunner> packs_;
   std::optional<flights::FlightRunner> flights_;  ///< what they leave open is for packs_
   std::optional<Judge> judge_;                    ///< made when it is asked for

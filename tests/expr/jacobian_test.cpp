@@ -5,7 +5,7 @@
 #include <random>
 #include <string>
 
-#include "expr/program/derivative.h"
+#include "expr/binding/derivative.h"
 #include "expr/world.h"
 #include "support/input_error.h"
 
@@ -152,6 +152,8 @@ TEST_F(Jacobians, AreFormulasWhereThereAreRules) {
                                  "exp(xh) + log(w + xh)",
                                  "sqrt(w + xh).*sin(xh) - cos(3*xh)",
                                  "tanh(xh)",
+                                 "2.^xh",
+                                 "(w + xh.*xh).^(s + xh)",
                                  "atan2(xh, w)",
                                  "atan2(w, xh)",
                                  "atan2(xh(1), xh(2))",
@@ -195,7 +197,8 @@ TEST_F(Jacobians, OfADragThatIsSmoothHaveNoJump) {
 }
 
 TEST_F(Jacobians, StayWhereThereAreNone) {
-  for (const std::string text : {"where(xh > s, xh, s)", "expm(s*xh*xh')", "norm(xh)", "2.^xh"}) {
+  for (const std::string text :
+       {"where(xh > s, xh, s)", "expm(s*xh*xh')", "norm(xh)", "floor(xh)"}) {
     const Program formulas = with_derivatives(compile("2*jacobian(sin(" + text + "), xh)"));
     EXPECT_NE(jacobian_in(formulas), nullptr) << text;
   }

@@ -103,5 +103,18 @@ TEST(LinearProof, FollowsFactorsOfTheTimer) {
   EXPECT_TRUE(falls(3));
 }
 
+TEST(LinearProof, FindsHowFastAValueMayGrow) {
+  const Wide square = wide({{1, 0}, {0, 1}});
+  // |x|^2 with x' = A x grows at the largest eigenvalue of A + A'.
+  EXPECT_EQ(growth_along_flows(square, wide({{-1, 1}, {-1, -2}}), 1), 0);
+  const auto growth = growth_along_flows(square, wide({{0.25, 1}, {-1, 0}}), 2);
+  ASSERT_TRUE(growth);
+  EXPECT_GE(*growth, 0.5);
+  EXPECT_LE(*growth, 0.55);
+  // Of x_1 alone x_2 makes anything.
+  EXPECT_FALSE(growth_along_flows(wide({{1, 0}, {0, 0}}), wide({{-1, 1}, {0, -1}}), 1));
+  EXPECT_EQ(growth_along_flows(wide({{1, 0}, {0, 0}}), wide({{-1, 0}, {1, 1}}), 1), 0);
+}
+
 }  // namespace
 }  // namespace gainsmith::linear::linear_flows

@@ -273,6 +273,49 @@ TEST(LinearPacks, RunWhatTheyCan) {
   EXPECT_FALSE(is_linear("flow: \"x'*x\"", "flow: \"x(1)^2 - x(2)^2\""));
   EXPECT_FALSE(is_linear("[-0.1, 1; -1, -0.1]", "[-0.1, 400; -400, -0.1]"));
   EXPECT_TRUE(is_linear("[-0.1, 1; -1, -0.1]", "[-0.1, 1; -1, -400]"));
+  // Peaks in few coordinates.
+  const auto has_peaks = [](const std::string& states) {
+    return make("problem: p\nmethod:\n  method: m\n  plant:\n    state: {x: " + states +
+                "}\n    flow: {x: -x}\n    jump: {x: 0.5*x}\n  timer: {tau: {reset: [0.1, 0.6]}}\n"
+                "  claims: {a: {below: norm(x), bound: 10}}\n"
+                "campaign: {runs: 100, horizon: 6, initial: {x: {box: [-1, 1]}}}\n")
+               .packs.linear != nullptr;
+  };
+  EXPECT_TRUE(has_peaks("12"));
+  EXPECT_FALSE(has_peaks("13"));
+}
+
+/// Bounds far above, near and below what runs reach; of a form and of a norm.
+TEST(LinearPacks, KnowPeaksOrLeaveThemOpen) {
+  std::size_t decided = 0, held = 0, violated = 0;
+  for (const std::string claim : {"below: \"x'*x\"", "below: norm(x)"})
+    for (const std::string bound : {"40", "4", "2.5", "1.5", "0.01", "-1"}) {
+      const Made made = make(
+          "problem: p\nmethod:\n  method: m\n  plant:\n    state: {x: 2}\n"
+          "    flow: {x: \"[0.1, 1; -1.5, -0.3]*x\"}\n"
+          "    jump: {x: \"[0.6, 0.5; -0.9, 0.75]*x\"}\n"
+          "  timer: {tau: {reset: [0.1, 0.6]}}\n  claims: {a: {" +
+          claim + ", bound: " + bound +
+          "}}\ncampaign: {runs: 100, horizon: 6, initial: {x: {box: [-1, 1]}}}\n");
+      ASSERT_NE(made.packs.linear, nullptr);
+      ASSERT_NE(made.packs.any, nullptr);
+      EXPECT_GT(made.packs.linear->model.claims[0].growth, 1);
+      const auto verdicts = packs::LinearRunner(*made.packs.linear).run(7, 0, 64);
+      Judge judge(*made.setup);
+      for (std::uint64_t run = 0; run < verdicts.size(); ++run) {
+        if (verdicts[run].open) continue;
+        ++decided;
+        const claims::Finding& pack = verdicts[run].findings[0];
+        const claims::Finding careful = judge(7, run).findings[0];
+        ++(pack.violated() ? violated : held);
+        EXPECT_EQ(pack.violated(), careful.violated()) << claim << " " << bound << ", run " << run;
+        EXPECT_LE(std::abs(pack.value - careful.value), pack.rounding + 1e-6)
+            << claim << " " << bound << ", run " << run;
+      }
+    }
+  EXPECT_GT(decided, 200U);
+  EXPECT_GT(held, 64U);
+  EXPECT_GT(violated, 64U);
 }
 
 /// A careful run ends where a state leaves 1e150, and its claims with it.

@@ -36,15 +36,53 @@ constexpr bool is_without_bounds(Op op) {
                         flow_map, extremum, eigenvalues, continuous_riccati, discrete_riccati});
 }
 
+/// A function of numbers: a row NUMBERS of the table.
+struct NumberFunction {
+  /// Flags.
+  enum Behaviour : unsigned {
+    smooth = 0,  ///< but for kinks
+    jumps = 1,
+    waves = 2  ///< it may turn or bend between points at which it is known
+  };
+  Op op;
+  std::string_view parameters;  ///< "y, x"
+  unsigned behaviour;
+  std::array<std::string_view, 2> derivatives{};  ///< by each parameter; of a choice empty
+};
+
+/// In the order of the table.
+inline constexpr auto kNumberFunctions = [] {
+  using enum NumberFunction::Behaviour;
+  return std::to_array<NumberFunction>({
+#define NUMBERS(op, parameters, behaviour, ...) {Op::op, parameters, behaviour, {__VA_ARGS__}},
+#include "expr/operations.def"
+  });
+}();
+
+/// nullptr: it is none.
+constexpr const NumberFunction* number_function(Op op) {
+  const auto* const found = std::ranges::find(kNumberFunctions, op, &NumberFunction::op);
+  return found == kNumberFunctions.end() ? nullptr : found;
+}
+
+/// Whether it has derivatives by formulas of its own.
+constexpr bool has_derivatives(Op op) {
+  const NumberFunction* const function = number_function(op);
+  return function != nullptr && !function->derivatives[0].empty();
+}
+
+/// Whether a function of numbers has all of these flags.
+constexpr bool behaves(Op op, unsigned flags) {
+  const NumberFunction* const function = number_function(op);
+  return function != nullptr && (function->behaviour & flags) == flags;
+}
+
 /// Whether it is no polynomial in its operands, and no choice between them.
 constexpr bool is_function(Op op) {
   using enum Op;
-  const bool of_numbers = is_one_of(op, {real_power, exp, log, sqrt, sin, cos, tanh, atan2, abs,
-                                         sign, floor, mod, minimum, maximum});
-  const bool of_matrices =
-      is_one_of(op, {inverse, pseudo_inverse, matrix_exponential, norm, singular_values,
-                     range_basis, kernel_basis, complement_basis, determinant});
-  return of_numbers || of_matrices || is_without_bounds(op);
+  return number_function(op) != nullptr || is_without_bounds(op) ||
+         is_one_of(op, {inverse, pseudo_inverse, matrix_exponential, norm, singular_values,
+                        range_basis, kernel_basis, complement_basis, determinant});
 }
 
 /// What the operands must be, and the shape of the result. A, B are operands of any shape, s

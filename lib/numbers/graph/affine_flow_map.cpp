@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "expr/binding/derivative.h"
 #include "expr/program/assembly.h"
-#include "expr/program/derivative.h"
 #include "numbers/types/degree.h"
 
 namespace gainsmith::numbers {

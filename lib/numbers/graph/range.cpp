@@ -166,7 +166,7 @@ bool enclose(ScalarOp op, const Range& a, const Range& b, const Range& c, bool s
     case ScalarOp::tanh:
       out = rising(a, [](double x) { return std::tanh(x); });
       break;
-    case ScalarOp::power:
+    case ScalarOp::real_power:
       if (!power(a, b, out)) return false;
       break;
     default:

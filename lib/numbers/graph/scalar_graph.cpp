@@ -3,39 +3,14 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
-#include <stdexcept>
 #include <utility>
 
-#include "numbers/types/scalar_functions.h"
+#include "numbers/graph/scalar_operations.h"
 
 namespace gainsmith::numbers {
 
-namespace {
-
-/// What the rows of scalar_ops.def call by name, over one double.
-double all(double x) { return x; }
-double abs_of(double x) { return std::abs(x); }
-double floor_of(double x) { return std::floor(x); }
-double exp_of(double x) { return std::exp(x); }
-double sqrt_of(double x) { return std::sqrt(x); }
-double sine_of(double x) { return std::sin(x); }
-double cosine_of(double x) { return std::cos(x); }
-double tanh_of(double x) { return std::tanh(x); }
-double multiply_add(double a, double b, double c) { return a * b + c; }
-
-}  // namespace
-
 double apply(ScalarOp op, double a, double b, double c) {
-  switch (op) {
-#define SCALAR_OP(op, operands, ...) \
-  case ScalarOp::op:                 \
-    return __VA_ARGS__;
-#include "numbers/graph/scalar_ops.def"
-    default:
-      break;
-  }
-  throw std::logic_error("no operation on numbers");
+  return ScalarOperations<double>::apply(op, a, b, c);
 }
 
 /// Multiplicative hashing of each part by 2^64 over the golden ratio.
@@ -143,7 +118,7 @@ bool ScalarGraph::is_partial(int at) const {
   switch (node.op) {
     case ScalarOp::divide:
       return !is_constant(node.b) || value(node.b) == 0;
-    case ScalarOp::power:
+    case ScalarOp::real_power:
     case ScalarOp::mod:
     case ScalarOp::exp:
     case ScalarOp::log:

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "numbers/graph/tape_block.h"
+#include "numbers/types/shared_rules.h"
 
 namespace gainsmith::numbers {
 
@@ -156,12 +157,8 @@ Nodes NodeRules::block_of(const ScalarGraph::Block& block) {
 }
 
 int NodeRules::power(int square, int exponent) {
-  int result = number(1);
-  for (; exponent > 0; exponent /= 2) {
-    if (exponent % 2 == 1) result = graph_.multiply(result, square);
-    if (exponent > 1) square = graph_.multiply(square, square);
-  }
-  return result;
+  return whole_power(number(1), square, exponent,
+                     [&](int a, int b) { return graph_.multiply(a, b); });
 }
 
 }  // namespace gainsmith::numbers

@@ -1,8 +1,11 @@
 #include <optional>
+#include <string>
 #include <utility>
 
+#include "expr/binding/partial_derivative.h"
 #include "numbers/graph/exponential_formula.h"
 #include "numbers/graph/scalar_rules.h"
+#include "numbers/types/shared_rules.h"
 
 namespace gainsmith::numbers {
 
@@ -37,6 +40,10 @@ class Slopes : public NodeRules {
         return graph_.is_zero(moved(0, k)) ? zero() : graph_.multiply(factor(k), moved(0, k));
       });
     };
+    // The rate of a root at 0 has a rule of its own.
+    if (expr::has_derivatives(instruction.op) &&
+        !(instruction.op == Op::sqrt && kind_ == Derivative::rate))
+      return each([&](std::size_t k) { return function_slope(instruction.op, in, slopes, k); });
     switch (instruction.op) {
       case Op::add:
         return each([&](std::size_t k) { return graph_.add(moved(0, k), moved(1, k)); });
@@ -72,47 +79,9 @@ class Slopes : public NodeRules {
           return graph_.multiply(number(exponent), power(value(0, k), exponent - 1));
         });
       }
-      case Op::real_power:
-        return each([&](std::size_t k) { return real_power_slope(in, slopes, k, out.value[k]); });
-      case Op::exp:
-        return along([&](std::size_t k) { return out.value[k]; });
-      case Op::log:
-        return along([&](std::size_t k) { return graph_.divide(number(1), value(0, k)); });
       case Op::sqrt:
         return along([&](std::size_t k) {
           return graph_.divide(number(1), graph_.multiply(number(2), divisor(out.value[k])));
-        });
-      case Op::sin:
-        return along([&](std::size_t k) { return graph_.apply(ScalarOp::cos, value(0, k)); });
-      case Op::cos:
-        return along(
-            [&](std::size_t k) { return graph_.negate(graph_.apply(ScalarOp::sin, value(0, k))); });
-      case Op::tanh:
-        return along([&](std::size_t k) {
-          return graph_.subtract(number(1), graph_.multiply(out.value[k], out.value[k]));
-        });
-      case Op::abs:
-        return each([&](std::size_t k) {
-          return graph_.where(false, value(0, k), moved(0, k), graph_.negate(moved(0, k)));
-        });
-      case Op::sign:
-      case Op::floor:
-        return zeros(instruction.shape);
-      case Op::mod:
-        return each([&](std::size_t k) {
-          const int turns = graph_.apply(
-              ScalarOp::floor,
-              graph_.add(graph_.divide(graph_.subtract(value(0, k), out.value[k]), value(1, k)),
-                         number(0.5)));
-          return graph_.subtract(moved(0, k), graph_.multiply(turns, moved(1, k)));
-        });
-      case Op::atan2:
-        return each([&](std::size_t k) {
-          const int y = value(0, k), x = value(1, k);
-          const int top =
-              graph_.subtract(graph_.multiply(x, moved(0, k)), graph_.multiply(y, moved(1, k)));
-          const int squares = graph_.add(graph_.multiply(x, x), graph_.multiply(y, y));
-          return graph_.is_zero(top) ? top : graph_.divide(top, squares);
         });
       case Op::minimum:
         return each([&](std::size_t k) {
@@ -168,20 +137,16 @@ class Slopes : public NodeRules {
   }
 
   Nodes power_slope(const TracedMatrix& in, const Nodes& moved, int exponent) {
-    TracedMatrix square{in.shape, in.value, {moved}};
-    TracedMatrix result{in.shape, zeros(in.shape), {zeros(in.shape)}};
-    for (int k = 0; k < in.shape.rows; ++k) result.value[at(in.shape, k, k)] = number(1);
+    TracedMatrix one{in.shape, zeros(in.shape), {zeros(in.shape)}};
+    for (int k = 0; k < in.shape.rows; ++k) one.value[at(in.shape, k, k)] = number(1);
     const auto times = [&](const TracedMatrix& a, const TracedMatrix& b) {
       auto value = product(a.shape, a.value, b.shape, b.value);
       if (!value) throw NoFormula();
       return TracedMatrix{
           a.shape, std::move(*value), {product_slope(a, a.slopes[0], b, b.slopes[0])}};
     };
-    for (; exponent > 0; exponent /= 2) {
-      if (exponent % 2 == 1) result = times(result, square);
-      if (exponent > 1) square = times(square, square);
-    }
-    return result.slopes[0];
+    const TracedMatrix base{in.shape, in.value, {moved}};
+    return whole_power(one, base, exponent, times).slopes[0];
   }
 
   /// The upper right of exp([X, dX; 0, X]).
@@ -214,18 +179,19 @@ class Slopes : public NodeRules {
     return result;
   }
 
-  /// b a^(b - 1) da + a^b log(a) db.
-  int real_power_slope(const TracedOperands& in, const std::vector<const Nodes*>& slopes,
-                       std::size_t k, int out) {
-    const int a = in[0]->value[k], b = in[1]->value[k];
+  /// Of an element of a function of numbers.
+  int function_slope(Op op, const TracedOperands& in, const std::vector<const Nodes*>& slopes,
+                     std::size_t element) {
+    const auto input = [&](const expr::Input& operand) -> TracedMatrix {
+      return {operand.shape, {in[std::stoul(operand.name)]->value[element]}};
+    };
     int sum = zero();
-    if (const int da = (*slopes[0])[k]; !graph_.is_zero(da) && !graph_.is_zero(b)) {
-      const int lower = graph_.apply(ScalarOp::power, a, graph_.subtract(b, number(1)));
-      sum = graph_.multiply(graph_.multiply(b, lower), da);
+    for (std::size_t k = 0; k < in.size(); ++k) {
+      const int moved = (*slopes[k])[element];
+      if (graph_.is_zero(moved)) continue;
+      const int factor = trace(expr::partial_derivative(op, k), input, graph_).value[0];
+      sum = graph_.add(sum, graph_.multiply(factor, moved));
     }
-    if (const int db = (*slopes[1])[k]; !graph_.is_zero(db))
-      sum = graph_.add(sum,
-                       graph_.multiply(graph_.multiply(out, graph_.apply(ScalarOp::log, a)), db));
     return sum;
   }
 

@@ -219,17 +219,14 @@ class Tracer : public NodeRules {
   }
 
   static std::optional<ScalarOp> elementwise(Op op) {
-    using Pair = std::pair<Op, ScalarOp>;
-    static constexpr Pair kPairs[] = {
-        {Op::minimum, ScalarOp::minimum},  {Op::maximum, ScalarOp::maximum},
-        {Op::real_power, ScalarOp::power}, {Op::mod, ScalarOp::mod},
-        {Op::atan2, ScalarOp::angle},      {Op::abs, ScalarOp::abs},
-        {Op::sign, ScalarOp::sign},        {Op::floor, ScalarOp::floor},
-        {Op::exp, ScalarOp::exp},          {Op::log, ScalarOp::log},
-        {Op::sqrt, ScalarOp::sqrt},        {Op::sin, ScalarOp::sin},
-        {Op::cos, ScalarOp::cos},          {Op::tanh, ScalarOp::tanh}};
-    const auto found = std::ranges::find(kPairs, op, &Pair::first);
-    return found == std::end(kPairs) ? std::nullopt : std::optional(found->second);
+    switch (op) {
+#define NUMBERS(op, ...) \
+  case Op::op:           \
+    return ScalarOp::op;
+#include "expr/operations.def"
+      default:
+        return std::nullopt;
+    }
   }
 
   /// Of a column or a row.

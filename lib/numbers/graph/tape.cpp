@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "numbers/graph/scalar_operations.h"
+
 namespace gainsmith::numbers {
 
 /// Registers: `inputs` of them, the constants, whose values stay, and one for each step.
@@ -49,61 +51,18 @@ bool Tape::enclose(const Box& inputs, double part) {
   });
 }
 
-/// The frequent operations are cases of the switch; the others go through apply(). Infinities and
-/// NaN are found once at the end, not in each step.
+/// Infinities and NaN are found once at the end, not in each step.
 bool Tape::run() {
   double* const r = registers_.data();
   for (const TapeCode::Step& step : steps_) {
-    const double a = r[step.a];
-    const double b = r[step.b];
-    double& out = r[step.out];
-    switch (step.op) {
-      case ScalarOp::add:
-        out = a + b;
-        break;
-      case ScalarOp::subtract:
-        out = a - b;
-        break;
-      case ScalarOp::multiply:
-        out = a * b;
-        break;
-      case ScalarOp::multiply_add:
-        out = a * b + r[step.c];
-        break;
-      case ScalarOp::divide:
-        out = a / b;
-        break;
-      case ScalarOp::negate:
-        out = -a;
-        break;
-      case ScalarOp::minimum:
-        out = b < a ? b : a;
-        break;
-      case ScalarOp::maximum:
-        out = a < b ? b : a;
-        break;
-      case ScalarOp::where_positive:
-        out = a > 0 ? b : r[step.c];
-        break;
-      case ScalarOp::where_nonnegative:
-        out = a >= 0 ? b : r[step.c];
-        break;
-      case ScalarOp::abs:
-        out = std::abs(a);
-        break;
-      case ScalarOp::sqrt:
-        out = std::sqrt(a);
-        break;
-      case ScalarOp::block:
-        if (const Matrix* value = blocks_[step.a](r); value != nullptr) {
-          std::copy_n(value->data(), value->size(), &out);
-          break;
-        }
-        return false;
-      default:
-        out = apply(step.op, a, b, r[step.c]);
-        break;
+    double* const out = &r[step.out];
+    if (step.op != ScalarOp::block) {
+      *out = ScalarOperations<double>::apply(step.op, r[step.a], r[step.b], r[step.c]);
+      continue;
     }
+    const Matrix* const value = blocks_[step.a](r);
+    if (value == nullptr) return false;
+    std::copy_n(value->data(), value->size(), out);
   }
   return is_finite();
 }

@@ -8,11 +8,13 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <optional>
 
 #include "numbers/types/ball.h"
 #include "numbers/types/scalar_functions.h"
+#include "numbers/types/shared_rules.h"
 
 namespace gainsmith::numbers {
 
@@ -176,18 +178,13 @@ std::optional<bool> holds(const Ball<S>& d, bool strict) {
 
 /// x^n by products.
 template <class S>
-Ball<S> whole_power(Ball<S> x, int n) {
-  Ball<S> result{S(1), 0};
-  for (; n > 0; n /= 2) {
-    if (n % 2 == 1) result = result * x;
-    if (n > 1) x = x * x;
-  }
-  return result;
+Ball<S> whole_power(const Ball<S>& x, int n) {
+  return numbers::whole_power(Ball<S>{S(1), 0}, x, n, std::multiplies<>());
 }
 
 /// x^y. None when it is certainly no number.
 template <class S>
-std::optional<Ball<S>> power(const Ball<S>& x, const Ball<S>& y) {
+std::optional<Ball<S>> real_power(const Ball<S>& x, const Ball<S>& y) {
   using std::pow;
   // Whole exponents up to this size are products.
   constexpr double kMostProducts = 64;

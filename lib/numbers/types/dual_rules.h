@@ -10,6 +10,7 @@
 #include "expr/program/evaluate.h"
 #include "numbers/dense/determinant.h"
 #include "numbers/dense/householder.h"
+#include "numbers/graph/partial_graph.h"
 #include "numbers/types/dual.h"
 #include "numbers/types/flow_map_rules.h"
 #include "numbers/types/project_convex.h"
@@ -66,7 +67,7 @@ struct DualRules {
     });
   }
   template <Op op>
-  requires expr::OneOf<op, Op::constant, Op::zeros, Op::sign, Op::floor>
+  requires expr::OneOf<op, Op::constant, Op::zeros>
   void operator()(Is<op>, const At&, Value&) const {}
 
   void operator()(Is<Op::multiply>, const At& at, Value& out) const {
@@ -96,40 +97,17 @@ struct DualRules {
   }
   void operator()(Is<Op::power>, const At& at, Value& out) const {
     const Eigen::Index n = at[0].value.rows();
-    Value square = at[0];
-    Value result{M::Identity(n, n), M::Zero(n * n, out.slope.cols()), {}};
-    for (int exponent = at.attribute(0); exponent > 0; exponent /= 2) {
-      if (exponent % 2 == 1) result = product(result, square);
-      if (exponent > 1) square = product(square, square);
-    }
-    out.slope = std::move(result.slope);
+    const Value one{M::Identity(n, n), M::Zero(n * n, out.slope.cols()), {}};
+    out.slope = whole_power(one, at[0], at.attribute(0), product).slope;
   }
   void operator()(Is<Op::elementwise_power>, const At& at, Value& out) const {
     const int k = at.attribute(0);
     if (k == 0) return;
-    M power = M::Ones(at[0].value.rows(), at[0].value.cols());
-    M square = at[0].value;
-    for (int rest = k - 1; rest > 0; rest /= 2) {
-      if (rest % 2 == 1) power = M(power.cwiseProduct(square));
-      if (rest > 1) square = M(square.cwiseProduct(square));
-    }
+    const M& x = at[0].value;
+    const M power =
+        whole_power<M>(M::Ones(x.rows(), x.cols()), x, k - 1, numbers::elementwise_product<Scalar>);
     along(at[0], out, M(Scalar(k) * power));
   }
-  /// b a^(b - 1) da + a^b log(a) db.
-  void operator()(Is<Op::real_power>, const At& at, Value& out) const {
-    using std::log;
-    using std::pow;
-    const M base = at[0].value.binaryExpr(at[1].value, [](const Scalar& a, const Scalar& b) {
-      return b == Scalar(0) ? Scalar(0) : Scalar(b * pow(a, Scalar(b - Scalar(1))));
-    });
-    M exponent = at[0].value;
-    for (Eigen::Index i = 0; i < exponent.size(); ++i)
-      exponent(i) = exponent(i) > Scalar(0) ? Scalar(out.value(i) * log(exponent(i)))
-                                            : std::numeric_limits<Scalar>::quiet_NaN();
-    along(at[0], out, base, Op::real_power);
-    along(at[1], out, exponent, Op::real_power);
-  }
-
   /// (A^-1)' = -A^-1 A' A^-1.
   void operator()(Is<Op::inverse>, const At& at, Value& out) const {
     const M& R = out.value;
@@ -168,43 +146,17 @@ struct DualRules {
     });
   }
 
-  void operator()(Is<Op::exp>, const At& at, Value& out) const { along(at[0], out, out.value); }
-  void operator()(Is<Op::log>, const At& at, Value& out) const {
-    along(at[0], out, M(at[0].value.cwiseInverse()));
-  }
-  void operator()(Is<Op::sqrt>, const At& at, Value& out) const {
-    along(at[0], out, M((Scalar(2) * out.value).cwiseInverse()), Op::sqrt);
-  }
-  void operator()(Is<Op::sin>, const At& at, Value& out) const {
-    along(at[0], out, M(at[0].value.array().cos()));
-  }
-  void operator()(Is<Op::cos>, const At& at, Value& out) const {
-    along(at[0], out, M(-at[0].value.array().sin()));
-  }
-  void operator()(Is<Op::tanh>, const At& at, Value& out) const {
-    along(at[0], out, M(Scalar(1) - out.value.array().square()));
-  }
-  void operator()(Is<Op::abs>, const At& at, Value& out) const {
-    along(at[0], out, at[0].value.unaryExpr([](const Scalar& x) {
-      return x < Scalar(0) ? Scalar(-1) : Scalar(1);
-    }));
-  }
-  /// a - b floor(a / b), whose floor is level.
-  void operator()(Is<Op::mod>, const At& at, Value& out) const {
-    using std::floor;
-    M count = at[0].value;
-    for (Eigen::Index i = 0; i < count.size(); ++i)
-      count(i) = -floor(Scalar((count(i) - out.value(i)) / at[1].value(i) + Scalar(0.5)));
-    along(at[0], out, M::Ones(count.rows(), count.cols()));
-    along(at[1], out, count);
-  }
-  /// (x y' - y x') / (x^2 + y^2).
-  void operator()(Is<Op::atan2>, const At& at, Value& out) const {
-    const M& y = at[0].value;
-    const M& x = at[1].value;
-    const M squares = x.cwiseProduct(x) + y.cwiseProduct(y);
-    along(at[0], out, M(x.cwiseQuotient(squares)), Op::atan2);
-    along(at[1], out, M(-y.cwiseQuotient(squares)), Op::atan2);
+  /// By the texts of the table.
+  template <Op op>
+  requires(expr::has_derivatives(op)) void operator()(Is<op>, const At& at, Value& out) const {
+    for (std::size_t k = 0; k < at.operands.size(); ++k) {
+      if (!at[k].moves()) continue;
+      const PartialGraph& partial = partial_graph(op, k);
+      M factor(out.value.rows(), out.value.cols());
+      for (Eigen::Index i = 0; i < factor.size(); ++i)
+        factor(i) = value_of(partial, at[0].value(i), at[at.operands.size() - 1].value(i));
+      along(at[k], out, factor, op);
+    }
   }
   template <Op op>
   requires expr::OneOf<op, Op::minimum, Op::maximum>

@@ -81,18 +81,13 @@ struct EnclosureRules {
     if (by.is_zero()) expr::fault::division_by_zero();
     map_balls([&](const Ball<S>& a) { return a / by; }, at[0], out);
   }
-  /// By squaring. Radii grow with the products, of which a power has some 2 log2 k at most.
   void operator()(Is<Op::power>, const At& at, Value& out) const {
     if (at.shape().is_scalar()) {
       out.resize(1, 1);
       return out.set(0, ball::whole_power(at[0].ball(0), at.attribute(0)));
     }
-    Value square = at[0];
-    out = exact_identity<S>(square.rows());
-    for (int exponent = at.attribute(0); exponent > 0; exponent /= 2) {
-      if (exponent % 2 == 1) out = product(out, square);
-      if (exponent > 1) square = product(square, square);
-    }
+    out = whole_power(exact_identity<S>(at[0].rows()), at[0], at.attribute(0),
+                      [](const Value& a, const Value& b) { return product(a, b); });
   }
   void operator()(Is<Op::elementwise_product>, const At& at, Value& out) const {
     map_balls([](const Ball<S>& a, const Ball<S>& b) { return a * b; }, at[0], at[1], out);
@@ -104,15 +99,6 @@ struct EnclosureRules {
   void operator()(Is<Op::elementwise_power>, const At& at, Value& out) const {
     const int exponent = at.attribute(0);
     map_balls([&](const Ball<S>& x) { return ball::whole_power(x, exponent); }, at[0], out);
-  }
-  /// `not_finite` where it is certain that there is no real value.
-  void operator()(Is<Op::real_power>, const At& at, Value& out) const {
-    const auto power_of = [](const Ball<S>& x, const Ball<S>& y) {
-      const auto power = ball::power(x, y);
-      if (!power) expr::fault::not_finite(Op::real_power);
-      return *power;
-    };
-    map_balls(power_of, at[0], at[1], out);
   }
   void operator()(Is<Op::transpose>, const At& at, Value& out) const { out = transposed(at[0]); }
   void operator()(Is<Op::blocks>, const At& at, Value& out) const {
@@ -128,32 +114,15 @@ struct EnclosureRules {
     out.mid = at[0].mid.block(row, column, rows, columns);
     out.rad = at[0].rad.block(row, column, rows, columns);
   }
-  void operator()(Is<Op::exp>, const At& at, Value& out) const { each<ball::exp<S>>(at, out); }
-  void operator()(Is<Op::log>, const At& at, Value& out) const {
-    partly(
-        Op::log, [](const Ball<S>& x) { return ball::log(x); }, at[0], out);
+  /// Functions of numbers have their balls under their own names (ball_functions.h).
+#define NUMBERS(op, ...)                                                             \
+  void operator()(Is<Op::op>, const At& at, Value& out) const {                      \
+    const auto function = [](const auto&... balls) -> decltype(ball::op(balls...)) { \
+      return ball::op(balls...);                                                     \
+    };                                                                               \
+    each(Op::op, function, at, out);                                                 \
   }
-  void operator()(Is<Op::sqrt>, const At& at, Value& out) const {
-    partly(
-        Op::sqrt, [](const Ball<S>& x) { return ball::sqrt(x); }, at[0], out);
-  }
-  void operator()(Is<Op::sin>, const At& at, Value& out) const { each<ball::sin<S>>(at, out); }
-  void operator()(Is<Op::cos>, const At& at, Value& out) const { each<ball::cos<S>>(at, out); }
-  void operator()(Is<Op::tanh>, const At& at, Value& out) const { each<ball::tanh<S>>(at, out); }
-  void operator()(Is<Op::abs>, const At& at, Value& out) const { each<ball::abs<S>>(at, out); }
-  void operator()(Is<Op::sign>, const At& at, Value& out) const { each<ball::sign<S>>(at, out); }
-  void operator()(Is<Op::floor>, const At& at, Value& out) const { each<ball::floor<S>>(at, out); }
-  void operator()(Is<Op::mod>, const At& at, Value& out) const {
-    refuse_zeros(at[1]);
-    each<ball::mod<S>>(at, out);
-  }
-  void operator()(Is<Op::atan2>, const At& at, Value& out) const { each<ball::atan2<S>>(at, out); }
-  void operator()(Is<Op::minimum>, const At& at, Value& out) const {
-    each<ball::minimum<S>>(at, out);
-  }
-  void operator()(Is<Op::maximum>, const At& at, Value& out) const {
-    each<ball::maximum<S>>(at, out);
-  }
+#include "expr/operations.def"
   /// A ball that holds both branches where the sign of the condition is not certain.
   void operator()(Is<Op::where>, const At& at, Value& out) const {
     out.resize(at.shape().rows, at.shape().cols);
@@ -253,14 +222,25 @@ struct EnclosureRules {
   }
 
  private:
-  /// f(x) or f(x, y) element by element.
-  template <auto f>
-  static void each(const At& at, Value& out) {
-    const auto of = [](const auto&... balls) { return f(balls...); };
-    if constexpr (std::is_invocable_v<decltype(f), Ball<S>>)
-      map_balls(of, at[0], out);
+  /// f(x) or f(x, y) element by element. A fault where all of a ball lies outside of the domain.
+  template <class Function>
+  static void each(Op op, const Function& function, const At& at, Value& out) {
+    if (op == Op::mod) refuse_zeros(at[1]);
+    const auto value = [&](const auto&... balls) {
+      const auto found = function(balls...);
+      if constexpr (std::is_same_v<decltype(found), const Ball<S>>) {
+        return found;
+      } else {
+        if (!found && at.operands.size() == 1)
+          expr::fault::outside_domain(op, static_cast<double>(at[0].mid.minCoeff()));
+        if (!found) expr::fault::not_finite(op);
+        return *found;
+      }
+    };
+    if constexpr (std::is_invocable_v<Function, Ball<S>>)
+      map_balls(value, at[0], out);
     else
-      map_balls(of, at[0], at[1], out);
+      map_balls(value, at[0], at[1], out);
   }
 
   static Columns<Ball<S>> columns(const Value& a) {
@@ -271,17 +251,6 @@ struct EnclosureRules {
   static void refuse_zeros(const Value& divisor) {
     for (Eigen::Index i = 0; i < divisor.mid.size(); ++i)
       if (divisor.ball(i).is_zero()) expr::fault::division_by_zero();
-  }
-
-  /// f of each element; outside_domain where all of its ball lies outside.
-  template <class Function>
-  static void partly(Op op, const Function& function, const Value& x, Value& out) {
-    out.resize(x.rows(), x.cols());
-    for (Eigen::Index i = 0; i < x.mid.size(); ++i) {
-      const auto value = function(x.ball(i));
-      if (!value) expr::fault::outside_domain(op, static_cast<double>(x.mid.minCoeff()));
-      out.set(i, *value);
-    }
   }
 
   /// The length of a vector, in a unit 2^k that leaves its squares in range. Radii add their own

@@ -63,7 +63,7 @@ inline Taylor whole_power(const Number& x, int k) {
 
 /// a^b: by the chain rule where the exponent does not move, as e^(b log a) where it moves.
 inline Taylor real_power(const Taylor& a, const Taylor& b, bool exponent_moves) {
-  const auto known = ball::power(a.value, b.value);
+  const auto known = ball::real_power(a.value, b.value);
   if (!known) expr::fault::not_finite(expr::Op::real_power);
   if (exponent_moves) {
     const Taylor log = log_of(a.value).value_or(Taylor{kUnknown, kUnknown, kUnknown});
@@ -72,7 +72,7 @@ inline Taylor real_power(const Taylor& a, const Taylor& b, bool exponent_moves) 
     return {*known, power.first, power.second};
   }
   const auto or_unknown = [&](const Number& exponent) {
-    return ball::power(a.value, exponent).value_or(kUnknown);
+    return ball::real_power(a.value, exponent).value_or(kUnknown);
   };
   const Number one{1, 0}, two{2, 0}, y = b.value;
   return composed({*known, y * or_unknown(y - one), y * (y - one) * or_unknown(y - two)}, a);

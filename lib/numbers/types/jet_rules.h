@@ -85,12 +85,9 @@ struct JetRules {
   }
   void operator()(Is<Op::power>, const At& at, Jet& out) const {
     const int exponent = at.attribute(0);
-    out = constant_jet(exact_identity<double>(at.shape().rows));
-    Jet square = at[0];
-    for (int rest = exponent; rest > 0; rest /= 2) {
-      if (rest % 2 == 1) out = jets::matrix_product(out, square);
-      if (rest > 1) square = jets::matrix_product(square, square);
-    }
+    const Jet one = constant_jet(exact_identity<double>(at.shape().rows));
+    out = whole_power(one, at[0], exponent,
+                      [](const Jet& a, const Jet& b) { return jets::matrix_product(a, b); });
     // An even power of a number that changes its sign is a power of its size.
     if (at.shape().is_scalar() && exponent % 2 == 0 && exponent > 0) {
       const Number size = ball::whole_power(ball::abs(at[0].value().ball(0)), exponent);

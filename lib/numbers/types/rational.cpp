@@ -57,13 +57,8 @@ struct Rules : FieldRules<Rational> {
     map(quotient, at, out);
   }
   void operator()(Is<Op::elementwise_power>, const At& at, Value& out) const {
-    Value square = at[0];
-    out = RationalMatrix::Constant(square.rows(), square.cols(), Rational(1));
-    for (int exponent = at.attribute(0); exponent > 0; exponent /= 2) {
-      if (exponent % 2 == 1) out = Value(out.cwiseProduct(square));
-      if (exponent > 1) square = Value(square.cwiseProduct(square));
-      check_size(square);
-    }
+    const auto one = Value::Constant(at[0].rows(), at[0].cols(), Rational(1));
+    out = power_of(one, at, numbers::elementwise_product<Rational>);
   }
   void operator()(Is<Op::sign>, const At& at, Value& out) const {
     out = at[0].unaryExpr([](const Rational& x) { return Rational(x.sign()); });
@@ -79,13 +74,8 @@ struct Rules : FieldRules<Rational> {
     map(rest, at, out);
   }
   void operator()(Is<Op::power>, const At& at, Value& out) const {
-    Value square = at[0];
-    out = RationalMatrix::Identity(square.rows(), square.rows());
-    for (int exponent = at.attribute(0); exponent > 0; exponent /= 2) {
-      if (exponent % 2 == 1) out = Value(out.lazyProduct(square));
-      if (exponent > 1) square = Value(square.lazyProduct(square));
-      check_size(square);
-    }
+    const auto one = Value::Identity(at[0].rows(), at[0].rows());
+    out = power_of(one, at, [](const Value& a, const Value& b) { return a.lazyProduct(b); });
   }
   void operator()(Is<Op::inverse>, const At& at, Value& out) const {
     check_size(at[0], at[0].rows());
@@ -111,6 +101,16 @@ struct Rules : FieldRules<Rational> {
   }
   template <Op op>
   requires(is_irrational(op)) void operator()(Is<op>, const At&, Value&) const { not_rational(op); }
+
+ private:
+  template <class Times>
+  static Value power_of(const Value& one, const At& at, const Times& times) {
+    return whole_power(one, at[0], at.attribute(0), [&](const Value& a, const Value& b) {
+      Value product = times(a, b);
+      check_size(product);
+      return product;
+    });
+  }
 };
 
 }  // namespace

@@ -74,20 +74,14 @@ struct RealRules : FieldRules<Scalar> {
     out = Value::Constant(1, 1, *value);
   }
   void operator()(Is<Op::multiply>, const At& at, Value& out) const { multiply(at[0], at[1], out); }
-  /// M^k, k >= 0, by squaring: some 2 log2 k products at most.
   void operator()(Is<Op::power>, const At& at, Value& out) const {
-    Value square = at[0], next;
-    out = Value::Identity(square.rows(), square.cols());
-    for (int exponent = at.attribute(0); exponent > 0; exponent /= 2) {
-      if (exponent % 2 == 1) {
-        multiply(out, square, next);
-        out.swap(next);
-      }
-      if (exponent > 1) {
-        multiply(square, square, next);
-        square.swap(next);
-      }
-    }
+    const auto times = [](const Value& a, const Value& b) {
+      Value product;
+      multiply(a, b, product);
+      return product;
+    };
+    const Eigen::Index n = at[0].rows();
+    out = whole_power<Value>(Value::Identity(n, n), at[0], at.attribute(0), times);
   }
   void operator()(Is<Op::elementwise_quotient>, const At& at, Value& out) const {
     // Below so many roundings of 1 a cosine counts as 0, where tan has its poles.
@@ -99,12 +93,8 @@ struct RealRules : FieldRules<Scalar> {
     out = at[0].cwiseQuotient(at[1]);
   }
   void operator()(Is<Op::elementwise_power>, const At& at, Value& out) const {
-    Value square = at[0];
-    out = Value::Ones(square.rows(), square.cols());
-    for (int exponent = at.attribute(0); exponent > 0; exponent /= 2) {
-      if (exponent % 2 == 1) out = Value(out.cwiseProduct(square));
-      if (exponent > 1) square = Value(square.cwiseProduct(square));
-    }
+    out = whole_power<Value>(Value::Ones(at[0].rows(), at[0].cols()), at[0], at.attribute(0),
+                             numbers::elementwise_product<Scalar>);
   }
   void operator()(Is<Op::real_power>, const At& at, Value& out) const {
     using std::pow;

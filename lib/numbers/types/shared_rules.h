@@ -5,6 +5,7 @@
 
 #include "expr/program/evaluate.h"
 #include "expr/program/number_type.h"
+#include "numbers/matrix.h"
 
 namespace gainsmith::numbers {
 
@@ -21,6 +22,21 @@ void for_each_block(const expr::Step<Value>& at, const Place& place) {
     }
     row += at[first].rows();
   }
+}
+
+/// base^exponent, exponent >= 0, by squaring: some 2 log2 k products at most. `one`: base^0.
+template <class Value, class Times>
+Value whole_power(Value one, Value base, int exponent, const Times& times) {
+  for (; exponent > 0; exponent /= 2) {
+    if (exponent % 2 == 1) one = times(one, base);
+    if (exponent > 1) base = times(base, base);
+  }
+  return one;
+}
+
+template <class Scalar>
+MatrixOf<Scalar> elementwise_product(const MatrixOf<Scalar>& a, const MatrixOf<Scalar>& b) {
+  return a.cwiseProduct(b);
 }
 
 /// The value of a program at named values. std::logic_error when an input has none.

@@ -1,20 +1,19 @@
 // Forward differentiation of matrix programs by rules, one direction at a time:
 //
 //   (A + B)' = A' + B'              (A B)' = A' B + A B'          (a/b)' = (a' - (a/b) b')/b
-//   inv(A)' = -inv(A) A' inv(A)     (x^k)' = k x^(k-1) x'         sqrt(x)' = x'/(2 sqrt(x))
-//   exp(x)' = exp(x) x'             log(x)' = exp(-log(x)) x'     tanh(x)' = (1 - tanh(x)^2) x'
-//   |x|' = x', -x' below 0          max(a, b)' = a' or b'
-//   atan2(y, x)' = (x y' - y x')/(x^2 + y^2)
+//   inv(A)' = -inv(A) A' inv(A)     (x^k)' = k x^(k-1) x'         max(a, b)' = a' or b'
+//   f(a, b)' = df/da a' + df/db b'  of functions of numbers (partial_derivative.h)
 //
 // Column k of a jacobian is the derivative in the direction of element k of the variable.
 // Directions are unit matrices, so zeros are not computed with and products with 1 are left out.
-#include "expr/program/derivative.h"
+#include "expr/binding/derivative.h"
 
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "expr/binding/partial_derivative.h"
 #include "expr/program/assembly.h"
 
 namespace gainsmith::expr {
@@ -113,38 +112,10 @@ class Direction {
         return power(instruction, x(0), d(0));
       case Op::elementwise_power:
         return power(instruction, x(0), d(0));
-      case Op::real_power: {
-        if (!d(1).is_zero()) return std::nullopt;
-        const int lower =
-            apply(Op::real_power, {x(0), apply(Op::subtract, {x(1), ones(shape)}, shape)}, shape);
-        return along(apply(Op::elementwise_product, {x(1), lower}, shape), d(0), shape);
-      }
       case Op::inverse: {
         const int turned = apply(Op::multiply, {d(0).at, value}, shape);
         return Slope{apply(Op::negate, {apply(Op::multiply, {value, turned}, shape)}, shape)};
       }
-      case Op::exp:
-        return along(value, d(0), shape);
-      case Op::log: {
-        // 1/x = exp(-log(x)): without a value where the logarithm has none.
-        const int opposite = apply(Op::negate, {value}, shape);
-        return along(apply(Op::exp, {opposite}, shape), d(0), shape);
-      }
-      case Op::sqrt: {
-        const int twice = apply(Op::add, {value, value}, shape);
-        return Slope{apply(Op::elementwise_quotient, {d(0).at, twice}, shape)};
-      }
-      case Op::sin:
-        return along(apply(Op::cos, {x(0)}, shape), d(0), shape);
-      case Op::cos:
-        return along(apply(Op::negate, {apply(Op::sin, {x(0)}, shape)}, shape), d(0), shape);
-      case Op::tanh: {
-        const int square = apply(Op::elementwise_power, {value}, shape, {2});
-        return along(apply(Op::subtract, {ones(shape), square}, shape), d(0), shape);
-      }
-      case Op::abs:
-        has_moduli_ = true;
-        return along(slope_of_modulus(x(0)), d(0), shape);
       case Op::minimum:
       case Op::maximum: {
         const int first = instruction.op == Op::maximum ? x(0) : x(1);
@@ -152,18 +123,8 @@ class Direction {
         const int by = apply(Op::subtract, {second, first}, shape);
         return Slope{apply(Op::where, {by, filled(d(1), shape), filled(d(0), shape)}, shape, {1})};
       }
-      case Op::atan2: {
-        const Slope up = d(0).is_zero() ? d(0) : along(x(1), d(0), shape);
-        const Slope down = d(1).is_zero() ? d(1) : along(x(0), d(1), shape);
-        const int squares = apply(Op::add,
-                                  {apply(Op::elementwise_power, {x(0)}, shape, {2}),
-                                   apply(Op::elementwise_power, {x(1)}, shape, {2})},
-                                  shape);
-        return Slope{
-            apply(Op::elementwise_quotient, {difference(up, down, shape).at, squares}, shape)};
-      }
       default:
-        return std::nullopt;
+        return of_function(instruction);
     }
   }
 
@@ -174,14 +135,26 @@ class Direction {
   int number(const std::string& decimal) {
     return assembly_.add({Op::constant, {}, {1, 1}, {}, decimal, like_->origin, like_->offset});
   }
-  /// 1 at x >= 0, -1 below.
-  int slope_of_modulus(int x) {
-    const Shape shape = assembly_.shape(x);
-    const int one = ones(shape);
-    return apply(Op::where, {x, one, apply(Op::negate, {one}, shape)}, shape);
+  /// A function of numbers, but for those that jump.
+  std::optional<Slope> of_function(const Instruction& instruction) {
+    if (!has_derivatives(instruction.op) || behaves(instruction.op, NumberFunction::jumps))
+      return std::nullopt;
+    has_moduli_ = has_moduli_ || instruction.op == Op::abs;
+    std::vector<int> operands;
+    for (const int operand : instruction.operands)
+      operands.push_back(moved_[static_cast<std::size_t>(operand)]);
+    Slope whole;
+    for (std::size_t k = 0; k < operands.size(); ++k) {
+      const Slope& part = slopes_[static_cast<std::size_t>(instruction.operands[k])];
+      if (part.is_zero()) continue;
+      const int factor = add_partial_derivative(assembly_, instruction, k, operands);
+      whole = sum(whole, along(factor, part, instruction.shape), instruction.shape);
+    }
+    return whole;
   }
-  int ones(Shape shape) {
-    return shape.is_scalar() ? number("1") : apply(Op::fill, {number("1")}, shape);
+  int slope_of_modulus(int x) {
+    const Instruction modulus = made(Op::abs, {x}, assembly_.shape(x), *like_);
+    return add_partial_derivative(assembly_, modulus, 0, {x});
   }
 
   /// The matrix that is 1 in element `unit`, counted column by column, and 0 elsewhere.
