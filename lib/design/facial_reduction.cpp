@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/rational.h"
+#include "design/face_program.h"
 #include "design/gain_values.h"
 #include "design/minimum.h"
 #include "numbers/dense/dense.h"
@@ -49,52 +50,6 @@ std::vector<RationalBlock> blocks_of(const Posed& posed, const lmi::GainBounds& 
           i, numbers::Matrix(matrix).unaryExpr([](double x) { return Rational(x); }));
   }
   return blocks;
-}
-
-/// What is left, as blocks that a solver can be asked about.
-struct Left {
-  lmi::Lmi lmi;
-  std::vector<std::size_t> blocks;  ///< which of the faces' they are: those with rows
-};
-
-/// c'x in the coordinates of the face, x = x_0 + N y.
-void pose_objective(const Faces& faces, const lmi::Lmi& stated, lmi::Lmi& left) {
-  left.has_objective = stated.has_objective;
-  if (!stated.has_objective) return;
-  const std::vector<Rational> c(stated.objective.begin(), stated.objective.end());
-  const numbers::RationalMatrix& N = faces.directions();
-  Rational constant = 0;
-  for (std::size_t i = 0; i < c.size(); ++i) constant += c[i] * faces.origin()[i];
-  left.objective_constant = stated.objective_constant + nearest_double(constant);
-  for (Eigen::Index j = 0; j < N.cols(); ++j) {
-    Rational sum = 0;
-    for (std::size_t i = 0; i < c.size(); ++i) sum += c[i] * N(static_cast<Eigen::Index>(i), j);
-    left.objective.push_back(nearest_double(sum));
-  }
-}
-
-Left left_of(const Faces& faces, const lmi::Lmi& stated) {
-  Left left;
-  left.lmi.unknowns = faces.unknowns();
-  pose_objective(faces, stated, left.lmi);
-  for (std::size_t k = 0; k < faces.blocks().size(); ++k) {
-    const RationalBlock& of = faces.blocks()[k];
-    if (of.size == 0) continue;
-    lmi::Block block;
-    block.name = faces.names()[k];
-    block.strict = of.strict;
-    block.size = of.size;
-    for (const auto& [i, matrix] : of.terms) {
-      const numbers::Matrix rounded =
-          matrix.unaryExpr([](const Rational& x) { return nearest_double(x); });
-      double& size = i == 0 ? block.constant_size : block.coefficient_size;
-      size = std::max(size, rounded.cwiseAbs().maxCoeff());
-      block.terms.emplace_back(i, lmi::sparse(rounded));
-    }
-    left.lmi.blocks.push_back(std::move(block));
-    left.blocks.push_back(k);
-  }
-  return left;
 }
 
 /// The loop of facial_reduction.h over `faces_`, the face so far x = x_0 + N y. Each step ends with
@@ -146,7 +101,7 @@ class FacialReduction {
   /// What the solver said of what was left, in the shape of the program of all blocks; the
   /// multipliers are 0, as they are those of a face.
   sdp::Solution as_solution_of(const lmi::Formulation& formulation) const {
-    sdp::Solution solution = solved_;
+    sdp::Solution solution = solved_.solution;
     solution.rest = {};
     solution.x.assign(static_cast<std::size_t>(formulation.variables), 0);
     solution.Y.values.clear();
@@ -169,7 +124,7 @@ class FacialReduction {
       try_only_point();
       return finish();
     }
-    const Left left = left_of(faces_, posed_.lmi);
+    const FaceProgram left = program_on(faces_, posed_.lmi);
     const std::size_t steps = faces_.steps();
     // Of the whole space double was asked before.
     if (steps > 0) solve_left(left, {}, Want::point);
@@ -195,38 +150,24 @@ class FacialReduction {
 
   void finish() { done_ = true; }
 
-  /// The largest margin on the face, its coefficients rounded once from fractions to 31 digits.
-  lmi::Formulation formulate(const Left& left, const lmi::Round& round) const {
-    return lmi::formulate_interior(
-        left.lmi, {}, round,
-        [&](std::size_t k, const lmi::Balance& balance, const std::vector<int>& kept) {
-          return verdict::rounded(
-              verdict::exact_block(faces_.blocks()[left.blocks[k]], balance, k, kept));
-        });
-  }
-
   /// Solves for the largest margin on the face with these digits, tries its point, from there the
   /// objective, and with `want` the multipliers. A round whose margin rises by half leads to
   /// another.
-  void solve_left(const Left& left, const Effort& effort, Want want) {
+  void solve_left(const FaceProgram& left, const Effort& effort, Want want) {
     constexpr int kMostRounds = 4;
     constexpr double kRises = 1.5;
     constexpr double kRoots = 3, kRounding = 1e-10;
     lmi::Round round;
     std::optional<std::vector<double>> inside;
-    posed_left_ = {};
     solved_ = {};
     for (int k = 0; k < kMostRounds; ++k) {
-      lmi::Formulation formulation = formulate(left, round);
+      lmi::Formulation formulation = formulate(faces_, left, round);
       sdp::Solution solution = solve_(formulation.problem, effort);
       if (solution.x.empty()) break;
       const auto next = lmi::next_round(left.lmi, {}, formulation, solution.x);
       if (next && next->margin > round.margin)
         inside = lmi::read_back(left.lmi, formulation, solution);
-      if (k == 0) {
-        solved_ = std::move(solution);
-        posed_left_ = std::move(formulation);
-      }
+      if (k == 0) solved_ = {std::move(solution), std::move(formulation)};
       // Points of the whole space are those of the other attempts.
       if (faces_.steps() == 0 || !next || next->margin <= round.margin * kRises) break;
       round = *next;
@@ -242,7 +183,8 @@ class FacialReduction {
       // there.
       if (!fails && (interior || posed_.lmi.has_objective)) done_ = interior;
     }
-    if (want == Want::point_or_multipliers && !done_ && !solved_.x.empty()) take_multipliers(left);
+    if (want == Want::point_or_multipliers && !done_ && !solved_.solution.x.empty())
+      take_multipliers(left);
   }
 
   /// Decimals near a point of the face that the exact blocks take, or nearest to one where there
@@ -334,7 +276,7 @@ class FacialReduction {
 
   /// The minimum of c'x on the face, by the solver with several gaps; the one with the greatest
   /// lower bound counts. None where there is none, or it was not found.
-  std::optional<Minimum> minimum_of(const Left& left) {
+  std::optional<Minimum> minimum_of(const FaceProgram& left) {
     std::optional<Minimum> best;
     lmi::Formulation formulation = lmi::pose_objective(left.lmi, {}, posed_.choices().margin);
     formulation.only_strict = true;
@@ -358,7 +300,7 @@ class FacialReduction {
   }
 
   /// Shown by weak duality on the face.
-  std::optional<double> bound_of(const Left& left, const lmi::Formulation& formulation,
+  std::optional<double> bound_of(const FaceProgram& left, const lmi::Formulation& formulation,
                                  const sdp::Solution& solution) const {
     if (guessed_) return std::nullopt;
     std::vector<verdict::ExactBlock<DoubleDouble>> blocks;
@@ -382,7 +324,7 @@ class FacialReduction {
   /// From a point inside to the least objective on the face: as near as decimals hold.
   /// y(e) = y* + e (y_f - y*) for e = 0, 1e-12, ..., 0.1, y* the minimum and y_f the point inside:
   /// the first whose decimals hold.
-  void minimise(const Left& left, const std::vector<double>& inside) {
+  void minimise(const FaceProgram& left, const std::vector<double>& inside) {
     const verdict::Costs of = costs();
     if (std::all_of(of.begin() + 1, of.end(), [](const auto& cost) { return cost.is_zero(); }))
       return settle_constant();
@@ -400,67 +342,22 @@ class FacialReduction {
       result_.point = true;
       result_.x = std::move(found->x);
       result_.margins = std::move(found->margins);
-      solved_ = std::move(minimum->solution);
+      solved_.solution = std::move(minimum->solution);
       result_.question.goal = lmi::Goal::objective;
       result_.least = minimum->least;
       return finish();
     }
   }
 
-  /// A matrix for each block of the face, of what `of` says for those that were solved.
-  template <class Of>
-  verdict::FoundMultipliers on_blocks(const Left& left, const Of& of) const {
-    verdict::FoundMultipliers found;
-    for (const RationalBlock& block : faces_.blocks()) {
-      found.Y.push_back(
-          numbers::MatrixOf<DoubleDouble>::Constant(block.size, block.size, DoubleDouble(0)));
-      found.rows.emplace_back(static_cast<std::size_t>(block.size), 0);
-    }
-    for (std::size_t k = 0; k < left.blocks.size(); ++k) {
-      const std::size_t at = left.blocks[k];
-      const auto& kept = posed_left_.free_variables.kept[k];
-      found.rows[at] = posed_left_.balance.rows[k];
-      found.Y[at](kept, kept) = of(k);
-    }
-    return found;
-  }
-
-  /// The multipliers of the blocks on the face, and v of their constant parts.
-  verdict::FoundMultipliers multipliers(const Left& left) const {
-    const verdict::Multipliers Y =
-        verdict::multipliers_of(posed_left_, left.blocks.size(), solved_);
-    verdict::FoundMultipliers found = on_blocks(left, [&](std::size_t k) { return Y[k]; });
-    if (posed_left_.homogenised) found.v = solved_.Y.values[Y.size()][0];
-    return found;
-  }
-
-  /// Projectors K K' onto the kernels of the blocks at the point of the largest margin, K the
-  /// eigenvectors of small eigenvalues. A face of all solutions has B_k(x) V = 0, so its range is
-  /// in them.
-  verdict::FoundMultipliers kernels(const Left& left) const {
-    // Of the largest eigenvalue of all blocks: smaller ones count as 0.
-    constexpr double kSmall = 1e-6;
-    const double one = posed_left_.homogenised ? solved_.x[solved_.x.size() - 2] : 1;
-    std::vector<numbers::SymmetricEigen> eigen;
-    double largest = 0;
-    for (const lmi::BalancedBlock& block : posed_left_.blocks) {
-      eigen.emplace_back(lmi::value_of(block, solved_.x, one));
-      if (block.size > 0) largest = std::max(largest, eigen.back().values().maxCoeff());
-    }
-    return on_blocks(left, [&](std::size_t k) -> numbers::MatrixOf<DoubleDouble> {
-      const Eigen::Index count = (eigen[k].values().array() < kSmall * largest).count();
-      const numbers::Matrix K = eigen[k].vectors().leftCols(count);
-      return (K * K.transpose()).eval().cast<DoubleDouble>();
-    });
-  }
-
   /// Where no multipliers are exact: the kernels, in fractions near them. What holds on the face
   /// holds; that the face is all is shown by multipliers on it, or not at all.
-  void guess(const Left& left) {
+  void guess(const FaceProgram& left) {
     for (const double relative : {1e-10, 1e-7, 1e-4}) {
-      const auto face = verdict::fractions_near(faces_, kernels(left), relative);
+      const auto face =
+          verdict::fractions_near(faces_, kernels_on(faces_, left, solved_), relative);
       if (!face) continue;
-      const verdict::FaceMultipliers by = verdict::exact_on(faces_, *face, multipliers(left));
+      const verdict::FaceMultipliers by =
+          verdict::exact_on(faces_, *face, multipliers_on(faces_, left, solved_));
       const bool shown = !by.S.empty();
       Faces whole = faces_;
       faces_.note("kernels near the largest margin leave equality on their range");
@@ -475,8 +372,9 @@ class FacialReduction {
 
   /// Multipliers near those of the solver in fractions: they exclude every solution or lead to a
   /// smaller face.
-  void take_multipliers(const Left& left) {
-    const verdict::ExactMultipliers exact = verdict::exact_multipliers(faces_, multipliers(left));
+  void take_multipliers(const FaceProgram& left) {
+    const verdict::ExactMultipliers exact =
+        verdict::exact_multipliers(faces_, multipliers_on(faces_, left, solved_));
     if (exact.say == verdict::ExactMultipliers::Say::nothing) return;
     std::string on;
     for (const verdict::FaceOfBlock& face : exact.faces)
@@ -511,9 +409,8 @@ class FacialReduction {
   std::vector<RationalBlock> stated_;
   Faces faces_;
   Attempt result_;
-  sdp::Solution solved_;         ///< the first round of what was left last
-  lmi::Formulation posed_left_;  ///< and its program
-  bool guessed_ = false;         ///< that the face holds all solutions is not shown
+  FaceSolution solved_;   ///< the first round of what was left last
+  bool guessed_ = false;  ///< that the face holds all solutions is not shown
   bool done_ = false;
 };
 

@@ -157,8 +157,10 @@ void LaneSet::leave_open(std::size_t l) {
 void LaneSet::finish(std::size_t l) {
   PackLane& lane = *lanes_[l];
   PackVerdict& verdict = verdicts_[static_cast<std::size_t>(lane.run_number - first_)];
+  const bool nearest = verdict.nearest;
   verdict = {};
   verdict.open = false;
+  verdict.nearest = nearest;
   for (ClaimLane& claim : lane.claims) {
     claim.finish();
     verdict.open = verdict.open || claim.open();

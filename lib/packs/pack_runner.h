@@ -41,7 +41,8 @@ std::string to_string(Why why);
 struct PackVerdict {
   bool open = true;  ///< what follows says nothing but why
   Why why = Why::claim;
-  bool proved = false;  ///< by bounds of all errors, otherwise by estimates
+  bool proved = false;   ///< by bounds of all errors, otherwise by estimates
+  bool nearest = false;  ///< open since it may come nearest to a bound of those around it
   /// Of the claims that are stated: judgement, score, floor and whether it is sampled; of linear
   /// runs value, bound and rounding too.
   std::vector<claims::Finding> findings;

@@ -11,8 +11,9 @@ using Coefficients = StepPolynomial::Coefficients;
 
 /// A search for a zero ends so near to it.
 constexpr double kZeroWithin = 2e-15;
-/// After a step of Newton's method that is such a part of the zero, the digits double.
-constexpr double kLastStep = 1e-8;
+/// After a step of Halley's method that is such a part of the zero, the digits triple.
+constexpr double kLastStep = 1e-5;
+
 /// The `count` coefficients of its two halves.
 void split(const Coefficients& b, std::size_t count, Coefficients& left, Coefficients& right) {
   left = right = b;
@@ -62,26 +63,39 @@ bool falls_within(const Coefficients& b, std::size_t count, double margin, int d
          falls_within(right, count, margin / 2, depth - 1);
 }
 
-struct Point {
-  double value = 0;
-  double slope = 0;
-};
-
 /// By de Casteljau's algorithm.
-Point at(Coefficients b, std::size_t count, double share) {
-  for (std::size_t level = count - 1; level > 1; --level)
+double at(Coefficients b, std::size_t count, double share) {
+  for (std::size_t level = count - 1; level > 0; --level)
     for (std::size_t k = 0; k < level; ++k) b[k] += share * (b[k + 1] - b[k]);
-  if (count == 1) return {b[0], 0};
-  return {b[0] + share * (b[1] - b[0]), static_cast<double>(count - 1) * (b[1] - b[0])};
+  return b[0];
 }
 
-/// The only zero, from `side` to the other one: Newton's steps between bounds.
+/// The only zero, from `side` to the other one: Halley's steps between bounds, from where the
+/// coefficients change their sign. In powers of the share, with c_k = C(n, k) (k-th difference).
 double only_zero(const Coefficients& b, std::size_t count, int side) {
-  double low = 0, high = 1, share = b[0] / (b[0] - b[count - 1]);
+  std::size_t beyond = 1;
+  while (beyond + 1 < count && side * b[beyond] > 0) ++beyond;
+  const double part = b[beyond - 1] / (b[beyond - 1] - b[beyond]);
+  Coefficients c = b;
+  for (std::size_t k = 1; k < count; ++k) {
+    for (std::size_t i = count - 1; i >= k; --i) c[i] -= c[i - 1];
+  }
+  double binomial = 1;
+  for (std::size_t k = 1; k < count; ++k) {
+    binomial *= static_cast<double>(count - k) / static_cast<double>(k);
+    c[k] *= binomial;
+  }
+  double low = 0, high = 1;
+  double share = (static_cast<double>(beyond - 1) + part) / static_cast<double>(count - 1);
   while (high - low > kZeroWithin) {
-    const Point here = at(b, count, share);
-    (side * here.value > 0 ? low : high) = share;
-    const double step = -here.value / here.slope;
+    double value = 0, slope = 0, curve = 0;  // half of the second derivative
+    for (std::size_t k = count; k-- > 0;) {
+      curve = curve * share + slope;
+      slope = slope * share + value;
+      value = value * share + c[k];
+    }
+    (side * value > 0 ? low : high) = share;
+    const double step = -value * slope / (slope * slope - value * curve);
     if (std::abs(step) <= kLastStep * share) return share + step;
     const double next = share + step;
     share = next > low && next < high ? next : (low + high) / 2;
@@ -123,7 +137,7 @@ StepPolynomial StepPolynomial::negated() const {
   return other;
 }
 
-double StepPolynomial::operator()(double share) const { return at(b_, count_, share).value; }
+double StepPolynomial::operator()(double share) const { return at(b_, count_, share); }
 
 double StepPolynomial::largest() const { return std::ranges::max(coefficients()); }
 

@@ -83,8 +83,8 @@ void PackJudge::reopen_nearest() {
       if (!verdict.open)
         largest = std::max(largest, verdict.findings[c].value - verdict.findings[c].rounding);
     for (packs::PackVerdict& verdict : verdicts_)
-      verdict.open =
-          verdict.open || verdict.findings[c].value + verdict.findings[c].rounding > largest;
+      if (!verdict.open && verdict.findings[c].value + verdict.findings[c].rounding > largest)
+        verdict.open = verdict.nearest = true;
   }
 }
 
@@ -99,7 +99,7 @@ bool PackJudge::is_repeated(std::uint64_t run) const {
   // Of proved errors the square numbers alone.
   const std::uint64_t number = run / kSampled;
   const auto root = static_cast<std::uint64_t>(std::sqrt(static_cast<double>(number)));
-  return !verdicts_[static_cast<std::size_t>(run - first_)].proved || root * root == number;
+  return !linear_ || root * root == number;
 }
 
 std::uint64_t PackJudge::careful_count() const {
@@ -141,6 +141,8 @@ RunVerdict verdict_on_run(Judge& judge, const linear::LinearSystem* linear, std:
 CampaignVerdictOnRun PackJudge::operator()(std::uint64_t run) {
   if (!linear_ && !packs_) return {careful(seed_, run), true, {}};
   const packs::PackVerdict& pack = verdicts_[static_cast<std::size_t>(run - first_)];
+  // Which runs are the nearest depends on how a campaign is cut: they do not count as open.
+  if (pack.open && pack.nearest) return {careful(seed_, run), false, {}};
   if (pack.open) return {careful(seed_, run), true, pack.why};
   RunVerdict verdict;
   verdict.judgement = pack.violated() ? Judgement::violated : Judgement::held;

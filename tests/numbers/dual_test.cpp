@@ -122,6 +122,7 @@ TEST(Dual, TakesTheBranchOfTheValueAtATie) {
            {"jacobian(sat(x, 3), x)", "eye(2)"},
            {"jacobian(where(x > 0, sqrt(x), 0), x)", "zeros(2)"},
            {"jacobian(norm(0*x), x)", "zeros(1, 2)"},
+           {"jacobian(sqrt(0*x'*x), x)", "zeros(1, 2)"},
            {"jacobian(lambda_max([x(1), 1; 1, x(2)]), x)", "[0.5, 0.5]"}})
     EXPECT_LT(relative_difference(value_of(of, values), value_of(derivative, values)), 1e-14) << of;
 }
@@ -139,6 +140,9 @@ TEST(Dual, NamesWhatHasNoDerivative) {
   };
   refused("0 - jacobian(norm(x), x)", "jacobian: the norm has no derivative at this point");
   refused("0 + jacobian(sqrt(x), x)", "the sqrt has no derivative");
+  refused("0 + jacobian(sqrt(x'*x), x)", "the sqrt has no derivative");
+  refused("0 + jacobian(hypot(x(1), 0), x)", "the sqrt has no derivative");
+  refused("0 + jacobian(norm(x.^2), x)", "the norm has no derivative");
   refused("0 + jacobian(x.^0.25, x)", "the power has no derivative");
   refused("0 + jacobian(atan2(x, x), x)", "the atan2 has no derivative");
   refused("0 + jacobian(pinv(A), A)", "the pinv has no derivative");

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <utility>
 
+#include "base/utf8.h"
+
 namespace gainsmith::expr {
 
 namespace {
@@ -123,8 +125,7 @@ constexpr auto kForeign = std::to_array<Foreign>({
       throw InputError(text.place(at),
                        "unexpected '" + std::string(spelling) + "': " + std::string(advice));
   std::size_t length = 1;
-  while (length < rest.size() && (static_cast<unsigned char>(rest[length]) & 0xC0U) == 0x80U)
-    ++length;
+  while (length < rest.size() && is_continuation(rest[length])) ++length;
   throw InputError(text.place(at),
                    "unexpected character '" + std::string(rest.substr(0, length)) + "'");
 }

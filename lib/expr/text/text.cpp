@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/utf8.h"
+
 namespace gainsmith::expr {
 
 namespace {
@@ -14,10 +16,9 @@ std::vector<Position> consecutive(const std::string& text, Position at) {
   positions.reserve(text.size() + 1);
   for (const char c : text) {
     positions.push_back(at);
-    const bool continuation_byte = (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
     if (c == '\n') {
       at = {at.line + 1, 1};
-    } else if (!continuation_byte) {
+    } else if (!is_continuation(c)) {
       ++at.column;
     }
   }

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/utf8.h"
 #include "io/json/json_text.h"
 
 namespace gainsmith::io {
@@ -108,9 +109,7 @@ Place place_of(const std::string& text, const std::string& file, std::size_t byt
   const std::string_view before = std::string_view(text).substr(0, std::min(byte, text.size()));
   // Columns count characters: continuation bytes of UTF-8 do not count.
   const std::size_t start = before.rfind('\n') + 1;  // npos + 1 is 0
-  const auto is_first_byte = [](char c) {
-    return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
-  };
+  const auto is_first_byte = [](char c) { return !is_continuation(c); };
   return {file, 1 + static_cast<int>(std::ranges::count(before, '\n')),
           1 + static_cast<int>(std::ranges::count_if(before.substr(start), is_first_byte))};
 }

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 namespace gainsmith::io {
 
@@ -30,6 +31,14 @@ double number_of(const Json& number);
 
 /// The decimal of a number, as to_text writes it.
 std::string decimal_of(const Json& number);
+
+/// A list of what `write_item` makes of each item.
+template <class Item, class Write>
+Json list_json(const std::vector<Item>& items, Write write_item) {
+  Json list = Json::array();
+  for (const Item& item : items) list.push_back(write_item(item));
+  return list;
+}
 
 /// Parses. Numbers with a point or an exponent that to_text would write otherwise keep their
 /// decimal. InputError with file:line:column when the text is no JSON or a key occurs twice.

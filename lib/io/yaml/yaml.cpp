@@ -6,7 +6,6 @@
 #include "io/yaml/yaml.h"
 
 #include <yaml-cpp/depthguard.h>
-#include <yaml-cpp/eventhandler.h>
 
 #include <algorithm>
 #include <cctype>
@@ -20,9 +19,12 @@
 #include "base/nearest.h"
 #include "base/number.h"
 #include "base/stop.h"
+#include "base/utf8.h"
 #include "base/visible.h"
 #include "expr/text/parser.h"
+#include "io/json/json_place.h"
 #include "io/sources.h"
+#include "io/yaml/survey.h"
 #include "io/yaml/yaml_error.h"
 
 namespace gainsmith::io {
@@ -38,9 +40,6 @@ std::vector<std::size_t> starts_of_lines(const std::string& text) {
     if (text[at] == '\n') starts.push_back(at + 1);
   return starts;
 }
-
-/// Whether a byte is the second or a later one of a character of UTF-8.
-bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
 
 /// The length of the UTF-8 character at `at`; 0 when there is none.
 std::size_t character_length(const std::string& text, std::size_t at) {
@@ -64,11 +63,7 @@ int count_characters(std::string_view bytes) {
 /// InputError for control characters and for bytes that are no UTF-8, with line and column.
 void refuse_non_text(const std::string& text, const std::string& file) {
   const auto refuse = [&](std::size_t at, const std::string& message) {
-    const std::string_view before = std::string_view(text).substr(0, at);
-    const std::size_t start = before.rfind('\n') + 1;  // npos + 1 is 0
-    throw InputError({file, 1 + static_cast<int>(std::ranges::count(before, '\n')),
-                      1 + count_characters(before.substr(start))},
-                     message);
+    throw InputError(place_of(text, file, at), message);
   };
   for (std::size_t at = 0; at < text.size();) {
     const auto byte = static_cast<unsigned char>(text[at]);
@@ -94,71 +89,6 @@ std::string without_byte_order_mark(std::string text) {
   if (text.starts_with(kMark)) text.erase(0, kMark.size());
   return text;
 }
-
-/// Where documents start. Refuses aliases that what reads the nodes would never, or hardly, come to
-/// the end of: an alias is the whole list or mapping again.
-class Survey : public YAML::EventHandler {
- public:
-  using Refuse = std::function<void(const YAML::Mark&, const std::string& message)>;
-
-  explicit Survey(Refuse refuse) : refuse_(std::move(refuse)) {}
-
-  std::vector<YAML::Mark> starts;
-
-  void OnDocumentStart(const YAML::Mark& mark) override { starts.push_back(mark); }
-  void OnDocumentEnd() override {}
-  void OnNull(const YAML::Mark&, YAML::anchor_t anchor) override { leaf(anchor); }
-  /// An alias counts as many values as its anchor has, so repeated doubling is seen at once.
-  void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
-    const std::size_t nodes = nodes_[anchor];
-    if (nodes == 0) refuse_(mark, "this alias is part of what it stands for");
-    if ((aliased_ += nodes) > kMostAliased)
-      refuse_(mark, "the aliases up to here stand for more than " + std::to_string(kMostAliased) +
-                        " values");
-    open_.back().nodes += nodes;
-  }
-  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t anchor,
-                const std::string&) override {
-    check_stop();
-    leaf(anchor);
-  }
-  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t anchor,
-                       YAML::EmitterStyle::value) override {
-    open_.push_back({anchor});
-  }
-  void OnSequenceEnd() override { close(); }
-  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t anchor,
-                  YAML::EmitterStyle::value) override {
-    open_.push_back({anchor});
-  }
-  void OnMapEnd() override { close(); }
-
- private:
-  /// A list or mapping that is being read.
-  struct Open {
-    YAML::anchor_t anchor = 0;
-    std::size_t nodes = 1;  ///< with those of aliases, so far
-  };
-
-  void leaf(YAML::anchor_t anchor) {
-    open_.push_back({anchor});
-    close();
-  }
-  void close() {
-    const Open node = open_.back();
-    open_.pop_back();
-    if (node.anchor != 0) nodes_[node.anchor] = node.nodes;
-    open_.back().nodes += node.nodes;
-  }
-
-  /// Values that aliases of a file may repeat in all: a few short lines could ask for billions.
-  static constexpr std::size_t kMostAliased = 100'000;
-
-  Refuse refuse_;
-  std::vector<Open> open_ = {{}};                ///< the first holds the documents
-  std::map<YAML::anchor_t, std::size_t> nodes_;  ///< 0 of what is still open
-  std::size_t aliased_ = 0;
-};
 
 /// Walks along the text of a file, counting lines and characters.
 class Cursor {
@@ -432,89 +362,6 @@ double YamlFile::positive(const YAML::Node& node, const std::string& what) const
   const double value = number(node, what);
   if (!(value > 0)) throw InputError(place(node), what + ": expected a positive number");
   return value;
-}
-
-namespace {
-
-/// The beginning of a text, to be shown in one line.
-std::string shortened(const std::string& text) {
-  constexpr std::size_t kMost = 40;
-  const std::size_t end = std::min(text.find('\n'), kMost);
-  if (text.size() <= end) return text;
-  std::size_t at = end;
-  while (at > 0 && is_continuation(text[at])) --at;
-  return text.substr(0, at) + "...";
-}
-
-}  // namespace
-
-YamlMap::YamlMap(const YamlFile& file, const YAML::Node& node, std::string what)
-    : what_(std::move(what)), place_(file.place(node)) {
-  if (!node.IsMap())
-    throw InputError(place_, what_ + ": expected a mapping 'key: value', found " +
-                                 (node.IsSequence() ? "a list"
-                                  : node.IsNull()   ? "nothing"
-                                                    : "'" + shortened(node.Scalar()) + "'"));
-  for (const auto& entry : node) {
-    const std::string key = file.string(entry.first, what_ + ": a key", "");
-    const Place place = file.place(entry.first);
-    for (const YamlItem& earlier : items_)
-      if (earlier.key == key)
-        throw InputError(place, what_ + ": the key '" + key + "' is given twice; first in line " +
-                                    std::to_string(earlier.place.line));
-    items_.push_back({key, file.scalar(entry.first, key), place, entry.second});
-  }
-}
-
-YamlMap::YamlMap(const YamlFile& file, const YAML::Node& node, std::string what, const Level& level)
-    : YamlMap(file, node, std::move(what)) {
-  level_ = &level;
-}
-
-/// A key that is asked for is known, whether it is there or not.
-std::optional<YamlItem> YamlMap::find(const std::string& key) {
-  if (level_ != nullptr) require_known(*level_, key);
-  if (std::find(asked_.begin(), asked_.end(), key) == asked_.end()) asked_.push_back(key);
-  for (const YamlItem& item : items_)
-    if (item.key == key) return item;
-  return std::nullopt;
-}
-
-/// Where the key is missing, the error names a key here that is likely meant to be it.
-YamlItem YamlMap::require(const std::string& key) {
-  if (auto item = find(key)) return *item;
-  // A misspelt or shortened key explains the missing one.
-  constexpr std::size_t kShortest = 3;
-  const auto is_short_for_it = [&](const std::string& word) {
-    return word.size() >= kShortest && key.starts_with(word);
-  };
-  for (const YamlItem& item : items_)
-    if (std::find(asked_.begin(), asked_.end(), item.key) == asked_.end() &&
-        (nearest(item.key, {key}) || is_short_for_it(item.key)))
-      throw InputError(item.place,
-                       what_ + ": unknown key '" + item.key + "'; did you mean '" + key + "'?");
-  std::string others;
-  for (const YamlItem& item : items_)
-    if (level_ != nullptr && level_->find(item.key) == nullptr)
-      others += (others.empty() ? "" : ", ") + ("'" + item.key + "'");
-  throw InputError(place_, what_ + ": the key '" + key + "' is missing" +
-                               (others.empty() ? "" : "; unknown here: " + others));
-}
-
-void YamlMap::finish(const std::map<std::string, std::string>& advice) const {
-  for (const YamlItem& item : items_) {
-    if (std::find(asked_.begin(), asked_.end(), item.key) != asked_.end()) continue;
-    const auto known = advice.find(item.key);
-    throw InputError(item.place, what_ + ": unknown key '" + item.key + "'" +
-                                     (known != advice.end() ? "; " + known->second
-                                                            : suggestion(item.key, asked_)));
-  }
-}
-
-std::vector<YamlItem> items_of(const YamlFile& file, const std::optional<YamlItem>& item,
-                               const std::string& what) {
-  if (!item || item->value.IsNull()) return {};
-  return YamlMap(file, item->value, what).items();
 }
 
 }  // namespace gainsmith::io

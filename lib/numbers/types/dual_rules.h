@@ -71,6 +71,7 @@ struct DualRules {
   void operator()(Is<op>, const At&, Value&) const {}
 
   void operator()(Is<Op::multiply>, const At& at, Value& out) const {
+    if (is_zero(at[0]) || is_zero(at[1])) return rest(out);
     if (at[0].value.size() == 1 && at[1].value.size() == 1) {
       along(at[0], out, at[1].value);
       return along(at[1], out, at[0].value);
@@ -78,6 +79,7 @@ struct DualRules {
     each_direction(out, [&](Eigen::Index d) { return product_slope(at[0], at[1], d); });
   }
   void operator()(Is<Op::scale>, const At& at, Value& out) const {
+    if (is_zero(at[0]) || is_zero(at[1])) return rest(out);
     if (at[1].moves()) out.slope = at[0].value(0) * at[1].slope;
     if (at[0].moves()) out.slope += times<Scalar>(M(at[1].value.reshaped()), at[0].slope);
   }
@@ -87,6 +89,7 @@ struct DualRules {
     out.slope /= at[1].value(0);
   }
   void operator()(Is<Op::elementwise_product>, const At& at, Value& out) const {
+    if (is_zero(at[0]) || is_zero(at[1])) return rest(out);
     along(at[0], out, at[1].value);
     along(at[1], out, at[0].value);
   }
@@ -102,7 +105,7 @@ struct DualRules {
   }
   void operator()(Is<Op::elementwise_power>, const At& at, Value& out) const {
     const int k = at.attribute(0);
-    if (k == 0) return;
+    if (k == 0) return rest(out);
     const M& x = at[0].value;
     const M power =
         whole_power<M>(M::Ones(x.rows(), x.cols()), x, k - 1, numbers::elementwise_product<Scalar>);
@@ -244,6 +247,9 @@ struct DualRules {
   }
 
  private:
+  /// A constant 0: products with it do not move, so that sqrt(0*t) has a derivative at 0.
+  static bool is_zero(const Value& x) { return !x.moves() && (x.value.array() == Scalar(0)).all(); }
+  static void rest(Value& out) { out.slope.resize(out.value.size(), 0); }
   /// The slope of x in one direction, in the shape of x.
   static M direction(const Value& x, Eigen::Index d) {
     if (!x.moves()) return M::Zero(x.value.rows(), x.value.cols());
@@ -283,21 +289,22 @@ struct DualRules {
     return out;
   }
   /// Adds factor times the slope of x, element by element. A factor that is not finite, which `op`
-  /// says, is that of a value without a derivative, unless x does not move.
+  /// says, is that of a value without a derivative, even where x has the slope 0 at this point:
+  /// sqrt(t^2) has none at 0.
   static void along(const Value& x, Value& out, const M& factor, Op op = Op::multiply) {
     using std::isfinite;
     if (!x.moves()) return;
     for (Eigen::Index i = 0; i < factor.size(); ++i) {
       if (isfinite(factor(i))) {
         out.slope.row(i) += factor(i) * x.slope.row(i);
-      } else if (!(x.slope.row(i).array() == Scalar(0)).all()) {
+      } else {
         out.slope.row(i).setConstant(std::numeric_limits<Scalar>::quiet_NaN());
         out.without = op;
       }
     }
   }
   static void no_slope(const Value& x, Value& out, Op op) {
-    if (!x.moves() || (x.slope.array() == Scalar(0)).all()) return;
+    if (!x.moves()) return;
     out.slope.setConstant(std::numeric_limits<Scalar>::quiet_NaN());
     out.without = op;
   }
@@ -366,6 +373,7 @@ MatrixOf<Scalar> JacobianEvaluator<Scalar>::operator()(expr::Operands<MatrixOf<S
     kept_->inputs[k] =
         k == 0 ? variable_dual<Scalar>(*operands[k]) : constant_dual<Scalar>(*operands[k]);
   const Dual<Scalar>& result = kept_->evaluator.run();
+  if (!result.moves()) return MatrixOf<Scalar>::Zero(result.value.size(), operands[0]->size());
   if (!result.slope.allFinite())
     throw expr::EvaluationError(
         result.without ? "jacobian: the " + expr::to_string(*result.without) +

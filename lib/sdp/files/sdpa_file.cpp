@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/number.h"
 #include "base/stop.h"
+#include "base/utf8.h"
 
 namespace gainsmith::sdp {
 namespace {
@@ -120,7 +121,7 @@ class Scanner {
   [[noreturn]] void throw_at(std::size_t position, const std::string& message) const {
     int column = 1;
     for (std::size_t p = line_start_; p < position && p < text_.size(); ++p)
-      if ((static_cast<unsigned char>(text_[p]) & 0xC0U) != 0x80U) ++column;
+      if (!is_continuation(text_[p])) ++column;
     throw InputError(Place{file_, line_, column}, message);
   }
 
