@@ -24,6 +24,8 @@ std::string cell(const std::optional<double>& value, double error) {
 
 /// Of one run, where its number is not known.
 const std::string kUnknown = "unknown";
+constexpr const char* kNoValue =
+    "no such event in this run, a time after its end, or a value that is no number";
 
 /// Columns as wide as they need: the first `left` are names, the others end in line.
 std::string table_text(const std::vector<Cells>& rows, std::size_t left) {
@@ -140,10 +142,7 @@ std::string comparison_table(const std::vector<model::FigureRecord>& figures) {
       has_all = has_all && (none || unknown || found->least);
     }
   }
-  return table_text(rows, 1) +
-         (has_all ? ""
-                  : "-: no such event in this run, a time after its end, or a value that is no "
-                    "number\n");
+  return table_text(rows, 1) + (has_all ? "" : fmt::format("-: {}\n", kNoValue));
 }
 
 /// Of each figure that is not known of all runs.
@@ -164,8 +163,8 @@ std::string missing_text(const std::vector<model::FigureRecord>& figures) {
   std::string text;
   for (const model::FigureRecord& figure : figures)
     if (figure.without > 0)
-      text += fmt::format("{}: no value in {} of {} runs\n", title_of(figure), figure.without,
-                          figure.runs + figure.without + figure.unknown);
+      text += fmt::format("{}: no value in {} of {} runs: {}\n", title_of(figure), figure.without,
+                          figure.runs + figure.without + figure.unknown, kNoValue);
   return text;
 }
 

@@ -68,10 +68,11 @@ std::string in_runs(const verify::Report& report) {
 
 std::vector<std::string> strict_notes(const verify::Report& report) {
   std::vector<std::string> notes = report.doubts;
-  if (!report.silent_events.empty())
+  // A run that ended early may have had it later.
+  if (!report.silent_events.empty() && report.unfinished == 0)
     notes.push_back(note_on_events(report.silent_events) + in_runs(report));
   if (report.interrupted()) return notes;
-  bool all_zero = !report.checks.empty();
+  bool all_zero = !report.checks.empty() && report.undecided == 0;
   for (const verify::CheckReport& check : report.checks) {
     if (check.stated && check.measured && !check.worst.sampled)
       notes.push_back("the claim '" + check.name + "' is never checked" + in_runs(report));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,7 +11,6 @@
 #include "base/save_pace.h"
 #include "base/stop.h"
 #include "gainsmith/commands.h"
-#include "gainsmith/exact_number.h"
 #include "gainsmith/kept_folder.h"
 #include "gainsmith/load.h"
 #include "gainsmith/output.h"
@@ -19,6 +19,7 @@
 #include "gainsmith/search_wanted.h"
 #include "gainsmith/summary.h"
 #include "gainsmith/terminal.h"
+#include "io/json/json_fields.h"
 
 namespace gainsmith::app {
 
@@ -76,22 +77,25 @@ void add_search(const OptimizeOptions& options, model::Problem& problem) {
     state_search(search, problem);
 }
 
+constexpr auto kKnownValueFields = [](auto& at, auto& entry) {
+  auto& [key, value] = entry;
+  at("function", key.first);
+  at("point", key.second);
+  at("value", value);
+};
+
 io::Json values_json(const search::KnownValues& known) {
   io::Json values = io::Json::array();
-  for (const auto& [key, value] : known.all())
-    values.push_back({{"function", key.first},
-                      {"point", key.second},
-                      {"value", value ? bits(*value) : io::Json()}});
+  for (const auto& entry : known.all())
+    values.push_back(io::record_json(entry, kKnownValueFields, io::JsonNumbers::exact));
   return values;
 }
 
 void take_values(const io::Json& document, const std::string& file, search::KnownValues& known) {
   for (const io::JsonReader& item : io::JsonReader(document, file).items()) {
-    search::KnownValues::Key key{item.at("function").text(), {}};
-    for (const io::JsonReader& argument : item.at("point").items())
-      key.second.push_back(argument.count());
-    const io::JsonReader value = item.at("value");
-    known.add(std::move(key), value.is_null() ? std::nullopt : std::optional(from_bits(value)));
+    std::pair<search::KnownValues::Key, std::optional<double>> entry;
+    io::read_record(item, entry, kKnownValueFields, io::JsonNumbers::exact);
+    known.add(std::move(entry.first), entry.second);
   }
 }
 

@@ -9,89 +9,43 @@
 #include <set>
 
 #include "base/error.h"
-#include "gainsmith/exact_number.h"
-#include "io/json/json_reader.h"
+#include "io/json/json_fields.h"
 
 namespace gainsmith::app {
 
 namespace {
 
-io::Json scan_facts_json(const ScanFacts& facts) {
-  io::Json axes = io::Json::array();
-  for (const ScanFacts::Axis& axis : facts.axes) {
-    io::Json values = io::Json::array();
-    for (const double value : axis.values) values.push_back(bits(value));
-    axes.push_back({{"name", axis.name},
-                    {"title", axis.title},
-                    {"values", values},
-                    {"logarithmic", axis.logarithmic}});
-  }
-  return {{"title", facts.title},     {"axes", axes},           {"objective", facts.objective},
-          {"figures", facts.figures}, {"titles", facts.titles}, {"note", facts.note}};
-}
+constexpr auto kAxisFields = [](auto& at, auto& axis) {
+  at("name", axis.name);
+  at("title", axis.title);
+  at("values", axis.values);
+  at("logarithmic", axis.logarithmic);
+};
 
-std::vector<std::string> list_of_texts(const io::JsonReader& reader) {
-  std::vector<std::string> texts;
-  for (const io::JsonReader& item : reader.items()) texts.push_back(item.text());
-  return texts;
-}
+constexpr auto kScanFactsFields = [](auto& at, auto& facts) {
+  at("title", facts.title);
+  at("axes", facts.axes, kAxisFields);
+  at("objective", facts.objective);
+  at("figures", facts.figures);
+  at("titles", facts.titles);
+  at("note", facts.note);
+};
 
-ScanFacts scan_facts_from(const io::JsonReader& reader) {
-  ScanFacts facts;
-  facts.title = reader.at("title").text();
-  for (const io::JsonReader& item : reader.at("axes").items()) {
-    ScanFacts::Axis& axis = facts.axes.emplace_back();
-    axis.name = item.at("name").text();
-    axis.title = item.at("title").text();
-    for (const io::JsonReader& value : item.at("values").items())
-      axis.values.push_back(from_bits(value));
-    axis.logarithmic = item.at("logarithmic").truth();
-  }
-  facts.objective = reader.at("objective").text();
-  facts.figures = list_of_texts(reader.at("figures"));
-  facts.titles = list_of_texts(reader.at("titles"));
-  facts.note = reader.at("note").text();
-  return facts;
-}
-
-io::Json row_json(std::size_t point, const design::ScanRow& row) {
-  io::Json document = {{"point", point}};
-  if (!row.refused.empty()) {
-    document["refused"] = row.refused;
-    return document;
-  }
-  document["verdict"] = to_string(row.verdict);
-  if (row.objective) document["objective"] = bits(*row.objective);
-  io::Json figures = io::Json::array();
-  for (const auto& figure : row.figures) figures.push_back(figure ? bits(*figure) : io::Json());
-  document["figures"] = figures;
-  return document;
-}
-
-model::Verdict verdict_from(const io::JsonReader& reader) {
-  using enum model::Verdict;
-  for (const model::Verdict verdict : {yes, no, undecided})
-    if (to_string(verdict) == reader.text()) return verdict;
-  reader.fail("expected yes, no or undecided");
-}
-
-void take_row(const io::JsonReader& reader, design::ScanRow& row) {
-  row.interrupted = false;
-  if (reader.has("refused")) {
-    row.refused = reader.at("refused").text();
-    return;
-  }
-  row.verdict = verdict_from(reader.at("verdict"));
-  if (reader.has("objective")) row.objective = from_bits(reader.at("objective"));
-  for (const io::JsonReader& figure : reader.at("figures").items())
-    row.figures.push_back(figure.is_null() ? std::nullopt : std::optional(from_bits(figure)));
-}
+/// The row of a point: why it was refused, or its answer.
+constexpr auto kRowFields = [](auto& at, auto& row) {
+  at.some("refused", row.refused);
+  if (!row.refused.empty()) return;
+  at("verdict", row.verdict);
+  at.some("objective", row.objective);
+  at("figures", row.figures);
+};
 
 ScanPart scan_from(const io::Json& document, const std::string& file) {
   ScanPart part;
   part.statement = document.at("statement");
   part.shard = shard_of(document);
-  part.facts = scan_facts_from(io::JsonReader(document, file).at("scan"));
+  io::read_record(io::JsonReader(document, file).at("scan"), part.facts, kScanFactsFields,
+                  io::JsonNumbers::exact);
   part.rows = design::rows_of(points_of(part.facts));
   return part;
 }
@@ -137,7 +91,10 @@ std::size_t open_points(const ScanPart& part) {
 io::Json rows_json(const ScanPart& part) {
   io::Json rows = io::Json::array();
   for (std::size_t k = 0; k < part.rows.size(); ++k)
-    if (!part.rows[k].interrupted) rows.push_back(row_json(k, part.rows[k]));
+    if (!part.rows[k].interrupted) {
+      rows.push_back({{"point", k}});
+      rows.back().update(io::record_json(part.rows[k], kRowFields, io::JsonNumbers::exact));
+    }
   return rows;
 }
 
@@ -147,13 +104,14 @@ void take_rows(const io::Json& rows, const std::string& file, ScanPart& part) {
     if (point >= part.rows.size()) reader.fail("the scan has no such point");
     if (!part.rows[point].interrupted)
       throw InputError({file}, fmt::format("point {} of this part is in another one too", point));
-    take_row(reader, part.rows[point]);
+    part.rows[point].interrupted = false;
+    io::read_record(reader, part.rows[point], kRowFields, io::JsonNumbers::exact);
   }
 }
 
 io::Json document_of(const ScanPart& part) {
   io::Json document = part_head(PartKind::scan, part.shard, part.statement);
-  document["scan"] = scan_facts_json(part.facts);
+  document["scan"] = io::record_json(part.facts, kScanFactsFields, io::JsonNumbers::exact);
   document["rows"] = rows_json(part);
   return document;
 }

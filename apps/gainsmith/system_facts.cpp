@@ -13,6 +13,8 @@ namespace gainsmith::app {
 
 namespace {
 
+using model::SystemPicture;
+
 std::string at_frequency(double w) {
   return std::isfinite(w) ? " at " + brief(w) : " beyond all frequencies";
 }

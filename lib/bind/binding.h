@@ -1,7 +1,7 @@
 // Internal to bind: one binding, and what is made of it so far.
 //
 // The parts are bound one after the other, each with the names that those before it made. Scopes
-// grow: known < design < running < results.
+// grow: known < design < running.
 #pragma once
 
 #include <map>
@@ -17,12 +17,11 @@
 namespace gainsmith::bind {
 
 /// What each part of a design may use (design.h).
-/// Each scope is a copy of the one before it with more names.
 struct Names {
   expr::Scope known;                ///< data, parameters, definitions
   expr::Scope design;               ///< and unknowns
   expr::Scope running;              ///< and gains, states
-  expr::Scope results;              ///< and the objective
+  expr::Scope results;              ///< of the design, its gains and the objective
   std::vector<std::string> unread;  ///< unread_names()
 };
 

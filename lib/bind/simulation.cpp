@@ -150,8 +150,6 @@ void bind_dynamics(Binding& binding) {
       dynamics.signals.push_back({name, formula(reading.texts.front(), scope), at});
     }
   bind_report(binding, scope);
-  binding.names->results = scope;
-  binding.names->results.symbols["objective"] = {};
 }
 
 /// Uncertain data, and the definitions and other data that use them, by others too.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 namespace gainsmith::pieces {
 
@@ -13,6 +14,8 @@ using Coefficients = StepPolynomial::Coefficients;
 constexpr double kZeroWithin = 2e-15;
 /// After a step of Halley's method that is such a part of the zero, the digits triple.
 constexpr double kLastStep = 1e-5;
+
+constexpr std::integral_constant<std::size_t, StepPolynomial::kMostTerms> kFull;
 
 /// The `count` coefficients of its two halves.
 void split(const Coefficients& b, std::size_t count, Coefficients& left, Coefficients& right) {
@@ -72,7 +75,8 @@ double at(Coefficients b, std::size_t count, double share) {
 
 /// The only zero, from `side` to the other one: Halley's steps between bounds, from where the
 /// coefficients change their sign. In powers of the share, with c_k = C(n, k) (k-th difference).
-double only_zero(const Coefficients& b, std::size_t count, int side) {
+/// `count`: a number, or one that the compiler knows, which takes half of the time.
+double only_zero(const Coefficients& b, auto count, int side) {
   std::size_t beyond = 1;
   while (beyond + 1 < count && side * b[beyond] > 0) ++beyond;
   const double part = b[beyond - 1] / (b[beyond - 1] - b[beyond]);
@@ -117,7 +121,7 @@ std::optional<double> change_within(const Coefficients& b, std::size_t count, in
   if (stays) return std::nullopt;
   if (width <= kZeroWithin) return from + width;
   if (side * b[0] > 0 && side * b[count - 1] < -zero && changes_of_sign(b, count) == 1)
-    return from + width * only_zero(b, count, side);
+    return from + width * (count == kFull ? only_zero(b, kFull, side) : only_zero(b, count, side));
   Coefficients left, right;
   split(b, count, left, right);
   if (const auto found = change_within(left, count, side, zero, from, width / 2)) return found;

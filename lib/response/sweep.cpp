@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <numbers>
 
@@ -117,13 +118,34 @@ Sweep sweep(const StateSpace& system, double low, double high) {
   return result;
 }
 
+namespace {
+
+/// 90 k where a sweep begins along an asymptote c w^k: there the phase is 90 k but for half turns.
+/// 0 elsewhere.
+double phase_of_asymptote(const Sweep& sweep, Eigen::Index i, Eigen::Index j) {
+  constexpr double kNearSlope = 0.1, kNearPhase = 15;
+  if (sweep.frequency.size() < 2) return 0;
+  const std::complex<double> first = sweep.response[0](i, j), second = sweep.response[1](i, j);
+  const double slope = std::log(std::abs(second) / std::abs(first)) /
+                       std::log(sweep.frequency[1] / sweep.frequency[0]);
+  const double k = std::round(slope);
+  const double beside = std::remainder(std::arg(first) * kDegrees - 90 * k, 180);
+  return std::abs(slope - k) < kNearSlope && std::abs(beside) < kNearPhase ? 90 * k : 0;
+}
+
+}  // namespace
+
 std::vector<double> phase(const Sweep& sweep, Eigen::Index i, Eigen::Index j) {
+  constexpr double kRounding = 1e-6;  // degrees
   std::vector<double> degrees;
   double turns = 0;
   for (std::size_t k = 0; k < sweep.frequency.size(); ++k) {
     double now = std::arg(sweep.response[k](i, j)) * kDegrees;
-    // Of a half turn that rounding puts on either side the negative one, as of two integrators.
-    if (k == 0 && now > 180 - 1e-6) now -= 360;
+    // Of a half turn the negative one, as of two integrators.
+    if (k == 0) {
+      const double least = phase_of_asymptote(sweep, i, j) - 180 + kRounding;
+      now -= 360 * std::floor((now - least) / 360);
+    }
     if (k > 0) {
       const double step = now + turns - degrees.back();
       turns -= 360 * std::round(step / 360);

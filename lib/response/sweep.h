@@ -23,8 +23,9 @@ std::pair<double, double> range_of(const StateSpace& system);
 /// 20 000 points the grid of 20 a decade is refined no further.
 Sweep sweep(const StateSpace& system, double low, double high);
 
-/// The phase of element (i, j) in degrees, one a frequency, without jumps: it begins in
-/// [-180, 180), and neighbours differ by at most 180.
+/// The phase of element (i, j) in degrees, one a frequency, without jumps: neighbours differ by at
+/// most 180. Where the size begins as w^k it begins within half a turn of 90 k, as at -270 of 1/s^3;
+/// elsewhere in (-180, 180].
 std::vector<double> phase(const Sweep& sweep, Eigen::Index i, Eigen::Index j);
 
 }  // namespace gainsmith::response

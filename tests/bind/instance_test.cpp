@@ -128,10 +128,13 @@ TEST(Instance, EachPartMayUseWhatItsScopeHolds) {
   const std::vector<std::pair<std::string, int>> first = {
       {"A", 0}, {"delta", 0},       {"P", 1}, {"g", 1},        {"K", 2},
       {"z", 2}, {"observer.th", 2}, {"s", 2}, {"objective", 3}};
-  const expr::Scope* scopes[] = {&names.known, &names.design, &names.running, &names.results};
+  const expr::Scope* scopes[] = {&names.known, &names.design, &names.running};
   for (const auto& [name, from] : first)
-    for (int k = 0; k < 4; ++k)
+    for (int k = 0; k < 3; ++k)
       EXPECT_EQ(scopes[k]->symbols.contains(name), k >= from) << name << " in scope " << k;
+  for (const std::string name : {"A", "P", "K", "objective"})
+    EXPECT_TRUE(names.results.symbols.contains(name)) << name;
+  EXPECT_FALSE(names.results.symbols.contains("z")) << "of runs";
   EXPECT_TRUE(names.running.symbols.at("A").known) << "a gain that is a datum keeps its value";
   EXPECT_FALSE(names.design.symbols.at("P").known);
 }

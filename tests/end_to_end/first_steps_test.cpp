@@ -97,6 +97,15 @@ TEST(FirstSteps, ACampaignOfListsMakesNoRunTwice) {
   EXPECT_EQ(drawn["confidence"], 0.95);
 }
 
+TEST(FirstSteps, OfRunsThatEndEarlyItIsNotSaidWhatNeverHappens) {
+  const Folder folder;
+  const std::string file = folder.file(
+      "p.yaml", replaced(replaced(kDecay, "flow: {x: -x}", "flow: {x: x.^2}"), "0.5", "2"));
+  const Outcome verify = gainsmith({"verify", file});
+  EXPECT_NE(verify.exit, 0) << verify.out;
+  EXPECT_FALSE(has(verify.out, "never happen")) << verify.out;
+}
+
 TEST(FirstSteps, WhatNeverHappensIsNamed) {
   const Folder folder;
   const std::string file =

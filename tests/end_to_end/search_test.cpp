@@ -237,6 +237,7 @@ TEST(BisectTest, WrongCommandLinesAreNamed) {
       {{"scan", file, "--over", "T2"}, "expected NAME=LOW:HIGH"},
       {{"scan", file, "--over", "T2=1:2:3:4:5"}, "expected NAME=LOW:HIGH"},
       {{"scan", file, "--over", "T2=1:2:0"}, "number of points"},
+      {{"scan", file, "--over", "T2=1:2", "--show", "norm(tau)"}, "unknown name 'tau'"},
       {{"scan", file, "--over", "T2=1:2:3:logg"}, "did you mean 'log'?"},
       {{"scan", file, "--over", "T2=0:2:3:log"}, "above 0"},
       {{"scan", file, "--over", "T2=1:2", "--over", "T2=1:2"}, "is given twice"},

@@ -72,6 +72,19 @@ TEST(Phase, OfIntegratorsBeginsBelowZero) {
   for (std::size_t k = 1; k < degrees.size(); ++k) EXPECT_LT(degrees[k], degrees[k - 1]);
 }
 
+TEST(Phase, BeginsAtTheAsymptoteOfItsIntegrators) {
+  // 10 (s + 1)^2/s^3, -1/s and 1/s^2 - 1/s^3 = (s - 1)/s^3.
+  const auto first = [](std::vector<double> numerator) {
+    const StateSpace system{Matrix{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, Matrix{{1}, {0}, {0}},
+                            Matrix{{numerator[0], numerator[1], numerator[2]}}, Matrix{{0}}, 0};
+    return phase(sweep(system, 1e-3, 1e3), 0, 0);
+  };
+  EXPECT_NEAR(first({10, 20, 10}).front(), -270, 0.3);
+  EXPECT_NEAR(first({10, 20, 10}).back(), -90, 0.3);
+  EXPECT_NEAR(first({-1, 0, 0}).front(), 90, 0.3);
+  EXPECT_NEAR(first({0, 1, -1}).front(), -90, 0.3);
+}
+
 /// k/(s (s + 1) (s + 2)), whose gain margin is 6/k at sqrt(2).
 StateSpace loop(double k) {
   return {Matrix{{-3, -2, 0}, {1, 0, 0}, {0, 1, 0}}, Matrix{{1}, {0}, {0}}, Matrix{{0, 0, k}},

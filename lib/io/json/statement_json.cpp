@@ -1,5 +1,7 @@
 #include "io/json/statement_json.h"
 
+#include "io/json/json_fields.h"
+
 namespace gainsmith::io {
 
 namespace {
@@ -15,18 +17,6 @@ Json stated_matrix_json(const model::StatedMatrix& matrix) {
     rows.push_back(std::move(row));
   }
   return rows;
-}
-
-/// A file that the problem names: its hash, and its text or its matrices.
-Json stated_file_json(const model::StatedFile& file) {
-  Json result = {{"file", file.name}, {"sha256", file.sha256}};
-  if (!file.text.empty()) result["text"] = file.text;
-  for (const model::StatedMatrix& matrix : file.matrices)
-    if (matrix.key.empty())
-      result["matrix"] = stated_matrix_json(matrix);
-    else
-      result["matrices"][matrix.key] = stated_matrix_json(matrix);
-  return result;
 }
 
 /// A list of numbers is one row that is marked as flat; otherwise all rows have one length.
@@ -47,44 +37,47 @@ model::StatedMatrix stated_matrix_of(const std::string& key, const JsonReader& r
   return matrix;
 }
 
-model::StatedFile stated_file_of(const JsonReader& reader) {
-  model::StatedFile file{reader.at("file").text(), reader.at("sha256").text(), "", {}};
-  if (reader.has("text")) file.text = reader.at("text").source();
-  if (reader.has("matrix")) file.matrices.push_back(stated_matrix_of("", reader.at("matrix")));
-  if (reader.has("matrices"))
-    for (const auto& [key, item] : reader.at("matrices").members())
-      file.matrices.push_back(stated_matrix_of(key, item));
-  return file;
+/// The matrix of a file that holds only one has no name.
+void matrices_fields(FieldWriter& at, const std::vector<model::StatedMatrix>& matrices) {
+  for (const model::StatedMatrix& matrix : matrices)
+    (matrix.key.empty() ? at.object()["matrix"] : at.object()["matrices"][matrix.key]) =
+        stated_matrix_json(matrix);
 }
+
+void matrices_fields(FieldReader& at, std::vector<model::StatedMatrix>& matrices) {
+  if (at.has("matrix")) matrices.push_back(stated_matrix_of("", at.reader().at("matrix")));
+  if (at.has("matrices"))
+    for (const auto& [key, item] : at.reader().at("matrices").members())
+      matrices.push_back(stated_matrix_of(key, item));
+}
+
+/// A file that the problem names: its hash, and its text or its matrices.
+constexpr auto kStatedFileFields = [](auto& at, auto& file) {
+  at("file", file.name);
+  at("sha256", file.sha256);
+  if (kReads<decltype(at)> ? at.has("text") : !file.text.empty()) at.source("text", file.text);
+  matrices_fields(at, file.matrices);
+};
+
+constexpr auto kStatementFields = [](auto& at, auto& statement) {
+  at.name("method", statement.method_name);
+  at.source("method_text", statement.method_text);
+  at("problem_file", statement.problem_file);
+  at.source("problem_text", statement.problem_text);
+  at.by_name("set", statement.settings, &model::Setting::name, &model::Setting::value);
+  at.some("files", statement.files, kStatedFileFields);
+  at("sha256", statement.hash);
+};
 
 }  // namespace
 
 Json statement_json(const model::Statement& statement) {
-  Json result = {{"method", statement.method_name},
-                 {"method_text", statement.method_text},
-                 {"problem_file", statement.problem_file},
-                 {"problem_text", statement.problem_text}};
-  for (const model::Setting& setting : statement.settings)
-    result["set"][setting.name] = setting.value;
-  if (!statement.files.empty()) result["files"] = list_json(statement.files, stated_file_json);
-  result["sha256"] = statement.hash;
-  return result;
+  return record_json(statement, kStatementFields);
 }
 
 model::Statement statement_of(const JsonReader& reader) {
-  model::Statement statement{reader.at("method").text(""),
-                             reader.at("method_text").source(),
-                             reader.at("problem_file").text(),
-                             reader.at("problem_text").source(),
-                             reader.at("sha256").text(),
-                             {},
-                             {}};
-  if (reader.has("set"))
-    for (const auto& [name, value] : reader.at("set").members())
-      statement.settings.push_back({name, value.text()});
-  if (reader.has("files"))
-    for (const JsonReader& item : reader.at("files").items())
-      statement.files.push_back(stated_file_of(item));
+  model::Statement statement;
+  read_record(reader, statement, kStatementFields);
   if (model::statement_hash(statement) != statement.hash)
     reader.fail("the method, problem or data do not match their sha256: the file was edited");
   return statement;
