@@ -99,7 +99,7 @@ class Planner {
   }
 
   std::vector<std::size_t> estimates_of(std::size_t state) const {
-    return columns([&](const Column& one) { return estimates(one, column(state)); });
+    return columns([&](const Column& candidate) { return estimates(candidate, column(state)); });
   }
 
   int colour_of(const Column& column) const {
@@ -120,8 +120,8 @@ class Planner {
       return doubled_edit_distance(name, a) < doubled_edit_distance(name, b);
     });
     std::vector<std::string> once;
-    for (const std::string& one : known)
-      if (std::find(once.begin(), once.end(), one) == once.end()) once.push_back(one);
+    for (const std::string& observer : known)
+      if (std::find(once.begin(), once.end(), observer) == once.end()) once.push_back(observer);
     throw InputError({option},
                      "no quantity of the run is named '" + name + "'" + suggestion(name, once));
   }
@@ -147,33 +147,34 @@ class Planner {
     return names([](const Column& column) { return column.stem; });
   }
 
-  void check(const Covariance& one) const {
+  void check(const Covariance& pair) const {
     const auto has = [&](const std::string& name) {
       return std::any_of(replay_.columns.begin(), replay_.columns.end(), [&](const Column& column) {
         return is_quantity(column) && has_stem(column, name);
       });
     };
-    require(has(one.estimate), "--band", one.estimate, stems());
-    require(has(one.covariance), "--band", one.covariance, stems());
+    require(has(pair.estimate), "--band", pair.estimate, stems());
+    require(has(pair.covariance), "--band", pair.covariance, stems());
     if (columns([&](const Column& column) {
-          return has_stem(column, one.estimate) && variance_of(column, one);
+          return has_stem(column, pair.estimate) && variance_of(column, pair);
         }).empty())
-      throw InputError({"--band"}, "'" + one.covariance + "' is no covariance of '" + one.estimate +
+      throw InputError({"--band"}, "'" + pair.covariance + "' is no covariance of '" +
+                                       pair.estimate +
                                        "': of n elements it is n x n, and of the same observer");
   }
 
   /// The column of the diagonal that belongs to a column of an estimate.
-  std::optional<std::size_t> variance_of(const Column& estimate, const Covariance& one) const {
-    if (!has_stem(estimate, one.estimate)) return std::nullopt;
+  std::optional<std::size_t> variance_of(const Column& estimate, const Covariance& pair) const {
+    if (!has_stem(estimate, pair.estimate)) return std::nullopt;
     const auto of = [&](const std::string& stem) {
       return columns([&](const Column& column) {
         return column.stem == stem && column.observer == estimate.observer;
       });
     };
     const std::size_t n = of(estimate.stem).size();
-    const std::string stem = one.covariance.substr(one.covariance.rfind('.') + 1);
+    const std::string stem = pair.covariance.substr(pair.covariance.rfind('.') + 1);
     const std::vector<std::size_t> elements = of(stem);
-    if (elements.size() != n * n || !has_stem(column(elements.front()), one.covariance))
+    if (elements.size() != n * n || !has_stem(column(elements.front()), pair.covariance))
       return std::nullopt;
     return elements[static_cast<std::size_t>(estimate.element) * (n + 1)];
   }
@@ -217,8 +218,8 @@ class Planner {
   /// no covariance that is drawn as a band.
   void add_own_states() {
     const auto is_band = [&](const Column& state) {
-      return std::ranges::any_of(view_.covariances, [&](const Covariance& one) {
-        return has_stem(state, one.covariance);
+      return std::ranges::any_of(view_.covariances, [&](const Covariance& pair) {
+        return has_stem(state, pair.covariance);
       });
     };
     std::vector<std::string> names;
@@ -229,7 +230,7 @@ class Planner {
           std::find(names.begin(), names.end(), name) == names.end())
         names.push_back(name);
     std::stable_partition(names.begin(), names.end(),
-                          [](const auto& one) { return !is_of_matrix(one); });
+                          [](const auto& unplanned) { return !is_of_matrix(unplanned); });
     for (const std::string& name : names)
       if (panels_.size() < kMostPanels)
         add_quantity(columns([&](const Column& column) {
@@ -269,10 +270,10 @@ class Planner {
     PlannedPanel panel{"size of the error", "", true, {}};
     std::set<std::string> units;
     for (const std::size_t k : columns(is_error)) {
-      const Column& one = column(k);
-      units.insert(unit_of(view_, one));
-      const bool alone = one.observer.empty() || observers_.size() == 1;
-      const std::string label = "|" + (alone ? "" : one.observer + ".") + one.stem + "|";
+      const Column& shown = column(k);
+      units.insert(unit_of(view_, shown));
+      const bool alone = shown.observer.empty() || observers_.size() == 1;
+      const std::string label = "|" + (alone ? "" : shown.observer + ".") + shown.stem + "|";
       if (panel.lines.empty() || panel.lines.back().label != label)
         panel.lines.push_back(
             {{}, std::nullopt, label, false, static_cast<int>(panel.lines.size()) + 1, true});

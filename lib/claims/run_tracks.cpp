@@ -272,10 +272,10 @@ RiseLimits RunTracks::limits_of_rises(const VectorXd& start, double accuracy) {
   limits.noise = exact ? kValueRounding : kLeastRise * accuracy;
   limits.agreement = exact ? kExactAgreement : kErrorOfDifference * accuracy;
   limits.floor = VectorXd::Zero(static_cast<Index>(functions_.size()));
-  for (const SamplePoints::Falling& one : setup_->sample_points.falling)
-    if (one.after == 0)
-      limits.floor(static_cast<Index>(one.function)) =
-          kFloorOfAccuracy * accuracy * std::abs(functions_[one.function].number(start));
+  for (const SamplePoints::Falling& falling : setup_->sample_points.falling)
+    if (falling.after == 0)
+      limits.floor(static_cast<Index>(falling.function)) =
+          kFloorOfAccuracy * accuracy * std::abs(functions_[falling.function].number(start));
   return limits;
 }
 

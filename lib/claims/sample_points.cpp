@@ -213,10 +213,10 @@ std::vector<SamplePoint> points_along(const FlowPiece& flow, const SamplePoints&
   for (const SamplePoints::Peak& peak : wanted.peaks)
     if (peak.after < flow.to())
       add(time_of(peak, flow, functions[peak.function]), static_cast<int>(peak.function));
-  for (const SamplePoints::Falling& one : wanted.falling)
-    if (one.after < flow.to()) {
-      for (const double t : rises_of(one, flow, functions[one.function], rises))
-        add(t, static_cast<int>(one.function));
+  for (const SamplePoints::Falling& falling : wanted.falling)
+    if (falling.after < flow.to()) {
+      for (const double t : rises_of(falling, flow, functions[falling.function], rises))
+        add(t, static_cast<int>(falling.function));
     }
   std::stable_sort(result.begin(), result.end(),
                    [](const SamplePoint& a, const SamplePoint& b) { return a.t < b.t; });

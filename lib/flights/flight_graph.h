@@ -39,7 +39,7 @@ class FlightGraph {
   /// The second run is moved back to the time of the first, to first order.
   FlightPair pair(const Series& first, const Series& second);
   /// How far coefficient j may be from the true one.
-  int error_of(const FlightPair& one, std::size_t j);
+  int error_of(const FlightPair& pair, std::size_t j);
 
  private:
   Nodes second_inputs();

@@ -24,10 +24,10 @@ class Branches {
            const std::vector<const Variable*>& axes)
       : program_(program), known_(std::move(known)), strict_(strict), axes_(axes) {
     for (std::size_t at = 0; at < program.code.size(); ++at) {
-      const expr::Instruction& one = program.code[at];
-      if (one.op != expr::Op::where || !one.shape.is_scalar()) continue;
-      const expr::Program& condition = programs_.emplace_back(part(one.operands[0], {}));
-      conditions_.push_back({static_cast<int>(at), one.attributes[0] != 0,
+      const expr::Instruction& instruction = program.code[at];
+      if (instruction.op != expr::Op::where || !instruction.shape.is_scalar()) continue;
+      const expr::Program& condition = programs_.emplace_back(part(instruction.operands[0], {}));
+      conditions_.push_back({static_cast<int>(at), instruction.attributes[0] != 0,
                              std::make_unique<Function<S>>(condition, known_, strict, axes)});
     }
   }
@@ -66,9 +66,9 @@ class Branches {
   /// What an instruction needs and no more, each `where` of `branch` replaced by that operand.
   expr::Program part(int result, const std::map<int, std::size_t>& branch) const {
     expr::Assembly assembly;
-    const auto replace = [&](const expr::Instruction& one,
+    const auto replace = [&](const expr::Instruction& instruction,
                              const expr::Instruction& copy) -> std::optional<int> {
-      const auto found = branch.find(static_cast<int>(&one - program_.code.data()));
+      const auto found = branch.find(static_cast<int>(&instruction - program_.code.data()));
       if (found == branch.end()) return std::nullopt;
       return copy.operands[found->second];
     };

@@ -215,29 +215,30 @@ void read_noise(System& system) {
 
 /// What a run reads has to be in the files.
 void check_measured(const System& system) {
-  for (const Dynamics::Measured& one : system.dynamics.measured) {
-    const model::Series& series = *one.series;
-    const bool at_rows = one.event && !system.dynamics.events[*one.event].rows.empty();
+  for (const Dynamics::Measured& measured : system.dynamics.measured) {
+    const model::Series& series = *measured.series;
+    const bool at_rows = measured.event && !system.dynamics.events[*measured.event].rows.empty();
     if (series.times.front() > 0 && !at_rows)
-      throw InputError(one.place, fmt::format("{} has no value at t = 0, where a run begins: the "
-                                              "first row of {} is at {}; `from` says where in "
-                                              "the file a run begins",
-                                              one.name, series.file, brief(series.times.front())));
-    if (!one.event) continue;
+      throw InputError(measured.place,
+                       fmt::format("{} has no value at t = 0, where a run begins: the "
+                                   "first row of {} is at {}; `from` says where in "
+                                   "the file a run begins",
+                                   measured.name, series.file, brief(series.times.front())));
+    if (!measured.event) continue;
     if (!series.silent.empty() && !at_rows)
-      throw InputError(one.place,
+      throw InputError(measured.place,
                        fmt::format("{} has no value in some rows of {}, at t = {} first: let the "
                                    "event {} take its times from the file, at: {{csv: ...}}, and "
                                    "it does not happen there",
-                                   one.name, series.file, brief(series.silent.front(), 17),
-                                   system.dynamics.events[*one.event].name));
-    for (const double t : system.dynamics.events[*one.event].rows)
+                                   measured.name, series.file, brief(series.silent.front(), 17),
+                                   system.dynamics.events[*measured.event].name));
+    for (const double t : system.dynamics.events[*measured.event].rows)
       if (!std::binary_search(series.times.begin(), series.times.end(), t))
-        throw InputError(
-            one.place, fmt::format("{} has no row at t = {}, where the event {} is "
-                                   "due: {}",
-                                   one.name, brief(t, 17), system.dynamics.events[*one.event].name,
-                                   series.file));
+        throw InputError(measured.place,
+                         fmt::format("{} has no row at t = {}, where the event {} is "
+                                     "due: {}",
+                                     measured.name, brief(t, 17),
+                                     system.dynamics.events[*measured.event].name, series.file));
   }
 }
 

@@ -209,13 +209,13 @@ class Draws {
 
   /// When the event is due, up to the end of the run.
   std::vector<double> due_times(std::size_t event) const {
-    const Dynamics::Event& one = texts_.dynamics.events[event];
+    const Dynamics::Event& clock = texts_.dynamics.events[event];
     const EventTexts& texts = texts_.events[event];
     const bool fixed = texts.low == texts.high;
     const double last = run_.end * (1 + near_horizon);
     std::uint64_t lengths = 0;
     double due = 0;
-    if (one.first_low || from_.campaign->first) {
+    if (clock.first_low || from_.campaign->first) {
       due = texts.first_low;
       if (texts.first_low != texts.first_high)
         due += (texts.first_high - texts.first_low) * stream(of_first, event).uniform_at(0);
@@ -265,20 +265,20 @@ class Draws {
   /// Jump k is lost where u(4, event, k) < probability, unless `in_a_row` losses come just before
   /// it.
   void check_losses(std::size_t event) {
-    const Dynamics::Event& one = texts_.dynamics.events[event];
+    const Dynamics::Event& clock = texts_.dynamics.events[event];
     const RandomStream random = stream(of_losses, event);
     std::uint64_t number = 0;
     int row = 0;
     for (std::size_t k = 0; k < run_.parts.size(); ++k) {
       const auto* jump = std::get_if<hybrid::JumpPoint>(&run_.parts[k]);
       if (jump == nullptr || jump->event != event) continue;
-      const bool lost = random.uniform_at(number++) < one.lost &&
-                        !(one.lost_in_a_row && row >= *one.lost_in_a_row);
+      const bool lost = random.uniform_at(number++) < clock.lost &&
+                        !(clock.lost_in_a_row && row >= *clock.lost_in_a_row);
       row = lost ? row + 1 : 0;
       if (lost != jump->lost)
         faults_.add(
             k, jump->t,
-            (lost ? "is not lost as it is drawn: " : "is lost, but not drawn so: ") + one.name);
+            (lost ? "is not lost as it is drawn: " : "is lost, but not drawn so: ") + clock.name);
     }
   }
 
@@ -310,12 +310,12 @@ class Draws {
     std::uint64_t before = 1;
     for (std::size_t k = 0; k < noise; ++k)
       if (is_taken(texts_.dynamics.noise[k])) before *= count_of(texts_.dynamics.noise[k]);
-    const Dynamics::Noise& one = texts_.dynamics.noise[noise];
-    std::uint64_t number = from_.run / before % count_of(one);
-    if (one.kind == Dynamics::NoiseKind::vertices)
-      return filled(one.values[number], one.shape).reshaped();
-    const VectorXd high = filled(one.values[1], one.shape).reshaped();
-    VectorXd value = filled(one.values[0], one.shape).reshaped();
+    const Dynamics::Noise& noise_law = texts_.dynamics.noise[noise];
+    std::uint64_t number = from_.run / before % count_of(noise_law);
+    if (noise_law.kind == Dynamics::NoiseKind::vertices)
+      return filled(noise_law.values[number], noise_law.shape).reshaped();
+    const VectorXd high = filled(noise_law.values[1], noise_law.shape).reshaped();
+    VectorXd value = filled(noise_law.values[0], noise_law.shape).reshaped();
     for (Index k = 0; k < value.size(); ++k) {
       if (value(k) == high(k)) continue;
       if (number % 2 == 1) value(k) = high(k);
@@ -327,15 +327,16 @@ class Draws {
   /// Drawing `drawing` = 0, 1, ... of the noise: one draw an element of uniform noise, two of the
   /// others.
   VectorXd noise_value(std::size_t noise, std::uint64_t drawing) const {
-    const Dynamics::Noise& one = texts_.dynamics.noise[noise];
-    if (is_taken(one)) return taken(noise);
+    const Dynamics::Noise& noise_law = texts_.dynamics.noise[noise];
+    if (is_taken(noise_law)) return taken(noise);
     const RandomStream random = stream(of_noise, noise);
-    const auto size = static_cast<std::uint64_t>(one.shape.size());
-    if (one.has_center())
-      return around(one.values, one.covariance, one.kind == Dynamics::NoiseKind::lognormal,
-                    one.shape, random, 2 * drawing * size);
-    const VectorXd low = filled(one.values[0], one.shape).reshaped();
-    const VectorXd high = filled(one.values[1], one.shape).reshaped();
+    const auto size = static_cast<std::uint64_t>(noise_law.shape.size());
+    if (noise_law.has_center())
+      return around(noise_law.values, noise_law.covariance,
+                    noise_law.kind == Dynamics::NoiseKind::lognormal, noise_law.shape, random,
+                    2 * drawing * size);
+    const VectorXd low = filled(noise_law.values[0], noise_law.shape).reshaped();
+    const VectorXd high = filled(noise_law.values[1], noise_law.shape).reshaped();
     VectorXd value = low;
     for (std::uint64_t k = 0; k < size; ++k) {
       const auto element = static_cast<Index>(k);

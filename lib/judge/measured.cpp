@@ -39,11 +39,11 @@ void check_measured(const Texts& texts, std::size_t part, const hybrid::DenseSte
                     Faults& faults) {
   for (std::size_t v = 0; v < texts.dynamics.variables.size(); ++v) {
     if (!texts.is_measured(v)) continue;
-    const Dynamics::Measured& one = texts.dynamics.measured[texts.dynamics.variables[v].of];
+    const Dynamics::Measured& measured = texts.dynamics.measured[texts.dynamics.variables[v].of];
     const double middle = step.from + (step.to - step.from) / 2;
-    const std::size_t first = rows_at(*one.series, step.from).second;
-    if (first < rows_at(*one.series, step.to).first)
-      faults.add(part, one.series->times[first], "a step leads over a row: " + one.name);
+    const std::size_t first = rows_at(*measured.series, step.from).second;
+    if (first < rows_at(*measured.series, step.to).first)
+      faults.add(part, measured.series->times[first], "a step leads over a row: " + measured.name);
     const Eigen::VectorXd x = step(middle);
     const double sizes =
         step.coefficients
@@ -51,7 +51,7 @@ void check_measured(const Texts& texts, std::size_t part, const hybrid::DenseSte
             .cwiseAbs()
             .sum();
     compare_with_file(texts, part, middle, v, texts.part(x, v),
-                      course_at(*one.series, one.between, middle), sizes, faults);
+                      course_at(*measured.series, measured.between, middle), sizes, faults);
   }
 }
 

@@ -67,7 +67,7 @@ class LaneCode::Maker {
     for (std::size_t k = 0; k < tape_.steps.size();) k += add_from(k);
     for (const auto& result : tape_.results) {
       auto& list = code_.results_.emplace_back();
-      for (const std::uint32_t one : result) list.push_back(place(one));
+      for (const std::uint32_t value : result) list.push_back(place(value));
     }
     code_.blocks_ = std::move(tape_.blocks);
   }
@@ -95,7 +95,7 @@ class LaneCode::Maker {
   void visit_operands(const TapeCode::Step& step, const Visit& visit) const {
     if (step.op == ScalarOp::block) {
       for (const auto& operand : tape_.blocks[step.a].operands)
-        for (const std::uint32_t one : operand) visit(one);
+        for (const std::uint32_t value : operand) visit(value);
       return;
     }
     const int count = operands_of(step.op);
@@ -108,37 +108,37 @@ class LaneCode::Maker {
   void find_last_uses() {
     last_.assign(tape_.registers, 0);
     for (std::size_t k = 0; k < tape_.steps.size(); ++k)
-      visit_operands(tape_.steps[k], [&](std::uint32_t one) { last_[one] = k; });
+      visit_operands(tape_.steps[k], [&](std::uint32_t value) { last_[value] = k; });
     for (const auto& result : tape_.results)
-      for (const std::uint32_t one : result) last_[one] = kNever;
+      for (const std::uint32_t value : result) last_[value] = kNever;
   }
 
-  bool is_constant(std::uint32_t one) const { return one >= tape_.inputs && one < first_; }
+  bool is_constant(std::uint32_t value) const { return value >= tape_.inputs && value < first_; }
 
   /// The register of a value; a constant gets one when it is asked for.
-  std::uint32_t place(std::uint32_t one) {
-    if (at_[one] == kNone) {
-      at_[one] = static_cast<std::uint32_t>(code_.registers_++);
-      code_.filled_.emplace_back(at_[one], tape_.constants[one - tape_.inputs]);
-      last_[one] = kNever;
+  std::uint32_t place(std::uint32_t value) {
+    if (at_[value] == kNone) {
+      at_[value] = static_cast<std::uint32_t>(code_.registers_++);
+      code_.filled_.emplace_back(at_[value], tape_.constants[value - tape_.inputs]);
+      last_[value] = kNever;
     }
-    return at_[one];
+    return at_[value];
   }
 
   /// A free register, or a new one.
   std::uint32_t fresh() {
     if (free_.empty()) return static_cast<std::uint32_t>(code_.registers_++);
-    const std::uint32_t one = free_.back();
+    const std::uint32_t last = free_.back();
     free_.pop_back();
-    return one;
+    return last;
   }
 
   /// Frees the registers of operands that step k is the last to read.
   void release(const TapeCode::Step& step, std::size_t k) {
-    visit_operands(step, [&](std::uint32_t one) {
-      if (one < first_ || last_[one] != k || at_[one] == kNone) return;
-      free_.push_back(at_[one]);
-      last_[one] = kNever;  // once
+    visit_operands(step, [&](std::uint32_t value) {
+      if (value < first_ || last_[value] != k || at_[value] == kNone) return;
+      free_.push_back(at_[value]);
+      last_[value] = kNever;  // once
     });
   }
 
@@ -275,7 +275,9 @@ class LaneCode::Maker {
     made.a = place(argument_of(first));
     made.b = static_cast<std::uint32_t>(code_.constants_.size());
     made.c = static_cast<std::uint32_t>(length);
-    const auto value = [&](std::uint32_t one) { return tape_.constants[one - tape_.inputs]; };
+    const auto value = [&](std::uint32_t constant) {
+      return tape_.constants[constant - tape_.inputs];
+    };
     code_.constants_.push_back(value(is_constant(first.a) ? first.a : first.b));
     for (std::size_t i = 0; i < length; ++i)
       code_.constants_.push_back(value(tape_.steps[k + i].c));

@@ -74,7 +74,7 @@ class LaneMachine {
   std::uint32_t faults() const { return faults_; }
 
  private:
-  void run_one_by_one(const LaneCode::OneByOne& one, std::uint32_t active);
+  void run_one_by_one(const LaneCode::OneByOne& operation, std::uint32_t active);
 
   struct Free {
     void operator()(double* registers) const;

@@ -42,7 +42,7 @@ std::vector<int> units_of(const Wide& A) {
 /// D^-1 A D.
 Wide balanced(const Wide& A, const std::vector<int>& units) {
   std::vector<int> inverse;
-  for (const int one : units) inverse.push_back(-one);
+  for (const int exponent : units) inverse.push_back(-exponent);
   return scaled(A, inverse, units);
 }
 
@@ -113,7 +113,7 @@ WideFlow::Values WideFlow::operator()(const Decimal100& s) const {
     values.E = times<Decimal100>(values.E, values.E);
   }
   std::vector<int> inverse;
-  for (const int one : units_) inverse.push_back(-one);
+  for (const int exponent : units_) inverse.push_back(-exponent);
   values.E = scaled(values.E, units_, inverse);
   for (Wide& W : values.W) W = scaled(W, inverse, inverse);
   return values;

@@ -47,18 +47,18 @@ std::vector<Wide> at_jumps(const std::vector<FallingTerm>& terms, const Wide& J,
 std::vector<Wide> without_zeros(const std::vector<Wide>& S) {
   double most = 0;
   const auto size_of = [](const Decimal100& x) { return std::abs(static_cast<double>(x)); };
-  for (const Wide& one : S)
-    for (Index e = 0; e < one.size(); ++e) most = std::max(most, size_of(one(e)));
+  for (const Wide& coefficient : S)
+    for (Index e = 0; e < coefficient.size(); ++e) most = std::max(most, size_of(coefficient(e)));
   std::vector<Index> kept;
   for (Index i = 0; i < S.front().rows(); ++i)
-    if (std::any_of(S.begin(), S.end(), [&](const Wide& one) {
-          for (Index j = 0; j < one.cols(); ++j)
-            if (size_of(one(i, j)) > kLengthNoise * most) return true;
+    if (std::any_of(S.begin(), S.end(), [&](const Wide& coefficient) {
+          for (Index j = 0; j < coefficient.cols(); ++j)
+            if (size_of(coefficient(i, j)) > kLengthNoise * most) return true;
           return false;
         }))
       kept.push_back(i);
   std::vector<Wide> result;
-  for (const Wide& one : S) result.emplace_back(one(kept, kept));
+  for (const Wide& coefficient : S) result.emplace_back(coefficient(kept, kept));
   return result;
 }
 
@@ -69,9 +69,10 @@ std::vector<Matrix> around(std::vector<Wide> S, double middle, double half) {
     for (std::size_t k = S.size() - 1; k-- > first;) S[k] += Decimal100(middle) * S[k + 1];
   std::vector<Matrix> result;
   Decimal100 power(1);
-  for (const Wide& one : S) {
-    result.push_back(
-        Wide(one * power).unaryExpr([](const Decimal100& x) { return static_cast<double>(x); }));
+  for (const Wide& coefficient : S) {
+    result.push_back(Wide(coefficient * power).unaryExpr([](const Decimal100& x) {
+      return static_cast<double>(x);
+    }));
     power *= Decimal100(half);
   }
   return result;

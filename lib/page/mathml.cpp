@@ -417,8 +417,8 @@ std::string signature_mathml(const expr::Signature& signature, const Notation& n
       below.empty() ? name_mathml(signature.name, notation) : symbol(signature.name, below);
   if (signature.parameters.empty()) return markup;
   std::vector<std::string> parameters;
-  for (const std::string& one : signature.parameters)
-    parameters.push_back(name_mathml(one, notation));
+  for (const std::string& parameter : signature.parameters)
+    parameters.push_back(name_mathml(parameter, notation));
   return row(markup + fenced(listed(parameters)));
 }
 

@@ -111,7 +111,8 @@ std::string verdict_section(const Results& results) {
     text += paragraph("All is as the problem expects.");
   if (!results.differences.empty()) {
     std::string list;
-    for (const std::string& one : results.differences) list += text_element("li", one);
+    for (const std::string& difference : results.differences)
+      list += text_element("li", difference);
     text += paragraph("Not as the problem expects:", "class=\"warning\"") + element("ul", list);
   }
   return section("Verdict", text);

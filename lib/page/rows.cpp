@@ -31,7 +31,8 @@ std::string equation(const std::string& left, const std::string& right, std::str
 std::string value_mathml(const model::Value& value, const Notation& notation) {
   if (value.value.root) return mathml(value.value, notation);
   std::vector<std::string> members;
-  for (const model::Value& one : value.matrices) members.push_back(value_mathml(one, notation));
+  for (const model::Value& matrix : value.matrices)
+    members.push_back(value_mathml(matrix, notation));
   return row(listed(members));
 }
 

@@ -41,12 +41,12 @@ Branches::Branches(const hybrid::System& system, EventWatch& watch, const Accura
                     ? hybrid::kOfAccuracy * accuracy.absolute_of.minCoeff()
                     : hybrid::kOfAccuracy * accuracy.absolute) {}
 
-Index Branches::offset(std::size_t one) const {
-  return system_->layout.slots[system_->dynamics.variables.size() + one].offset;
+Index Branches::offset(std::size_t which) const {
+  return system_->layout.slots[system_->dynamics.variables.size() + which].offset;
 }
 
-bool Branches::is_kink(std::size_t one) const {
-  return system_->switches[one].kind == hybrid::Switch::Kind::kink;
+bool Branches::is_kink(std::size_t which) const {
+  return system_->switches[which].kind == hybrid::Switch::Kind::kink;
 }
 
 void Branches::update(VectorXd& values) {
@@ -59,10 +59,10 @@ void Branches::update_kinks(VectorXd& values) {
 }
 
 void Branches::update_one(std::size_t k, VectorXd& values) {
-  const hybrid::Switch& one = system_->switches[k];
+  const hybrid::Switch& branching = system_->switches[k];
   hybrid::EventFunction& function = watch_->switches[k];
   const Matrix difference = function(values);
-  const bool kink = one.kind == hybrid::Switch::Kind::kink;
+  const bool kink = branching.kind == hybrid::Switch::Kind::kink;
   const Matrix noise = kink ? Matrix(hybrid::kTermRounding * function.terms(values)) : Matrix();
   for (Index e = 0; e < difference.size(); ++e) {
     double& branch = values(offset(k) + e);
@@ -70,10 +70,10 @@ void Branches::update_one(std::size_t k, VectorXd& values) {
     if (kink && branch != 0 && std::abs(d) <= noise(e)) continue;
     if (kink) {
       branch = d > 0 ? 1 : d < 0 ? -1 : branch < 0 ? -1 : 1;
-    } else if (one.kind == hybrid::Switch::Kind::sign) {
+    } else if (branching.kind == hybrid::Switch::Kind::sign) {
       branch = d > 0 ? 1 : d < 0 ? -1 : 0;
     } else {
-      branch = (one.strict ? d > 0 : d >= 0) ? 1 : -1;
+      branch = (branching.strict ? d > 0 : d >= 0) ? 1 : -1;
     }
   }
 }
@@ -104,16 +104,16 @@ std::optional<Branches::Change> Branches::first_change(const StepValues& inside,
   return first;
 }
 
-std::optional<Branches::Change> Branches::change_of(std::size_t one, Index element, double branch,
+std::optional<Branches::Change> Branches::change_of(std::size_t which, Index element, double branch,
                                                     OnStep& on_step) {
   const std::vector<double>& times = on_step.times;
   if (!on_step.crossings) {
     if (times.empty())
       on_step.times = ode::first_points(on_step.inside.from(), on_step.inside.to());
-    on_step.crossings.emplace(watch_->switches[one], on_step.inside, times);
+    on_step.crossings.emplace(watch_->switches[which], on_step.inside, times);
     on_step.slack = on_step.crossings->noise();
-    const auto terms = watch_->switches[one].terms(on_step.three()[0]).reshaped();
-    if (is_kink(one)) on_step.slack += (relative_ * terms.array() + absolute_ * part_).matrix();
+    const auto terms = watch_->switches[which].terms(on_step.three()[0]).reshaped();
+    if (is_kink(which)) on_step.slack += (relative_ * terms.array() + absolute_ * part_).matrix();
   }
   const double slack = on_step.slack(element);
   const auto value = [&](double t) { return on_step.crossings->value(element, t); };
@@ -128,7 +128,8 @@ std::optional<Branches::Change> Branches::change_of(std::size_t one, Index eleme
     largest = std::max(largest, branch * value(t));
   }
   // No pair of roots hides between points of a D that is far from 0 at all of them.
-  if (!watch_->switches[one].waves() && least > (largest - least) / ode::kFar) return std::nullopt;
+  if (!watch_->switches[which].waves() && least > (largest - least) / ode::kFar)
+    return std::nullopt;
   ode::Found found = on_step.crossings->roots(element, branch < 0);
   // D is asked at sample points and between neighbouring roots: between two of these its sign is
   // one.
@@ -140,8 +141,8 @@ std::optional<Branches::Change> Branches::change_of(std::size_t one, Index eleme
   if (there == places.end()) return std::nullopt;
   const double to = value(*there) > 0 ? 1 : -1;
   if (branch == 0 && to > 0) found = on_step.crossings->roots(element, true);
-  Change change{value(times.front()) * to < 0 ? *there : times.front(), offset(one) + element, to,
-                one};
+  Change change{value(times.front()) * to < 0 ? *there : times.front(), offset(which) + element, to,
+                which};
   for (const ode::Root& root : found.roots)
     if (root.right <= *there && on_step.crossings->hidden_slope(element, root.right) == 0)
       change.t = root.right;

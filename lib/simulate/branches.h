@@ -29,9 +29,9 @@ class Branches {
   /// The same of kinks alone.
   void update_kinks(Eigen::VectorXd& values);
 
-  bool is_kink(std::size_t one) const;
+  bool is_kink(std::size_t which) const;
   /// Of its first element among the values.
-  Eigen::Index offset(std::size_t one) const;
+  Eigen::Index offset(std::size_t which) const;
 
   /// An element of a switch whose branch changes.
   struct Change {
@@ -49,9 +49,9 @@ class Branches {
  private:
   struct OnStep;
   /// Sets H of one switch: the sign of D, of a kink that of before where D is rounding.
-  void update_one(std::size_t one, Eigen::VectorXd& values);
+  void update_one(std::size_t which, Eigen::VectorXd& values);
   /// The first change of one element from `branch`; none where D stays on its side up to the slack.
-  std::optional<Change> change_of(std::size_t one, Eigen::Index element, double branch,
+  std::optional<Change> change_of(std::size_t which, Eigen::Index element, double branch,
                                   OnStep& on_step);
 
   const hybrid::System* system_;

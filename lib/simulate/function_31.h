@@ -20,7 +20,7 @@ using Constants31 = numbers::ValuesOf<DoubleDouble>;
 
 /// The nearest doubles: the leading parts.
 inline Eigen::VectorXd rounded(const Values31& x) {
-  return x.unaryExpr([](const DoubleDouble& one) { return one.hi(); });
+  return x.unaryExpr([](const DoubleDouble& number) { return number.hi(); });
 }
 
 class Function31 {

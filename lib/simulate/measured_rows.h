@@ -34,7 +34,7 @@ class MeasuredRows {
     std::optional<Eigen::Index> rate;  ///< and that of its rate
     std::size_t row = 0;               ///< the next one
   };
-  static bool is_due(const Quantity& one, double t);
+  static bool is_due(const Quantity& quantity, double t);
 
   std::vector<Quantity> quantities_;
 };

@@ -28,7 +28,7 @@ std::optional<DoubleDouble> written(double value) {
 void add_comparisons(const expr::Condition& condition, const hybrid::System& system,
                      const Constants31& constants, std::vector<Function31>& all) {
   if (condition.is_comparison()) all.emplace_back(condition.difference, system, constants);
-  for (const expr::Condition& one : condition.parts) add_comparisons(one, system, constants, all);
+  for (const expr::Condition& part : condition.parts) add_comparisons(part, system, constants, all);
 }
 
 bool is_clock(VariableKind kind) {
@@ -42,7 +42,7 @@ bool State31::may_run(const hybrid::System& system, const hybrid::Scenario& scen
     if (!rule || rule->kind != model::StartKind::list) return true;
     return std::ranges::all_of(rule->values, [](const numbers::Matrix& value) {
       return std::ranges::all_of(value.reshaped(),
-                                 [](double one) { return written(one).has_value(); });
+                                 [](double number) { return written(number).has_value(); });
     });
   };
   return system.in_31_digits && std::ranges::all_of(scenario.starts, is_known);
@@ -83,17 +83,17 @@ State31::State31(const hybrid::System& system, const hybrid::Scenario& scenario)
   for (const model::Dynamics::Noise& noise : dynamics.noise)
     if (noise.every)
       drawn_every_.push_back(numbers::evaluate<DoubleDouble>(noise.every->program, constants_)(0));
-  for (const hybrid::Switch& one : system.switches)
-    switches_.emplace_back(one.difference, system, constants_);
+  for (const hybrid::Switch& found : system.switches)
+    switches_.emplace_back(found.difference, system, constants_);
 }
 
 void State31::add_clocks(std::size_t event) {
-  const model::Dynamics::Event& one = system_->dynamics.events[event];
+  const model::Dynamics::Event& clocked = system_->dynamics.events[event];
   const auto value = [&](const model::Formula& formula) {
     return numbers::evaluate<DoubleDouble>(formula.program, constants_);
   };
   std::vector<DoubleDouble>& times = times_.emplace_back();
-  for (const model::Formula& formula : one.times) {
+  for (const model::Formula& formula : clocked.times) {
     const Matrix31 given = value(formula);
     times.insert(times.end(), given.data(), given.data() + given.size());
   }
@@ -101,14 +101,14 @@ void State31::add_clocks(std::size_t event) {
   first_.emplace_back();
   const auto& clock = system_->clocks[event];
   if (!clock || clock->low != clock->high) return;
-  period_.back() = value(*one.low)(0);
+  period_.back() = value(*clocked.low)(0);
   const auto& given = scenario_->first.empty() ? std::nullopt : scenario_->first[event];
   if (given)
     first_.back() = written(*given);
   else if (!clock->first)
     first_.back() = period_.back();
   else if (clock->first->first == clock->first->second)
-    first_.back() = value(*one.first_low)(0);
+    first_.back() = value(*clocked.first_low)(0);
 }
 
 Values31 State31::start_of(std::uint64_t run, const VectorXd& values) {
@@ -159,10 +159,11 @@ void State31::adopt_given(const VectorXd& values, bool arrives) {
     if (const DoubleDouble at = std::round(t / every.hi()) * every;
         std::abs(at.hi() - t) <= hybrid::kOneInstant * t)
       time = at;
-  for (const model::Dynamics::Measured& one : system_->dynamics.measured)
-    if (const std::size_t row = one.series->not_before(t - hybrid::kOneInstant * t);
-        row < one.series->times.size() && one.series->times[row] <= t + hybrid::kOneInstant * t)
-      time = parse_as<DoubleDouble>(shortest(one.series->times[row]));
+  for (const model::Dynamics::Measured& measured : system_->dynamics.measured)
+    if (const std::size_t row = measured.series->not_before(t - hybrid::kOneInstant * t);
+        row < measured.series->times.size() &&
+        measured.series->times[row] <= t + hybrid::kOneInstant * t)
+      time = parse_as<DoubleDouble>(shortest(measured.series->times[row]));
   if (arrives && time) shift(*time - t_);
   adopt(values);
   for (const Index k : measured_) x_(k) = values(k);
@@ -244,8 +245,8 @@ bool State31::goes_to(std::size_t event, EventWatch& watch, const VectorXd& valu
   return true;
 }
 
-void State31::meet_switch(std::size_t one, Index element) {
-  if (!shift_to_root([&] { return switches_[one](x_)(element); })) blur();
+void State31::meet_switch(std::size_t which, Index element) {
+  if (!shift_to_root([&] { return switches_[which](x_)(element); })) blur();
 }
 
 void State31::jumped(std::size_t event, const Values31& after, const hybrid::EventClocks& clocks) {

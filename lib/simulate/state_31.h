@@ -62,7 +62,7 @@ class State31 {
   void meet(std::size_t event, EventWatch& watch, const Eigen::VectorXd& values,
             const hybrid::EventClocks& clocks, bool by_flow);
   /// The same of a switch whose branch changes along the flow.
-  void meet_switch(std::size_t one, Eigen::Index element);
+  void meet_switch(std::size_t which, Eigen::Index element);
   /// After the jump of an event: all values.
   void jumped(std::size_t event, const Values31& after, const hybrid::EventClocks& clocks);
 

@@ -29,8 +29,8 @@ numbers::Box StepValues::box() const {
 SomeValues::SomeValues(const StepValues& inside, const std::vector<Index>& elements)
     : inside_(inside), values_(*inside.start_) {
   const numbers::Matrix& all = inside.step_->coefficients;
-  for (const Index one : elements)
-    if (one < all.rows()) elements_.push_back(one);
+  for (const Index element : elements)
+    if (element < all.rows()) elements_.push_back(element);
   coefficients_ = all(elements_, Eigen::all);
   found_.resize(coefficients_.rows());
 }

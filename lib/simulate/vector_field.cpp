@@ -220,12 +220,13 @@ void VectorField::spread(const VectorXd& y, VectorXd& values) const {
 void VectorField::rates(VectorXd& rate) {
   if (together_.run(values_)) {
     for (std::size_t k = 0; k < rate_of_.size(); ++k) {
-      const Element& one = rate_of_[k];
-      const double value = together_.element(one.flow, one.at);
-      rate(static_cast<Index>(k)) = is_frozen(flows_[one.flow].variable) ? 0
-                                    : one.at == one.mirror
-                                        ? value
-                                        : (value + together_.element(one.flow, one.mirror)) / 2;
+      const Element& element = rate_of_[k];
+      const double value = together_.element(element.flow, element.at);
+      rate(static_cast<Index>(k)) =
+          is_frozen(flows_[element.flow].variable) ? 0
+          : element.at == element.mirror
+              ? value
+              : (value + together_.element(element.flow, element.mirror)) / 2;
     }
     return;
   }

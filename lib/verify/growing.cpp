@@ -35,8 +35,8 @@ numbers::Matrix slopes(const hybrid::System& system, const Assignments& equation
   const Eigen::Index size = system.layout.size;
   numbers::Matrix whole = kept * numbers::Matrix::Identity(size, size);
   const auto moves = [&](const std::string& name) { return !system.constants.contains(name); };
-  for (const auto* one : equations) {
-    const bool other = std::ranges::any_of(one->value.program.inputs, [&](const auto& input) {
+  for (const auto* equation : equations) {
+    const bool other = std::ranges::any_of(equation->value.program.inputs, [&](const auto& input) {
       const auto slot = system.slot(input.name);
       if (!slot) return false;
       if (*slot >= system.dynamics.variables.size()) return true;
@@ -44,14 +44,14 @@ numbers::Matrix slopes(const hybrid::System& system, const Assignments& equation
       const Kind kind = system.dynamics.variables[*slot].kind;
       return kind != Kind::state && kind != Kind::noise;
     });
-    if (other || hybrid::first_not_affine(one->value.program, moves) != nullptr) return {};
-    hybrid::PointFunction function(one->value.program, system.layout, system.constants);
+    if (other || hybrid::first_not_affine(equation->value.program, moves) != nullptr) return {};
+    hybrid::PointFunction function(equation->value.program, system.layout, system.constants);
     const auto at = [&](const Eigen::VectorXd& x) {
       return numbers::Vector(function(x, 0).reshaped());
     };
     const numbers::Vector center = at(Eigen::VectorXd::Zero(size));
     for (Eigen::Index j = 0; j < size; ++j)
-      whole.block(system.layout.slots[one->variable].offset, j, center.size(), 1) =
+      whole.block(system.layout.slots[equation->variable].offset, j, center.size(), 1) =
           at(Eigen::VectorXd::Unit(size, j)) - center;
   }
   return whole;

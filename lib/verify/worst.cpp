@@ -180,11 +180,11 @@ class Search {
 
   /// In the order of the tasks, so that the number of threads does not matter.
   void add(const std::vector<std::optional<Runs>>& runs) {
-    for (const auto& one : runs) {
-      if (!one) continue;
-      made_ += one->made();
+    for (const auto& run : runs) {
+      if (!run) continue;
+      made_ += run->made();
       for (std::size_t c = 0; c < claims(); ++c)
-        if (is_worse(one->worst()[c], worst_[c])) worst_[c] = one->worst()[c];
+        if (is_worse(run->worst()[c], worst_[c])) worst_[c] = run->worst()[c];
     }
   }
 

@@ -54,8 +54,8 @@ std::vector<Eigenvalue<W>> balanced_eigenvalues(const MatrixOf<W>& M) {
   constexpr double kRoundings = 64;
   const W nothing = W(kRoundings * static_cast<double>(M.rows())) *
                     std::numeric_limits<W>::epsilon() * (M.size() == 0 ? W(0) : norm_1<W>(B));
-  for (Eigenvalue<W>& one : found)
-    for (W* part : {&one.real, &one.imaginary})
+  for (Eigenvalue<W>& eigenvalue : found)
+    for (W* part : {&eigenvalue.real, &eigenvalue.imaginary})
       if (*part <= nothing && -*part <= nothing) *part = W(0);
   return found;
 }
@@ -65,8 +65,8 @@ template <class Scalar>
 MatrixOf<Scalar> real_eigenvalues(const MatrixOf<Scalar>& M) {
   using W = numerics::Working<Scalar>;
   std::vector<Eigenvalue<Scalar>> all;
-  for (const Eigenvalue<W>& one : balanced_eigenvalues<W>(numerics::widened<Scalar>(M)))
-    all.push_back({as<Scalar>(one.real), as<Scalar>(one.imaginary)});
+  for (const Eigenvalue<W>& eigenvalue : balanced_eigenvalues<W>(numerics::widened<Scalar>(M)))
+    all.push_back({as<Scalar>(eigenvalue.real), as<Scalar>(eigenvalue.imaginary)});
   const auto size = [](const Scalar& x) { return x < Scalar(0) ? Scalar(-x) : x; };
   std::ranges::sort(all, [&](const auto& a, const auto& b) {
     if (a.real != b.real) return a.real > b.real;

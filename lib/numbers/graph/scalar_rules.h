@@ -31,7 +31,7 @@ class NodeRules {
 
   /// What is linear in all operands: so values and slopes are. `nodes`: of each operand, its values
   /// or slopes; `scale` by a number that does not move is among them. False: it is none of these.
-  bool linear(const expr::Instruction& one, const TracedOperands& in,
+  bool linear(const expr::Instruction& instruction, const TracedOperands& in,
               const std::vector<const Nodes*>& nodes, Nodes& out);
   /// A B, column by column; products with the constant 0 are left out. None where more than 4096
   /// terms are left: that is better a block.
@@ -47,7 +47,7 @@ class NodeRules {
   ScalarGraph& graph_;
 
  private:
-  void blocks(const expr::Instruction& one, const TracedOperands& in,
+  void blocks(const expr::Instruction& instruction, const TracedOperands& in,
               const std::vector<const Nodes*>& nodes, Nodes& out);
   std::optional<Nodes> folded(const ScalarGraph::Block& block);
 };
@@ -60,7 +60,7 @@ enum class Derivative {
 
 /// The derivative of an instruction in direction d, where its value `out` has a formula. NoFormula
 /// where the derivative has none.
-Nodes slope(ScalarGraph& graph, const expr::Instruction& one, const TracedOperands& in,
+Nodes slope(ScalarGraph& graph, const expr::Instruction& instruction, const TracedOperands& in,
             std::size_t d, const TracedMatrix& out, Derivative kind);
 
 }  // namespace gainsmith::numbers

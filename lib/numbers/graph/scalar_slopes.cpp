@@ -137,8 +137,8 @@ class Slopes : public NodeRules {
   }
 
   Nodes power_slope(const TracedMatrix& in, const Nodes& moved, int exponent) {
-    TracedMatrix one{in.shape, zeros(in.shape), {zeros(in.shape)}};
-    for (int k = 0; k < in.shape.rows; ++k) one.value[at(in.shape, k, k)] = number(1);
+    TracedMatrix traced_matrix{in.shape, zeros(in.shape), {zeros(in.shape)}};
+    for (int k = 0; k < in.shape.rows; ++k) traced_matrix.value[at(in.shape, k, k)] = number(1);
     const auto times = [&](const TracedMatrix& a, const TracedMatrix& b) {
       auto value = product(a.shape, a.value, b.shape, b.value);
       if (!value) throw NoFormula();
@@ -146,7 +146,7 @@ class Slopes : public NodeRules {
           a.shape, std::move(*value), {product_slope(a, a.slopes[0], b, b.slopes[0])}};
     };
     const TracedMatrix base{in.shape, in.value, {moved}};
-    return whole_power(one, base, exponent, times).slopes[0];
+    return whole_power(traced_matrix, base, exponent, times).slopes[0];
   }
 
   /// The upper right of exp([X, dX; 0, X]).

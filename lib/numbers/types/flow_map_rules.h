@@ -61,8 +61,9 @@ class BodyPoint {
 /// Of what a rate branches on, one an element: whether it jumps there.
 inline std::vector<bool> jumps_of(const std::vector<expr::Branch>& branches) {
   std::vector<bool> jumps;
-  for (const expr::Branch& one : branches)
-    jumps.insert(jumps.end(), static_cast<std::size_t>(one.difference.shape().size()), one.jumps);
+  for (const expr::Branch& branch : branches)
+    jumps.insert(jumps.end(), static_cast<std::size_t>(branch.difference.shape().size()),
+                 branch.jumps);
   return jumps;
 }
 
